@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// The PLY container: elements of named, typed properties, as ASCII or as binary of either byte order.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace orbitutte {
+
+enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+
+/// One property of an element: `count` numbers, or `count` lists of numbers. Every PLY type fits into a double.
+struct PlyProperty {
+  std::string name;
+  PlyType type = PlyType::float64;
+  bool is_list = false;
+  PlyType count_type = PlyType::uint8;  ///< of lists
+  std::vector<double> values;           ///< all values, one element after the other
+  std::vector<std::size_t> list_start;  ///< of lists: count + 1 offsets into values
+};
+
+struct PlyElement {
+  std::string name;
+  std::size_t count = 0;
+  std::vector<PlyProperty> properties;
+
+  const PlyProperty* find(std::string_view property) const;  ///< null where there is none
+};
+
+struct PlyFile {
+  std::vector<std::string> comments;
+  std::vector<PlyElement> elements;
+
+  const PlyElement* find(std::string_view element) const;  ///< null where there is none
+};
+
+/// Throws MeshError naming the header line, or the element, where the data are cut short or make no sense.
+/// A header that promises more than the bytes can hold is refused before memory is taken for it.
+PlyFile parse_ply(std::string_view bytes);
+
+/// The bytes of a binary little-endian PLY file.
+std::string serialize_ply(const PlyFile& file);
+
+}  // namespace orbitutte

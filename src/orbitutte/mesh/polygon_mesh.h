@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// What a mesh file holds: polygons, in the order of the file, not yet judged.
+#pragma once
+
+#include <vector>
+
+#include "orbitutte/types.h"
+
+namespace orbitutte {
+
+/// A mesh of polygons as it stands in a file. Nothing is promised about it: indices may be out of range and
+/// coordinates not finite until `inspect` has looked at it.
+struct PolygonMesh {
+  Points V;                          ///< n x 3 positions
+  std::vector<int> corners;          ///< the vertices of all faces, one face after the other
+  std::vector<int> face_start = {0};  ///< face f is corners[face_start[f]] .. corners[face_start[f + 1] - 1]
+
+  int vertex_count() const { return static_cast<int>(V.rows()); }
+  int face_count() const { return static_cast<int>(face_start.size()) - 1; }
+  int face_degree(int f) const { return face_start[f + 1] - face_start[f]; }
+};
+
+/// The same mesh as polygons.
+PolygonMesh to_polygon_mesh(const Mesh& mesh);
+
+/// The same mesh as triangles; vertex and face order are kept.
+/// Throws MeshError naming the first face that is not a triangle.
+Mesh to_triangle_mesh(const PolygonMesh& mesh);
+
+}  // namespace orbitutte
