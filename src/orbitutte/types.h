@@ -25,6 +25,12 @@ struct Mesh {
   Faces F;   ///< m x 3
 };
 
+/// What a surface is, as far as spherical orbifolds ask.
+enum class Topology { sphere, disk, projective_plane, other };
+
+/// "sphere", "disk", "projective-plane" or "other".
+std::string name(Topology topology);
+
 /// The family of all exceptions that the library throws on purpose. what() is one sentence for the user.
 class Error : public std::runtime_error {
  public:

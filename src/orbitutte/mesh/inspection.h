@@ -9,20 +9,21 @@
 
 namespace orbitutte {
 
+/// In the order in which defects are reported and should be mended.
 enum class DefectKind {
-  empty_mesh,
-  index_out_of_range,
-  non_finite_position,
-  too_few_corners,          ///< a face with fewer than three corners
-  repeated_vertex,          ///< a face that names a vertex twice
-  duplicate_face,
-  non_manifold_edge,        ///< more than two faces on an edge
-  non_manifold_vertex,      ///< the faces of a vertex are not one fan
-  inconsistent_orientation, ///< two faces run through an edge in the same direction, and no turning of faces helps or is done
+  empty_mesh,                ///< no vertices or no faces
+  index_out_of_range,        ///< a face names a vertex that the mesh does not have
+  non_finite_position,       ///< a coordinate is infinite or no number
+  too_few_corners,           ///< a face with fewer than three corners
+  repeated_vertex,           ///< a face that names a vertex twice
+  duplicate_face,            ///< a face with the same vertices as an earlier one
+  non_manifold_edge,         ///< more than two faces on an edge
+  non_manifold_vertex,       ///< the faces of a vertex are not one fan
+  inconsistent_orientation,  ///< two faces run through an edge in the same direction; turning faces mends it
   several_components,
-  holes,                    ///< more than one boundary curve
-  genus,
-  not_orientable
+  holes,          ///< more than one boundary curve
+  genus,          ///< handles
+  not_orientable  ///< and no projective plane: no turning of faces makes them agree
 };
 
 /// The name of a defect, as in the JSON of `orbitutte info`: "non_manifold_edge" and so on.
@@ -32,43 +33,52 @@ std::string name(DefectKind kind);
 struct Defect {
   DefectKind kind;
   std::string message;
-  long long count = 1;  ///< how many vertices, edges, faces, components or boundary curves are concerned
+  long long count =
+      1;  ///< how many vertices, edges, faces, components, boundary curves or handles are concerned
 };
-
-enum class Topology { sphere, disk, projective_plane, other };
-
-/// "sphere", "disk", "projective-plane" or "other".
-std::string name(Topology topology);
 
 struct Inspection {
   int vertices = 0;
   int unreferenced_vertices = 0;  ///< allowed: they keep their index
-  int edges = 0;
   int faces = 0;
   int triangles = 0;
   int max_face_degree = 0;
-  int zero_area_faces = 0;  ///< allowed
-  int components = 0;
-  int euler_characteristic = 0;  ///< of the referenced vertices, edges and faces
-  int genus = 0;                 ///< of an orientable surface in one piece, its holes closed; otherwise 0
+
+  // The surface of the well-formed faces: three corners or more, all different and in range; a face given
+  // twice counts once. Vertices are connected through the corners of all faces.
+  int edges = 0;
+  int components =
+      0;  ///< in one piece as a set of points: parts that share no more than a vertex are one component
+  int euler_characteristic =
+      0;  ///< of the referenced vertices, edges and faces; 0 where a face is not well-formed
+
+  // What is known of surfaces only: left as here where an edge or a vertex is not manifold or a face not
+  // well-formed.
+  int genus = 0;  ///< of an orientable surface in one piece, its holes closed; otherwise 0
   bool orientable = true;
-  std::vector<std::vector<int>> boundary;  ///< boundary curves as vertex loops along the faces' half-edges, longest first
+  std::vector<std::vector<int>> boundary;  ///< boundary curves as vertex loops along the faces' half-edges,
+                                           ///< each from its smallest vertex, longest first
   Topology topology = Topology::other;     ///< other, wherever a defect stands in the way
 
-  // Quality of the triangles, zero-area faces left out.
+  // Quality of the triangles, zero-area faces and polygons left out; all zero where a coordinate is not
+  // finite.
+  int zero_area_faces = 0;  ///< triangles with no area but rounding errors; allowed
   double area = 0;
-  double min_angle = 0;              ///< radians
-  double max_angle = 0;              ///< radians
+  double min_angle = 0;  ///< radians
+  double max_angle = 0;  ///< radians
   double min_edge_length = 0;
   double max_edge_length = 0;
-  int negative_cotangent_edges = 0;  ///< edges whose cotangent weight is negative: clamped by the default weights
-  int zero_cotangent_edges = 0;
+  int negative_cotangent_edges =
+      0;  ///< cotangent weight (cot a + cot b)/2 below zero: clamped by the default weights
+  int zero_cotangent_edges = 0;  ///< cotangent weight zero up to rounding errors
 
-  std::vector<Defect> defects;  ///< all of them, in the order in which they should be mended
+  std::vector<Defect>
+      defects;  ///< all of them, in the order in which they should be mended; one of each kind
 };
 
-/// Looks at everything, in time O(n log n), and never throws on account of the mesh. Where indices are out of range or
-/// coordinates not finite, what depends on them is left at zero.
+/// Looks at everything, in time O(n log n), and never throws on account of the mesh. What a defect makes
+/// meaningless is neither claimed nor counted: a surface with an edge of three faces has no genus. Throws
+/// ArgumentError only where the face_start of `mesh` are not ascending offsets into its corners.
 Inspection inspect(const PolygonMesh& mesh);
 
 /// The same for triangles.

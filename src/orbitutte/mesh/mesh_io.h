@@ -16,19 +16,26 @@ MeshFormat mesh_format(const std::string& path);
 
 /// The polygons in the text or bytes of a mesh file.
 /// OBJ: `v`, `f` with v, v/vt, v//vn, v/vt/vn, negative indices; `l`, `p` and all else are passed over.
-/// OFF: with or without counts of edges, comments, colours; also COFF, NOFF, STOFF, 4OFF is refused.
+/// OFF: the keyword (OFF, behind any of ST, C, N) may be missing, and behind it the count of edges; normals, colours
+/// and comments are passed over; binary files and other dimensions than three are refused.
 /// PLY: ASCII, binary of both byte orders, `face` (vertex_indices or vertex_index) and `tristrips`; other elements
-/// and properties are passed over. STL: ASCII and binary; corners with the same three coordinates are one vertex,
+/// and properties are passed over.
+/// STL: ASCII with any number of solids, and binary; corners with the same three coordinates are one vertex,
 /// numbered in order of first use.
 /// Indices are not compared with the number of vertices, nor coordinates with infinity: `inspect` does both.
 /// Throws MeshError naming the line, element or byte where the data are empty, cut short or make no sense.
 PolygonMesh parse_mesh(std::string_view bytes, MeshFormat format);
 
-/// parse_mesh of a file; messages begin with the path. Throws FileError when it cannot be read, and MeshError.
+/// parse_mesh of a file in the format that the path's ending names; messages begin with the path.
+/// Throws FileError when it cannot be read, ArgumentError and MeshError.
 PolygonMesh read_mesh(const std::string& path);
 
-/// Writes triangles in the format that the path's ending names; positions with 17 digits or as doubles where the
-/// format can (STL: single precision). The file appears whole or not at all. Throws FileError, ArgumentError.
+/// The text or bytes of a mesh file. Positions read back as the same doubles (STL: rounded to single precision).
+/// Throws MeshError where the format is STL and a face names a vertex that is not there.
+std::string serialize_mesh(const Mesh& mesh, MeshFormat format);
+
+/// serialize_mesh to a file in the format that the path's ending names. The file appears whole or not at all.
+/// Throws FileError, ArgumentError and MeshError.
 void write_mesh(const std::string& path, const Mesh& mesh);
 
 }  // namespace orbitutte

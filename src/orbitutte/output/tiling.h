@@ -9,23 +9,38 @@
 
 namespace orbitutte {
 
+/// One of the |G| copies of the basic tile.
+struct TileCopy {
+  Matrix3 transform = Matrix3::Identity();  ///< the group element: takes the embedding to this copy
+  bool mirrored = false;  ///< det(transform) < 0: its faces run the other way than the embedding's
+  int colour = 0;         ///< a small number, another one for every neighbour across a seam
+};
+
 struct Tiling {
-  Mesh mesh;                   ///< closed, on the unit sphere, every triangle counterclockwise from outside
-  std::vector<int> tile;       ///< m |G|: the group element (index into the group) whose copy of the tile holds the face
-  std::vector<int> source_face;    ///< m |G|: the face of the input mesh
+  Mesh mesh;                     ///< closed, on the unit sphere, every triangle counterclockwise from outside
+  std::vector<int> tile;         ///< m |G|: the copy of the tile that holds the face, an index into copies
+  std::vector<int> source_face;  ///< m |G|: the face of the input mesh
   std::vector<int> source_vertex;  ///< the input vertex of every vertex
-  int tiles = 0;               ///< |G|
+  int tiles = 0;                   ///< |G|
+  std::vector<TileCopy> copies;    ///< |G|, the identity first
 };
 
 /// Welds combinatorially: copy g of left[i] is copy g*transform of right[i]; positions are never compared.
-/// Vertices that no face uses are left out. Throws ArgumentError where the seams do not generate a group of order
-/// embedding.group_order, and MemoryError-free std::bad_alloc where the result does not fit.
+/// Faces and vertices come tile by tile; vertices that no face uses are left out. Time and memory O(m |G|).
+/// Throws ArgumentError where the seams do not generate a group of order embedding.group_order, where the
+/// copies do not close up into a sphere (without seams, say), where the result has more faces than an int
+/// can count, and where positions are not finite or indices out of range.
 Tiling tile_sphere(const Embedding& embedding);
 
-/// Writes PLY (binary; face colours, `tile` and `source_face` per face), OBJ (a group and material per tile, the .mtl beside
-/// it), STL (binary, colour in the attribute word) or GLB (one primitive per colour on shared vertices), as the path's
-/// ending says. Neighbouring tiles differ in colour; mirrored tiles are a shade darker. The file appears whole or not at all.
-/// Throws ArgumentError for another ending, FileError.
+/// Writes the format that the path's ending names (any case):
+/// - PLY, binary: double x y z, int source_vertex; vertex_indices, uchar red green blue, int tile,
+///   int source_face;
+/// - OBJ: a group `tile_g` per tile, a material per colour in an .mtl file beside it, written first;
+/// - STL, binary: the colour in the attribute word, bit 15 set, then 5 bits each of red, green and blue;
+/// - GLB: a material and a primitive per colour, all on the same vertices, in single precision.
+///
+/// Neighbouring tiles differ in colour; mirrored tiles are a shade darker. The file appears whole or not at
+/// all. Throws ArgumentError for another ending or a tiling too large for the format (GLB: 4 GiB), FileError.
 void write_tiling(const std::string& path, const Tiling& tiling);
 
 }  // namespace orbitutte

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// The commands, each with its arguments; all return the exit code.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <string>
+
+namespace orbitutte::cli {
+
+struct EmbedArguments {
+  std::string mesh, orbifold, cones, output, report;
+  std::string weights = "cotan", weights_file;
+  double clamp = 0.01, tolerance = 1e-9;
+  std::uint64_t cut_seed = 0;
+  int max_iterations = 2000, threads = 0;
+  bool quiet = false, json = false;
+};
+int embed_command(const EmbedArguments& arguments);
+
+struct InfoArguments {
+  std::string mesh;
+  bool json = false;
+};
+int info_command(const InfoArguments& arguments);
+
+int types_command(bool json);
+
+struct VerifyArguments {
+  std::string embedding, report, mesh;
+  bool json = false;
+};
+int verify_command(const VerifyArguments& arguments);
+
+struct TileArguments {
+  std::string embedding, report, output;
+};
+int tile_command(const TileArguments& arguments);
+
+struct SampleArguments {
+  std::string output, shape = "figure";
+  int faces = 20000;
+};
+int sample_command(const SampleArguments& arguments);
+
+/// Version, linear algebra and the licence of the binary.
+std::string version_text();
+
+}  // namespace orbitutte::cli

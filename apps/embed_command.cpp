@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <charconv>
+#include <chrono>
+#include <cstdio>
+
+#include "commands.h"
+#include "orbitutte/embed.h"
+#include "orbitutte/mesh/file.h"
+#include "orbitutte/mesh/inspection.h"
+#include "orbitutte/mesh/mesh_io.h"
+#include "orbitutte/output/embedding_file.h"
+#include "orbitutte/output/report.h"
+
+namespace orbitutte::cli {
+namespace {
+
+enum ExitCode { certified = 0, not_converged = 4, not_certified = 5 };
+
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+long long peak_memory_bytes() {
+  rusage usage = {};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<long long>(usage.ru_maxrss) * 1024;
+}
+
+// One line that is written again and again, on a terminal only.
+class ProgressLine {
+ public:
+  explicit ProgressLine(bool quiet) : shown_(!quiet && isatty(STDERR_FILENO)) {}
+  ~ProgressLine() { clear(); }
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  void show(const Progress& progress) const {
+    if (!shown_) return;
+    if (progress.stage == "optimize" && progress.energy > 0) {
+      fmt::print(stderr, "\r\033[Koptimize: iteration {}, energy {:.9g}, gradient {:.1e}", progress.iteration, progress.energy,
+                 progress.gradient_norm);
+    } else {
+      fmt::print(stderr, "\r\033[K{} ...", progress.stage);
+    }
+    std::fflush(stderr);
+  }
+
+  void clear() const {
+    if (shown_) fmt::print(stderr, "\r\033[K");
+  }
+
+ private:
+  bool shown_;
+};
+
+std::vector<int> parse_cones(const std::string& text) {
+  std::vector<int> cones;
+  for (std::size_t from = 0; from <= text.size();) {
+    const std::size_t end = std::min(text.find(',', from), text.size());
+    int vertex = 0;
+    const auto [stop, error] = std::from_chars(text.data() + from, text.data() + end, vertex);
+    if (error != std::errc() || stop != text.data() + end)
+      throw ArgumentError(fmt::format("--cones is '{}'; give vertices separated by commas, as in 12,40,7, or 'auto'", text));
+    cones.push_back(vertex);
+    from = end + 1;
+  }
+  return cones;
+}
+
+WeightKind parse_weights(const std::string& text) {
+  if (text == "cotan") return WeightKind::cotan;
+  if (text == "uniform") return WeightKind::uniform;
+  throw ArgumentError(fmt::format("--weights is '{}'; it may be cotan or uniform", text));
+}
+
+EmbedOptions options_from(const EmbedArguments& arguments) {
+  EmbedOptions options;
+  options.weights = {parse_weights(arguments.weights), arguments.clamp};
+  options.weights_file = arguments.weights_file;
+  options.cut.seed = arguments.cut_seed;
+  options.tolerance = arguments.tolerance;
+  options.max_iterations = arguments.max_iterations;
+  options.threads = arguments.threads;
+  return options;
+}
+
+// The mesh as triangles. Where a face is none, a worse defect is told first.
+Mesh triangles_of(const std::string& path, const PolygonMesh& polygons) {
+  try {
+    const int faces = polygons.face_count();
+    for (int f = 0; f < faces; ++f) {
+      if (polygons.face_degree(f) == 3) continue;
+      require_embeddable(inspect(polygons));
+      break;
+    }
+    return to_triangle_mesh(polygons);
+  } catch (const MeshError& error) {
+    throw MeshError(fmt::format("{}: {}", path, error.what()));
+  }
+}
+
+void summarize(const EmbedArguments& arguments, const EmbedResult& result) {
+  const Minimum& minimum = result.minimum;
+  std::vector<int> cones;
+  for (const ConeCopies& cone : result.embedding.cones) cones.push_back(cone.vertex);
+  fmt::print(stderr, "{}: {} vertices, {} triangles, a {}, onto {} (group of order {}), cones {}\n", arguments.mesh,
+             minimum.positions.rows(), result.embedding.faces.rows(), name(result.topology), result.embedding.signature,
+             result.embedding.group_order, fmt::join(cones, ","));
+  fmt::print(stderr, "energy {:.12g} after {} iterations, gradient {:.1e}: {}\n", minimum.energy, minimum.iterations,
+             minimum.gradient_norm, name(minimum.termination));
+  fmt::print(stderr, "area distortion: mean {:.4g}, max {:.4g}; angle distortion: mean {:.4g}, max {:.4g}\n",
+             result.distortion.area.mean, result.distortion.area.max, result.distortion.angle.mean, result.distortion.angle.max);
+  if (result.certificate.bijective) {
+    fmt::print(stderr, "certified: bijective\n");
+    return;
+  }
+  fmt::print(stderr, "not certified:\n");
+  for (const Check& check : result.certificate.checks)
+    if (!check.passed) fmt::print(stderr, "  {}: {}\n", check.name, check.detail);
+}
+
+}  // namespace
+
+int embed_command(const EmbedArguments& arguments) {
+  const Stopwatch total;
+  EmbedOptions options = options_from(arguments);
+  const Orbifold orbifold = parse_orbifold(arguments.orbifold);
+  const bool automatic = arguments.cones == "auto";
+  std::vector<int> cones = automatic ? std::vector<int>() : parse_cones(arguments.cones);
+
+  RunRecord run;
+  const Stopwatch reading;
+  const Mesh mesh = triangles_of(arguments.mesh, read_mesh(arguments.mesh));
+  run.mesh_path = arguments.mesh;
+  run.input_sha256 = sha256(read_file(arguments.mesh));
+  run.read_seconds = reading.seconds();
+
+  if (automatic) {
+    cones = choose_marked_vertices(mesh, orbifold);
+    if (!arguments.quiet) fmt::print(stderr, "--cones {}\n", fmt::join(cones, ","));
+  }
+  const ProgressLine line(arguments.quiet);
+  options.progress = [&](const Progress& progress) {
+    line.show(progress);
+    return true;
+  };
+  const EmbedResult result = embed(mesh, orbifold, cones, options);
+  line.clear();
+  for (const std::string& warning : result.warnings) fmt::print(stderr, "orbitutte: warning: {}\n", warning);
+
+  const Stopwatch writing;
+  if (!arguments.output.empty()) write_file(arguments.output, serialize_embedding(result.embedding));
+  run.write_seconds = writing.seconds();
+  run.total_seconds = total.seconds();
+  run.peak_memory_bytes = peak_memory_bytes();
+  const std::string report = report_json(result, run);
+  if (!arguments.report.empty()) write_file(arguments.report, report);
+  if (arguments.json) fmt::print("{}", report);
+  if (!arguments.quiet) summarize(arguments, result);
+  if (result.minimum.termination != Termination::converged) return not_converged;
+  return result.certificate.bijective ? certified : not_certified;
+}
+
+}  // namespace orbitutte::cli

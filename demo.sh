@@ -1,0 +1,91 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Installs what is missing, builds, embeds a mesh, and tiles the sphere with it; the files go to out/.
+# usage: ./demo.sh                            a mesh that the program makes itself
+#        ./demo.sh MESH [OPTION ...]          your mesh; the options are those of 'orbitutte embed'
+# The exit code is that of 'orbitutte embed': 0 when the result is certified.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd -P)
+case "${1-}" in -h | --help) sed -n '3,6s/^# //p' "$root/demo.sh"; exit 0 ;; esac
+
+"$root/setup"
+"$root/cmake/build.sh" orbitutte_cli
+
+orbitutte=$root/build/orbitutte
+out=$root/out
+mkdir -p "$out"
+rm -f "$out"/embedding.ply "$out"/report.json "$out"/tiling.{ply,glb}
+
+if [ $# = 0 ]; then
+  mesh=$out/sample.ply
+  "$orbitutte" sample --shape figure --faces 20000 -o "$mesh"
+else
+  mesh=$1
+  shift
+fi
+
+# Where the user's options name the files and choices, they stand.
+embedding=$out/embedding.ply report=$out/report.json
+given=' '
+arguments=("$@")
+for ((k = 0; k < $#; ++k)); do
+  option=${arguments[k]%%=*}
+  value=${arguments[k]#*=}
+  [ "$option" != "${arguments[k]}" ] || value=${arguments[k + 1]-}
+  given+="$option "
+  case $option in
+    -o | --output) embedding=$value ;;
+    --report) report=$value ;;
+  esac
+done
+is_given() { case $given in *" $1 "*) true ;; *) false ;; esac; }
+
+if ! is_given --orbifold; then
+  orbifold=432
+  topology=$("$orbitutte" info "$mesh" --json 2>/dev/null | sed -n 's/^ *"topology": *"\([^"]*\)".*/\1/p' || true)
+  [ "$topology" != disk ] || orbifold='*432'
+  arguments+=(--orbifold "$orbifold")
+fi
+is_given --cones || arguments+=(--cones auto)
+is_given -o || is_given --output || arguments+=(-o "$embedding")
+is_given --report || arguments+=(--report "$report")
+
+code=0
+"$orbitutte" embed "$mesh" "${arguments[@]}" || code=$?
+if [ ! -f "$report" ] || [ ! -f "$embedding" ]; then
+  echo "Nothing was embedded (exit code $code); the reason is above."
+  exit "$code"
+fi
+
+tilings=()
+for tiling in "$out/tiling.glb" "$out/tiling.ply"; do
+  if "$orbitutte" tile "$embedding" "$report" -o "$tiling" 2>"$out/tile.log"; then
+    tilings+=("$tiling")
+  else
+    cat "$out/tile.log" >&2
+  fi
+done
+rm -f "$out/tile.log"
+
+echo
+/usr/bin/python3 - "$report" "$mesh" <<'PYTHON'
+import json, sys
+report = json.load(open(sys.argv[1], encoding='utf-8'))
+mesh, orbifold, area = report['mesh'], report['orbifold'], report['distortion']['area']
+print(f"{sys.argv[2]}: {mesh['vertices']} vertices, {mesh['faces']} triangles, a {mesh['topology']}")
+print(f"embedded into {orbifold['signature']}, whose group has {orbifold['group_order']} elements, "
+      f"cones at {', '.join(str(cone['vertex']) for cone in report['cones'])}")
+print(f"energy {report['energy']:.6g}, {report['iterations']} iterations ({report['termination']}), "
+      f"{report['timings']['total']:.2f} s; area distortion {area['mean']:.3g} in the mean")
+if report['certificate']['bijective']:
+    print('certified: the map is a bijection onto the orbifold')
+else:
+    failed = [check['name'] for check in report['certificate']['checks'] if not check['passed']]
+    print('NOT certified:', ', '.join(failed) or report['termination'])
+PYTHON
+echo "embedding  $embedding"
+echo "report     $report"
+for tiling in ${tilings[@]+"${tilings[@]}"}; do
+  echo "tiling     $tiling"
+done
+exit "$code"

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// What has to hold for any bytes given to a mesh reader. The fuzz targets and the test that replays their
+// corpus both check it.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "orbitutte/mesh/mesh_io.h"
+#include "orbitutte/mesh/ply.h"
+
+namespace orbitutte::fuzz {
+
+inline void require(bool holds, const char* property) {
+  if (!holds) throw std::logic_error(std::string("violated: ") + property);
+}
+
+/// Messages may end up in JSON and on a terminal, so that no byte of the file may get through unseen.
+inline void check_message(std::string_view message) {
+  const auto is_printable = [](char c) { return c >= ' ' && c <= '~'; };
+  require(!message.empty(), "a message says something");
+  require(std::all_of(message.begin(), message.end(), is_printable),
+          "a message is one line of printable ASCII");
+}
+
+inline void check_faces(const PolygonMesh& mesh) {
+  const std::vector<int>& start = mesh.face_start;
+  require(!start.empty() && start.front() == 0, "the first face starts at the first corner");
+  require(start.back() == static_cast<int>(mesh.corners.size()), "the last face ends at the last corner");
+  require(std::is_sorted(start.begin(), start.end()), "faces follow each other");
+}
+
+inline bool is_indexed_triangle_mesh(const PolygonMesh& mesh) {
+  for (int f = 0; f < mesh.face_count(); ++f) {
+    if (mesh.face_degree(f) != 3) return false;
+  }
+  const auto is_vertex = [&](int index) { return index >= 0 && index < mesh.vertex_count(); };
+  return std::all_of(mesh.corners.begin(), mesh.corners.end(), is_vertex);
+}
+
+/// Equal bit by bit, or both no numbers.
+inline bool same_number(double a, double b) {
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b) ||
+         (std::isnan(a) && std::isnan(b));
+}
+
+inline void check_same_mesh(const Mesh& a, const Mesh& b) {
+  require(
+      a.V.rows() == b.V.rows() && std::equal(a.V.data(), a.V.data() + a.V.size(), b.V.data(), same_number),
+      "positions come back bit by bit");
+  require(a.F.rows() == b.F.rows() && a.F == b.F, "faces come back in their order");
+}
+
+/// STL numbers the vertices anew and knows single precision only: what has to come back are the rounded
+/// corners.
+inline void check_same_corners(const Mesh& a, const Mesh& b) {
+  require(a.F.rows() == b.F.rows(), "faces come back");
+  for (Eigen::Index f = 0; f < a.F.rows(); ++f) {
+    for (int corner = 0; corner < 3; ++corner) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto x = static_cast<float>(a.V(a.F(f, corner), axis)),
+                   y = static_cast<float>(b.V(b.F(f, corner), axis));
+        require(x == y || (std::isnan(x) && std::isnan(y)), "corners come back in single precision");
+      }
+    }
+  }
+}
+
+inline void check_ply_round_trip(std::string_view bytes) {
+  const std::string once = serialize_ply(parse_ply(bytes));
+  require(serialize_ply(parse_ply(once)) == once, "a PLY file comes back byte by byte");
+}
+
+inline void check_accepted(std::string_view bytes, MeshFormat format) {
+  const PolygonMesh polygons = parse_mesh(bytes, format);
+  check_faces(polygons);
+  if (!is_indexed_triangle_mesh(polygons)) return;
+  const Mesh mesh = to_triangle_mesh(polygons);
+  const Mesh again = to_triangle_mesh(parse_mesh(serialize_mesh(mesh, format), format));
+  format == MeshFormat::stl ? check_same_corners(mesh, again) : check_same_mesh(mesh, again);
+}
+
+/// The check must succeed, or refuse the bytes by a MeshError that is fit to be shown.
+template <class Check>
+void check_or_refuse(Check check) {
+  try {
+    check();
+  } catch (const MeshError& error) {
+    check_message(error.what());
+  }
+}
+
+/// Throws std::logic_error, or whatever the readers throw by mistake, where a property is violated.
+inline void check_round_trip(std::string_view bytes, MeshFormat format) {
+  check_or_refuse([&] { check_accepted(bytes, format); });
+  if (format == MeshFormat::ply) check_or_refuse([&] { check_ply_round_trip(bytes); });
+}
+
+}  // namespace orbitutte::fuzz

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// From a mesh and marked vertices to a certified spherical orbifold Tutte embedding: the whole method on one page.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "orbitutte/mesh/cut.h"
+#include "orbitutte/mesh/weights.h"
+#include "orbitutte/orbifold/embedding.h"
+#include "orbitutte/orbifold/signature.h"
+#include "orbitutte/solve/lbfgs.h"
+#include "orbitutte/verify/certificate.h"
+#include "orbitutte/verify/distortion.h"
+
+namespace orbitutte {
+
+/// Where the computation is. `iteration`, `energy` and `gradient_norm` mean something in the stage "optimize" only.
+struct Progress {
+  std::string stage;  ///< "validate", "weights", "cut", "factorize", "initialize", "optimize", "certify"
+  int iteration = 0;
+  double energy = 0;
+  double gradient_norm = 0;
+};
+
+/// Returning false cancels: embed throws Cancelled.
+using ProgressCallback = std::function<bool(const Progress&)>;
+
+struct EmbedOptions {
+  WeightOptions weights;
+  std::string weights_file;      ///< lines `i j w` (read_weights); when not empty, instead of `weights`
+  CutOptions cut;                ///< which of all cuts; it does not change the result
+  LaplacianOptions laplacian;    ///< the linear solver
+  double tolerance = 1e-9;       ///< LbfgsOptions::tolerance
+  int max_iterations = 2000;
+  int threads = 0;               ///< 0: as many as the machine has; results do not depend on it
+  ProgressCallback progress;
+};
+
+/// Wall-clock seconds per stage, in the order in which they ran.
+using Timings = std::vector<std::pair<std::string, double>>;
+
+struct EmbedResult {
+  Embedding embedding;
+  EdgeWeights weights;
+  Minimum minimum;  ///< how the optimiser fared; its positions are those of the input vertices
+  Certificate certificate;
+  Distortion distortion;
+  Topology topology = Topology::sphere;
+  int unreferenced_vertices = 0;
+  int zero_area_faces = 0;
+  Backend backend = Backend::eigen;
+  int threads = 1;
+  Timings timings;
+  std::vector<std::string> warnings;  ///< one sentence each
+};
+
+/// Embeds a mesh into an orbifold, its marked vertices (0-based, in the order of Orbifold::marks) at the cones and corners.
+/// Minimises the energy (2) over the gluings of appendix A by algorithm 1, as corrected in docs/deviations.md, and judges the
+/// result. Not converging and not being bijective are results, not errors: see minimum.termination and
+/// certificate.bijective, which is true only for converged maps.
+/// Throws MeshError naming the defect and the vertex, edge or face; ArgumentError; Cancelled; std::bad_alloc.
+EmbedResult embed(const Mesh& mesh, const Orbifold& orbifold, const std::vector<int>& marked_vertices,
+                  const EmbedOptions& options = {});
+
+/// Well separated extremities for the marks of the orbifold, on the boundary of a disk.
+/// Throws MeshError where the mesh is not what the orbifold needs.
+std::vector<int> choose_marked_vertices(const Mesh& mesh, const Orbifold& orbifold);
+
+}  // namespace orbitutte

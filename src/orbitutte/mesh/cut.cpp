@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/mesh/cut.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <unordered_map>
+
+namespace orbitutte {
+namespace {
+
+// A random number in [0, 1) for an edge and a seed (the mixing function of SplitMix64): the same on every machine.
+double random_unit(std::uint64_t seed, std::uint64_t edge) {
+  std::uint64_t z = seed * 0x9e3779b97f4a7c15ULL + edge * 0xbf58476d1ce4e5b9ULL + 0x94d049bb133111ebULL;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+  return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1.0p-53;
+}
+
+void perturb_lengths(EdgeGraph& graph, std::uint64_t seed) {
+  if (seed == 0) return;
+  for (std::size_t e = 0; e < graph.length.size(); ++e) graph.length[e] *= 1 + 2 * random_unit(seed, e);
+}
+
+double straight_distance(const Mesh& mesh, int i, int j) { return (mesh.V.row(i) - mesh.V.row(j)).norm(); }
+
+// Which of three marks the cut passes through: the one nearest to the two others in space, or any, by the seed.
+int middle_mark(const Mesh& mesh, const std::vector<int>& marks, std::uint64_t seed) {
+  if (seed != 0) return static_cast<int>(3 * random_unit(seed, 0));
+  const auto detour = [&](int k) {
+    return straight_distance(mesh, marks[k], marks[(k + 1) % 3]) + straight_distance(mesh, marks[k], marks[(k + 2) % 3]);
+  };
+  int best = 0;
+  for (const int k : {1, 2})
+    if (detour(k) < detour(best)) best = k;
+  return best;
+}
+
+MeshError no_path(int i, int j) {
+  return MeshError(fmt::format("no edge path joins the marked vertices {} and {}; mark others", i, j));
+}
+
+Path path_through(const Mesh& mesh, const EdgeGraph& graph, const std::vector<int>& marks, std::uint64_t seed) {
+  if (marks.size() == 2) {
+    Path path = shortest_path(graph, marks[0], marks[1]);
+    if (path.empty()) throw no_path(marks[0], marks[1]);
+    return path;
+  }
+  const int middle = middle_mark(mesh, marks, seed);
+  const int first = marks[(middle + 2) % 3], last = marks[(middle + 1) % 3];
+  auto [back, forth] = disjoint_paths(graph, marks[middle], {first, last});
+  if (back.empty()) throw no_path(marks[middle], first);
+  std::reverse(back.begin(), back.end());
+  back.insert(back.end(), forth.begin() + 1, forth.end());
+  return back;
+}
+
+// A half-edge that leaves each vertex (-1 where no face uses it); at boundary vertices the one on the boundary.
+std::vector<int> outgoing_halfedges(const Faces& F, const std::vector<int>& opposite, int vertex_count) {
+  std::vector<int> result(vertex_count, -1);
+  for (int h = 0; h < static_cast<int>(F.size()); ++h) {
+    int& out = result[origin(F, h)];
+    if (out < 0 || opposite[h] < 0) out = h;
+  }
+  return result;
+}
+
+void check_marks(const std::vector<int>& marks, const std::vector<int>& outgoing) {
+  const int n = static_cast<int>(outgoing.size());
+  for (std::size_t k = 0; k < marks.size(); ++k) {
+    if (marks[k] < 0 || marks[k] >= n)
+      throw MeshError(fmt::format("the marked vertex {} is out of range; the mesh has the vertices 0 to {}", marks[k], n - 1));
+    if (std::count(marks.begin(), marks.begin() + k, marks[k]))
+      throw MeshError(fmt::format("the vertex {} is marked twice; mark different vertices", marks[k]));
+    if (outgoing[marks[k]] < 0)
+      throw MeshError(fmt::format("the marked vertex {} belongs to no face; mark a vertex of the surface", marks[k]));
+  }
+}
+
+// The half-edge from v to its neighbour w on a closed mesh.
+int halfedge_to(int v, int w, const Faces& F, const std::vector<int>& outgoing, const std::vector<int>& opposite) {
+  int h = outgoing[v];
+  while (target(F, h) != w) h = opposite[previous_halfedge(h)];
+  return h;
+}
+
+// The opposite half-edges once the edges of these half-edges are opened: -1 on both sides of each.
+std::vector<int> open_along(const std::vector<int>& halfedges, const std::vector<int>& opposite) {
+  std::vector<int> opened = opposite;
+  for (const int h : halfedges) opened[h] = opened[opposite[h]] = -1;
+  return opened;
+}
+
+// Gives each sector of faces between opened edges around v its own copy of v. The sector that begins left of the opened
+// half-edge `begin` from v keeps the index.
+void split_vertex(int begin, const std::vector<int>& opened, const std::vector<int>& opposite, CutMesh& cut) {
+  const int v = cut.F.data()[begin];
+  int copy = v;
+  int h = begin;
+  do {
+    cut.F.data()[h] = copy;
+    const int arriving = previous_halfedge(h);
+    h = opposite[arriving];
+    if (opened[arriving] < 0 && h != begin) {
+      copy = cut.vertex_count();
+      cut.source_vertex.push_back(v);
+    }
+  } while (h != begin);
+}
+
+std::vector<int> boundary_loop(int start, const Faces& F, const std::vector<int>& opened) {
+  std::vector<int> loop;
+  int h = start;
+  do {
+    loop.push_back(origin(F, h));
+    h = next_halfedge(h);
+    while (opened[h] >= 0) h = next_halfedge(opened[h]);
+  } while (h != start);
+  return loop;
+}
+
+std::vector<int> order_met(const std::vector<int>& boundary, const std::vector<int>& source, const std::vector<int>& marks) {
+  std::unordered_map<int, int> mark_of;
+  for (std::size_t k = 0; k < marks.size(); ++k) mark_of[marks[k]] = static_cast<int>(k);
+  std::vector<int> order;
+  for (const int v : boundary) {
+    const auto mark = mark_of.find(source[v]);
+    if (mark == mark_of.end()) continue;
+    order.push_back(mark->second);
+    mark_of.erase(mark);
+  }
+  return order;
+}
+
+CutMesh uncut(const Mesh& mesh) {
+  CutMesh cut;
+  cut.F = mesh.F;
+  cut.source_vertex.resize(mesh.V.rows());
+  for (int v = 0; v < cut.vertex_count(); ++v) cut.source_vertex[v] = v;
+  return cut;
+}
+
+}  // namespace
+
+EdgeGraph edge_length_graph(const Mesh& mesh, const Connectivity& connectivity) {
+  EdgeGraph graph = {neighbors(connectivity.edges, static_cast<int>(mesh.V.rows())), {}};
+  graph.length.reserve(connectivity.edges.size());
+  double total = 0;
+  for (const auto& [i, j] : connectivity.edges) {
+    graph.length.push_back(straight_distance(mesh, i, j));
+    total += graph.length.back();
+  }
+  const double tiny = total > 0 ? 1e-6 * total / static_cast<double>(graph.length.size()) : 1.0;
+  for (double& length : graph.length) length += tiny;
+  return graph;
+}
+
+CutMesh cut_to_disk(const Mesh& mesh, const Connectivity& connectivity, const std::vector<int>& marks,
+                    const CutOptions& options) {
+  const std::vector<int>& opposite = connectivity.opposite;
+  const std::vector<int> outgoing = outgoing_halfedges(mesh.F, opposite, static_cast<int>(mesh.V.rows()));
+  check_marks(marks, outgoing);
+  const bool closed = std::find(opposite.begin(), opposite.end(), -1) == opposite.end();
+  if (closed && marks.size() != 2 && marks.size() != 3)
+    throw MeshError(fmt::format("{} marked vertices on a sphere; mark two or three", marks.size()));
+  CutMesh cut = uncut(mesh);
+  if (closed) {
+    EdgeGraph graph = edge_length_graph(mesh, connectivity);
+    perturb_lengths(graph, options.seed);
+    const Path path = path_through(mesh, graph, marks, options.seed);
+    std::vector<int> halfedges;
+    for (std::size_t k = 0; k + 1 < path.size(); ++k)
+      halfedges.push_back(halfedge_to(path[k], path[k + 1], mesh.F, outgoing, opposite));
+    const std::vector<int> opened = open_along(halfedges, opposite);
+    for (const int h : halfedges) split_vertex(h, opened, opposite, cut);
+    cut.boundary = boundary_loop(halfedges.front(), cut.F, opened);
+  } else {
+    for (const int v : marks) {
+      if (opposite[outgoing[v]] >= 0)
+        throw MeshError(fmt::format("the marked vertex {} is inside the disk; mark a vertex on its boundary", v));
+    }
+    cut.boundary = boundary_loop(outgoing[marks[0]], cut.F, opposite);
+  }
+  cut.arrangement = order_met(cut.boundary, cut.source_vertex, marks);
+  return cut;
+}
+
+}  // namespace orbitutte

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/mesh/mesh_formats.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+namespace orbitutte {
+
+int checked_count(std::size_t count, std::string_view things) {
+  constexpr int most = std::numeric_limits<int>::max();
+  if (count <= most) return static_cast<int>(count);
+  throw MeshError(fmt::format("the mesh has more than {} {}; simplify it", most, things));
+}
+
+void end_face(PolygonMesh& mesh) {
+  mesh.face_start.push_back(checked_count(mesh.corners.size(), "corners of faces"));
+}
+
+Points to_points(const std::vector<double>& coordinates) {
+  const int count = checked_count(coordinates.size() / 3, "vertices");
+  return Eigen::Map<const Points>(coordinates.data(), count, 3);
+}
+
+}  // namespace orbitutte

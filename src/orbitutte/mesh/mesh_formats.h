@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// One reader and one writer per mesh format; what they accept is told in mesh_io.h.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "orbitutte/mesh/ply_header.h"
+#include "orbitutte/mesh/polygon_mesh.h"
+
+namespace orbitutte {
+
+// Throw MeshError naming the line, element or byte at fault.
+PolygonMesh read_obj(std::string_view text);
+PolygonMesh read_off(std::string_view text);
+PolygonMesh read_ply(std::string_view bytes);
+PolygonMesh read_stl(std::string_view bytes);
+
+/// read_ply of the layout that ply_triangles.cpp describes; none where the file has another.
+std::optional<PolygonMesh> read_ply_triangles(std::string_view bytes, const PlyHeader& header);
+
+std::string write_obj(const Mesh& mesh);
+std::string write_off(const Mesh& mesh);
+std::string write_ply(const Mesh& mesh);
+std::string write_stl(const Mesh& mesh);  ///< throws MeshError where a face names a vertex that is not there
+
+/// The count as an int. Throws MeshError naming the things where it does not fit.
+int checked_count(std::size_t count, std::string_view things);
+
+/// Ends the face whose corners have been appended. Throws MeshError where an int cannot count the corners.
+void end_face(PolygonMesh& mesh);
+
+/// The points of the coordinates x y z x y z ... Throws MeshError where an int cannot count them.
+Points to_points(const std::vector<double>& coordinates);
+
+}  // namespace orbitutte

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// Wavefront OBJ, after Alias|Wavefront, "Advanced Visualizer Manual", appendix B1.
+#include <fmt/format.h>
+
+#include <iterator>
+#include <limits>
+
+#include "orbitutte/mesh/mesh_formats.h"
+#include "orbitutte/mesh/text_scanner.h"
+
+namespace orbitutte {
+
+namespace {
+
+constexpr TextScanner::Syntax obj_syntax = {.comment = '#', .backslash_continues = true};
+
+void read_vertex(TextScanner& in, std::vector<double>& coordinates) {
+  const TextItem vertex = {"vertex", coordinates.size() / 3};
+  for (int axis = 0; axis < 3; ++axis) coordinates.push_back(in.number<double>(vertex, "coordinate"));
+  in.skip_words();  // a weight, colours
+}
+
+/// The part vt, /vn or vt/vn of a corner: up to two indices, each of which may be left out.
+bool is_texture_and_normal(std::string_view part) {
+  const std::size_t slash = part.find('/');
+  const std::string_view texture = part.substr(0, slash);
+  const std::string_view normal = slash == part.npos ? std::string_view() : part.substr(slash + 1);
+  const auto is_index = [](std::string_view word) {
+    long long index;
+    return word.empty() || parse_number(word, index) == NumberError::none;
+  };
+  return is_index(texture) && is_index(normal);
+}
+
+/// The 0-based vertex of a corner v, v/vt, v//vn or v/vt/vn, where v counts from 1, or back from the latest
+/// of the `vertices` read so far if it is negative.
+int vertex_of_corner(const TextScanner& in, const TextItem& face, std::string_view corner,
+                     std::size_t vertices) {
+  const std::size_t slash = corner.find('/');
+  long long index = 0;
+  const NumberError error = parse_number(corner.substr(0, slash), index);
+  if (error != NumberError::none) in.refuse_number(error, true, corner, face, "index");
+  if (slash != corner.npos && !is_texture_and_normal(corner.substr(slash + 1))) {
+    in.refuse(fmt::format("face {} has the corner {}, which is none of v, v/vt, v//vn, v/vt/vn", face.number,
+                          quoted(corner)));
+  }
+  if (index == 0) in.refuse(fmt::format("face {} has the index 0, but OBJ counts from 1", face.number));
+  const long long vertex = index > 0 ? index - 1 : static_cast<long long>(vertices) + index;
+  if (vertex < 0) {
+    in.refuse(fmt::format("face {} has the index {}, but only {} vertices stand before it", face.number,
+                          index, vertices));
+  }
+  if (vertex > std::numeric_limits<int>::max()) {
+    in.refuse_number(NumberError::out_of_range, true, corner, face, "index");
+  }
+  return static_cast<int>(vertex);
+}
+
+void read_face(TextScanner& in, std::size_t vertices, PolygonMesh& mesh) {
+  const TextItem face = {"face", mesh.face_start.size() - 1};
+  for (std::string_view corner = in.word(); !corner.empty(); corner = in.word()) {
+    mesh.corners.push_back(vertex_of_corner(in, face, corner, vertices));
+  }
+  end_face(mesh);
+}
+
+}  // namespace
+
+PolygonMesh read_obj(std::string_view text) {
+  PolygonMesh mesh;
+  std::vector<double> coordinates;
+  TextScanner in(text, obj_syntax);
+  while (in.find_word()) {
+    const std::string_view keyword = in.word();
+    if (keyword == "v") {
+      read_vertex(in, coordinates);
+    } else if (keyword == "f") {
+      read_face(in, coordinates.size() / 3, mesh);
+    } else {
+      in.rest_of_line();  // not skip_words: names of materials may end with a backslash
+    }
+  }
+  if (coordinates.empty()) {
+    throw MeshError("no line begins with 'v', so there are no vertices; check that it is an OBJ file");
+  }
+  mesh.V = to_points(coordinates);
+  return mesh;
+}
+
+std::string write_obj(const Mesh& mesh) {
+  std::string text;
+  const auto out = std::back_inserter(text);
+  for (const auto& position : mesh.V.rowwise()) {
+    fmt::format_to(out, "v {} {} {}\n", position[0], position[1], position[2]);
+  }
+  for (const auto& face : mesh.F.rowwise()) {
+    fmt::format_to(out, "f {} {} {}\n", face[0] + 1LL, face[1] + 1LL, face[2] + 1LL);
+  }
+  return text;
+}
+
+}  // namespace orbitutte

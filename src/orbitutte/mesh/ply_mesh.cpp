@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+// Meshes in PLY files: the elements `vertex` and `face` as Greg Turk named them, and the `tristrips` of the
+// Stanford 3D Scanning Repository.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "orbitutte/mesh/mesh_formats.h"
+#include "orbitutte/mesh/ply_header.h"
+
+namespace orbitutte {
+
+namespace {
+
+constexpr int strip_end = -1;
+
+Points to_points(const PlyElement& vertex) {
+  constexpr std::string_view axes[] = {"x", "y", "z"};
+  Points V(checked_count(vertex.count, "vertices"), 3);
+  for (int k = 0; k < 3; ++k) {
+    const PlyProperty* axis = vertex.find(axes[k]);
+    if (axis == nullptr || axis->is_list) {
+      throw MeshError(
+          fmt::format("the element 'vertex' has no coordinate '{}'; export the file again", axes[k]));
+    }
+    V.col(k) = Eigen::Map<const Eigen::VectorXd>(axis->values.data(), V.rows());
+  }
+  return V;
+}
+
+const PlyProperty& index_lists(const PlyElement& element) {
+  for (const std::string_view name : {"vertex_indices", "vertex_index"}) {
+    const PlyProperty* lists = element.find(name);
+    if (lists != nullptr && lists->is_list) return *lists;
+  }
+  throw MeshError(
+      fmt::format("the element '{}' has no list 'vertex_indices'; export the file again", element.name));
+}
+
+int to_index(double value, const PlyElement& element, std::size_t item) {
+  constexpr int lowest = std::numeric_limits<int>::min(), highest = std::numeric_limits<int>::max();
+  const bool is_integer = value == std::trunc(value);
+  if (is_integer && value >= lowest && value <= highest) return static_cast<int>(value);
+  throw MeshError(fmt::format("{} {} has the index {}, which {}; export the file again", element.name, item,
+                              value, is_integer ? "is out of range" : "is no integer"));
+}
+
+void append_faces(const PlyElement& element, PolygonMesh& mesh) {
+  const PlyProperty& lists = index_lists(element);
+  for (std::size_t f = 0; f < element.count; ++f) {
+    for (std::size_t k = lists.list_start[f]; k < lists.list_start[f + 1]; ++k) {
+      mesh.corners.push_back(to_index(lists.values[k], element, f));
+    }
+    end_face(mesh);
+  }
+}
+
+/// In a strip a b c d e ... every vertex ends a triangle with the two before it: a b c, c b d, c d e, ...
+void append_strips(const PlyElement& element, PolygonMesh& mesh) {
+  const PlyProperty& lists = index_lists(element);
+  for (std::size_t strip = 0; strip < element.count; ++strip) {
+    int before_last = 0, last = 0, length = 0;
+    for (std::size_t k = lists.list_start[strip]; k < lists.list_start[strip + 1]; ++k) {
+      const int index = to_index(lists.values[k], element, strip);
+      if (index == strip_end) {
+        length = 0;
+        continue;
+      }
+      if (length >= 2) {
+        const bool is_turned = length % 2 != 0;
+        mesh.corners.insert(mesh.corners.end(),
+                            {is_turned ? last : before_last, is_turned ? before_last : last, index});
+        end_face(mesh);
+      }
+      before_last = last;
+      last = index;
+      ++length;
+    }
+  }
+}
+
+PolygonMesh to_mesh(const PlyFile& file) {
+  const PlyElement* vertex = file.find("vertex");
+  if (vertex == nullptr)
+    throw MeshError("the header has no element 'vertex'; check that the file holds a mesh");
+  PolygonMesh mesh;
+  mesh.V = to_points(*vertex);
+  const PlyElement* faces = file.find("face");
+  const PlyElement* strips = file.find("tristrips");
+  if (faces != nullptr && faces->count > 0) append_faces(*faces, mesh);
+  if (strips != nullptr && strips->count > 0) append_strips(*strips, mesh);
+  return mesh;
+}
+
+PlyProperty column(std::string name, const Points& V, int k) {
+  PlyProperty property;
+  property.name = std::move(name);
+  property.values.assign(V.col(k).begin(), V.col(k).end());
+  return property;
+}
+
+PlyProperty triangle_lists(const Faces& F) {
+  PlyProperty property;
+  property.name = "vertex_indices";
+  property.type = PlyType::int32;
+  property.is_list = true;
+  property.values.assign(F.data(), F.data() + F.size());
+  for (Eigen::Index f = 0; f <= F.rows(); ++f) property.list_start.push_back(3 * f);
+  return property;
+}
+
+}  // namespace
+
+PolygonMesh read_ply(std::string_view bytes) {
+  if (auto mesh = read_ply_triangles(bytes, parse_ply_header(bytes))) return std::move(*mesh);
+  return to_mesh(parse_ply(bytes));
+}
+
+std::string write_ply(const Mesh& mesh) {
+  PlyFile file;
+  const auto vertices = static_cast<std::size_t>(mesh.V.rows());
+  const auto faces = static_cast<std::size_t>(mesh.F.rows());
+  file.elements = {
+      {"vertex", vertices, {column("x", mesh.V, 0), column("y", mesh.V, 1), column("z", mesh.V, 2)}},
+      {"face", faces, {triangle_lists(mesh.F)}}};
+  return serialize_ply(file);
+}
+
+}  // namespace orbitutte

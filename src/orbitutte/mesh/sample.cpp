@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: MIT
+// Both surfaces are zero sets of smooth functions; coarse meshes of them, set up by hand, grow into even
+// ones.
+#include "orbitutte/mesh/sample.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "orbitutte/mesh/even_mesh.h"
+
+namespace orbitutte {
+namespace {
+
+constexpr int kFewestFaces = 100;
+constexpr int kMostFaces = 20'000'000;
+
+// ---- the figure
+
+// A limb: the hull of two balls.
+struct Limb {
+  Vector3 a, b;
+  double radius_a, radius_b;
+};
+
+const std::array<Limb, 12>& limbs() {
+  static const std::array<Limb, 12> result = {{
+      {{0, -0.08, 0}, {0, 0.34, 0}, 0.29, 0.21},             // trunk
+      {{0, 0.45, 0}, {0, 0.70, 0}, 0.10, 0.12},              // neck
+      {{0, 0.80, 0.02}, {0, 0.86, 0.02}, 0.285, 0.27},       // head
+      {{0, 0.75, 0.30}, {0, 0.76, 0.31}, 0.055, 0.055},      // nose
+      {{-0.20, 0.36, 0}, {-0.48, 0.12, 0.03}, 0.12, 0.115},  // right arm, hanging
+      {{-0.48, 0.12, 0.03}, {-0.62, -0.12, 0.12}, 0.11, 0.125},
+      {{0.20, 0.36, 0}, {0.52, 0.44, 0.02}, 0.12, 0.115},  // left arm, raised
+      {{0.52, 0.44, 0.02}, {0.68, 0.72, 0.08}, 0.11, 0.125},
+      {{-0.16, -0.22, 0}, {-0.23, -0.82, 0}, 0.17, 0.125},  // right leg and foot
+      {{-0.23, -0.85, 0}, {-0.27, -0.87, 0.19}, 0.12, 0.10},
+      {{0.16, -0.22, 0}, {0.23, -0.82, 0}, 0.17, 0.125},  // left leg and foot
+      {{0.23, -0.85, 0}, {0.27, -0.87, 0.19}, 0.12, 0.10},
+  }};
+  return result;
+}
+
+// The distance to the hull of two balls, the least of |p - c(t)| - r(t) over the balls between them.
+FieldSample limb_distance(const Limb& limb, const Vector3& p) {
+  const Vector3 axis = limb.b - limb.a;
+  const double length = axis.norm(), slope = (limb.radius_b - limb.radius_a) / length;
+  const double along = (p - limb.a).dot(axis) / length;
+  const double across = std::sqrt(std::max(0.0, (p - limb.a).squaredNorm() - along * along));
+  const double t = std::clamp((along + across * slope / std::sqrt(1 - slope * slope)) / length, 0.0, 1.0);
+  const Vector3 from_centre = p - (limb.a + t * axis);
+  const double distance = from_centre.norm();
+  if (distance == 0) return {-(limb.radius_a + t * length * slope), Vector3::Zero()};
+  return {distance - (limb.radius_a + t * length * slope), from_centre / distance};
+}
+
+// -log(sum_i exp(-k d_i)) / k: the limbs' distances, smoothly joined over lengths of 1 / k.
+FieldSample figure_field(const Vector3& p) {
+  constexpr double kSharpness = 22;
+  constexpr double kNegligible = 1.5;  // exp(-k d) is below the rounding errors
+  std::array<FieldSample, 12> distance;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < distance.size(); ++i) {
+    distance[i] = limb_distance(limbs()[i], p);
+    least = std::min(least, distance[i].value);
+  }
+  double sum = 0;
+  Vector3 gradient = Vector3::Zero();
+  for (const FieldSample& d : distance) {
+    if (d.value > least + kNegligible) continue;
+    const double weight = std::exp(-kSharpness * (d.value - least));
+    sum += weight;
+    gradient += weight * d.gradient;
+  }
+  return {least - std::log(sum) / kSharpness, gradient / sum};
+}
+
+// A closed mesh of quadrilaterals that grows by pulling faces out.
+struct Boxes {
+  std::vector<Vector3> points;
+  std::vector<std::array<int, 4>> faces;
+
+  // Pulls a face out along `axis` to a square of the given half-diagonal around `centre`: a ring of four new
+  // faces.
+  void pull(int face, const Vector3& centre, const Vector3& axis, double radius) {
+    const std::array<int, 4> old = faces[face];
+    Vector3 middle = Vector3::Zero();
+    for (const int v : old) middle += points[v] / 4;
+    for (int k = 0; k < 4; ++k) {
+      const Vector3 out = points[old[k]] - middle, d = axis.normalized();
+      faces[face][k] = static_cast<int>(points.size());
+      points.push_back(centre + radius * (out - out.dot(d) * d).normalized());
+    }
+    for (int k = 0; k < 4; ++k) {
+      const int next = (k + 1) % 4;
+      faces.push_back({old[k], old[next], faces[face][next], faces[face][k]});
+    }
+  }
+
+  Mesh triangles() const {
+    Mesh result;
+    result.V.resize(static_cast<Eigen::Index>(points.size()), 3);
+    for (std::size_t v = 0; v < points.size(); ++v) result.V.row(v) = points[v];
+    result.F.resize(2 * static_cast<Eigen::Index>(faces.size()), 3);
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      const auto& [a, b, c, d] = faces[f];
+      result.F.row(2 * f) << a, b, c;
+      result.F.row(2 * f + 1) << a, c, d;
+    }
+    return result;
+  }
+};
+
+// The trunk: a box of three columns, for a leg, nothing and a leg below, for a shoulder, the neck and a
+// shoulder above. Its faces are the left side, the right side, the bottom and the top from left to right (-x
+// to x), the fronts, the backs.
+Boxes trunk() {
+  Boxes result;
+  const auto vertex = [](int x, int y, int z) { return 4 * x + 2 * y + z; };
+  for (const double x : {-0.28, -0.1, 0.1, 0.28}) {
+    for (const double y : {-0.4, 0.42}) {
+      for (const double z : {-0.15, 0.15}) result.points.emplace_back(x, y, z);
+    }
+  }
+  auto& faces = result.faces;
+  faces.push_back({vertex(0, 0, 0), vertex(0, 0, 1), vertex(0, 1, 1), vertex(0, 1, 0)});
+  faces.push_back({vertex(3, 0, 0), vertex(3, 1, 0), vertex(3, 1, 1), vertex(3, 0, 1)});
+  for (int x = 0; x < 3; ++x)
+    faces.push_back({vertex(x, 0, 0), vertex(x + 1, 0, 0), vertex(x + 1, 0, 1), vertex(x, 0, 1)});
+  for (int x = 0; x < 3; ++x)
+    faces.push_back({vertex(x, 1, 0), vertex(x, 1, 1), vertex(x + 1, 1, 1), vertex(x + 1, 1, 0)});
+  for (int x = 0; x < 3; ++x)
+    faces.push_back({vertex(x, 0, 1), vertex(x + 1, 0, 1), vertex(x + 1, 1, 1), vertex(x, 1, 1)});
+  for (int x = 0; x < 3; ++x)
+    faces.push_back({vertex(x, 0, 0), vertex(x, 1, 0), vertex(x + 1, 1, 0), vertex(x + 1, 0, 0)});
+  return result;
+}
+
+// The trunk with head, arms and legs pulled out: 54 quadrilaterals.
+Mesh coarse_figure() {
+  Boxes boxes = trunk();
+  boxes.pull(0, {-0.48, 0.12, 0.03}, {-1, -1, 0.1}, 0.13);
+  boxes.pull(0, {-0.67, -0.20, 0.14}, {-0.5, -1, 0.3}, 0.13);
+  boxes.pull(1, {0.52, 0.44, 0.02}, {1, 0.8, 0.1}, 0.13);
+  boxes.pull(1, {0.73, 0.80, 0.10}, {0.5, 1, 0.3}, 0.13);
+  boxes.pull(2, {-0.2, -0.64, 0}, {0, -1, 0}, 0.17);
+  boxes.pull(2, {-0.25, -0.93, 0.05}, {0, -1, 0}, 0.17);
+  boxes.pull(4, {0.2, -0.64, 0}, {0, -1, 0}, 0.17);
+  boxes.pull(4, {0.25, -0.93, 0.05}, {0, -1, 0}, 0.17);
+  boxes.pull(6, {0, 0.56, 0}, {0, 1, 0}, 0.2);
+  boxes.pull(6, {0, 1.0, 0.02}, {0, 1, 0}, 0.25);
+  return boxes.triangles();
+}
+
+// ---- the mask
+
+// A bell-shaped rise of the mask, negative for a hollow.
+struct Bump {
+  Vector3 centre, size;
+  double height;
+};
+
+const std::array<Bump, 17>& bumps() {
+  static const std::array<Bump, 17> result = {{
+      {{0, 0.02, 0.62}, {0.09, 0.24, 0.3}, 0.09},       // bridge of the nose
+      {{0, -0.14, 0.68}, {0.10, 0.10, 0.2}, 0.13},      // its tip
+      {{-0.10, -0.17, 0.62}, {0.07, 0.06, 0.2}, 0.04},  // its wings
+      {{0.10, -0.17, 0.62}, {0.07, 0.06, 0.2}, 0.04},
+      {{-0.27, 0.18, 0.5}, {0.18, 0.11, 0.3}, -0.10},  // sockets
+      {{0.27, 0.18, 0.5}, {0.18, 0.11, 0.3}, -0.10},
+      {{-0.26, 0.16, 0.5}, {0.11, 0.07, 0.3}, 0.06},  // eyes
+      {{0.26, 0.16, 0.5}, {0.11, 0.07, 0.3}, 0.06},
+      {{-0.27, 0.32, 0.5}, {0.20, 0.07, 0.3}, 0.045},  // brows
+      {{0.27, 0.32, 0.5}, {0.20, 0.07, 0.3}, 0.045},
+      {{-0.36, -0.15, 0.45}, {0.16, 0.16, 0.3}, 0.04},  // cheeks
+      {{0.36, -0.15, 0.45}, {0.16, 0.16, 0.3}, 0.04},
+      {{0, -0.43, 0.55}, {0.20, 0.05, 0.3}, 0.06},  // lips
+      {{0, -0.55, 0.53}, {0.16, 0.055, 0.3}, 0.06},
+      {{0, -0.485, 0.55}, {0.20, 0.03, 0.3}, -0.03},  // mouth
+      {{0, -0.66, 0.45}, {0.16, 0.05, 0.3}, -0.03},   // hollow under it
+      {{0, -0.80, 0.38}, {0.17, 0.12, 0.3}, 0.06},    // chin
+  }};
+  return result;
+}
+
+// An ellipsoid with bumps, of which the half in front of the plane z = 0 is the mask: (|p / r| - 1) s - sum_i
+// h_i exp(-|(p - c_i) / s_i|^2).
+FieldSample mask_field(const Vector3& p) {
+  const Vector3 radii(0.72, 1, 0.58);
+  constexpr double kScale = 0.6;
+  const Vector3 q = p.cwiseQuotient(radii);
+  FieldSample result = {kScale * (q.norm() - 1), kScale * q.normalized().cwiseQuotient(radii)};
+  for (const Bump& bump : bumps()) {
+    const Vector3 d = (p - bump.centre).cwiseQuotient(bump.size);
+    const double height = bump.height * std::exp(-d.squaredNorm());
+    result.value -= height;
+    result.gradient += 2 * height * d.cwiseQuotient(bump.size);
+  }
+  return result;
+}
+
+// Six triangles around the middle.
+Mesh coarse_mask() {
+  Mesh result;
+  result.V = Points::Zero(7, 3);
+  result.F.resize(6, 3);
+  result.V.row(0) << 0, 0, 0.6;
+  for (int i = 0; i < 6; ++i) {
+    const double angle = std::numbers::pi * i / 3;
+    result.V.row(i + 1) << 0.72 * std::cos(angle), std::sin(angle), 0;
+    result.F.row(i) << 0, i + 1, (i + 1) % 6 + 1;
+  }
+  return result;
+}
+
+// ---- cones
+
+// The vertex that is furthest in a direction.
+int extreme_vertex(const Mesh& mesh, const Vector3& direction) {
+  Eigen::Index vertex = 0;
+  (mesh.V * direction).maxCoeff(&vertex);
+  return static_cast<int>(vertex);
+}
+
+}  // namespace
+
+std::string name(SampleShape shape) { return shape == SampleShape::figure ? "figure" : "mask"; }
+
+Mesh sample_mesh(const SampleOptions& options) {
+  if (options.faces < kFewestFaces || options.faces > kMostFaces) {
+    throw ArgumentError(fmt::format("a sample mesh of {} faces is not made; ask for {} to {}", options.faces,
+                                    kFewestFaces, kMostFaces));
+  }
+  if (options.shape == SampleShape::figure) return even_mesh(coarse_figure(), {figure_field}, options.faces);
+  return even_mesh(coarse_mask(), {mask_field}, options.faces);
+}
+
+std::vector<int> sample_cones(SampleShape shape, const Mesh& mesh) {
+  if (shape == SampleShape::figure)
+    return {extreme_vertex(mesh, {0, 1, 0.1}), extreme_vertex(mesh, {-0.5, -1, 0.3}),
+            extreme_vertex(mesh, {1, 0.7, 0})};
+  return {extreme_vertex(mesh, {0, 1, 0}), extreme_vertex(mesh, {-0.72, -0.6, 0}),
+          extreme_vertex(mesh, {0.72, -0.6, 0}), extreme_vertex(mesh, {0, 0, 1})};
+}
+
+}  // namespace orbitutte

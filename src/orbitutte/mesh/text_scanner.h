@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// The words and numbers of a text, read in place: nothing is copied, no locale is asked, and every complaint
+// names the line.
+#pragma once
+
+#include <charconv>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <type_traits>
+
+namespace orbitutte {
+
+enum class NumberError { none, malformed, out_of_range };
+
+/// A number too small for a double, such as 1e-400, rounded to the nearest double.
+NumberError parse_tiny_number(std::string_view word, double& value);
+
+/// The number that is the whole of `word`. A leading '+' is accepted, as are nan and inf where T is a double.
+template <class T>
+NumberError parse_number(std::string_view word, T& value) {
+  if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
+  const char* end = word.data() + word.size();
+  const auto [rest, error] = std::from_chars(word.data(), end, value);
+  if (error == std::errc::invalid_argument || rest != end) return NumberError::malformed;
+  if (error == std::errc()) return NumberError::none;
+  if constexpr (std::is_floating_point_v<T>) return parse_tiny_number(word, value);
+  return NumberError::out_of_range;
+}
+
+/// The word in quotes as messages show it: printable ASCII, cut after forty characters.
+std::string quoted(std::string_view word);
+
+/// What a number of the text belongs to: {"face", 3}.
+struct TextItem {
+  std::string_view element;
+  std::size_t number;
+};
+
+/// Walks over a text word by word. Words are separated by blanks; '\n', "\r\n" and '\r' end a line.
+class TextScanner {
+ public:
+  struct Syntax {
+    char comment = '\n';  ///< begins a comment, which lasts until the line ends; '\n': there are none
+    bool backslash_continues = false;  ///< a backslash before a line break joins two lines
+  };
+
+  TextScanner(std::string_view text, Syntax syntax, int first_line = 1);
+
+  /// Goes to the next word, in this line or a later one; false where the text ends.
+  bool find_word();
+
+  /// Goes to the next word of this line; false where the line ends.
+  bool find_word_in_line();
+
+  /// Takes the next word of this line; empty where the line ends.
+  std::string_view word();
+
+  /// Takes the remaining words of this line, across continuations.
+  void skip_words();
+
+  /// Takes everything up to the next line break, comments and backslashes included.
+  std::string_view rest_of_line();
+
+  /// Takes the next word of this line, which has to be a number: the `what` of `item`. Throws MeshError.
+  template <class T>
+  T number(const TextItem& item, std::string_view what) {
+    const std::string_view text = word();
+    T value{};
+    const NumberError error = parse_number(text, value);
+    if (error != NumberError::none) refuse_number(error, std::is_integral_v<T>, text, item, what);
+    return value;
+  }
+
+  /// Throws the MeshError that says why `text` is not the number `what` of `item`.
+  [[noreturn]] void refuse_number(NumberError error, bool is_integer, std::string_view text,
+                                  const TextItem& item, std::string_view what) const;
+
+  /// Throws MeshError: "line 17: <problem>; mend the file or export it again".
+  [[noreturn]] void refuse(std::string_view problem) const;
+
+  int line() const { return line_; }
+  std::size_t bytes_left() const { return static_cast<std::size_t>(end_ - at_); }
+
+ private:
+  bool at_word_end() const;
+  bool skip_continuation();
+  void skip_line_break();
+
+  const char* at_;
+  const char* end_;
+  Syntax syntax_;
+  int line_;
+};
+
+}  // namespace orbitutte

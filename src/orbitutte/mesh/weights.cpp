@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/mesh/weights.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "orbitutte/mesh/file.h"
+
+namespace orbitutte {
+namespace {
+
+// Half the cotangent of the angle at vertex o of a triangle (i, j, o); zero where the triangle has no area.
+double half_cotangent(const Points& V, int i, int j, int o) {
+  const Vector3 a = V.row(i) - V.row(o), b = V.row(j) - V.row(o);
+  const double twice_area = a.cross(b).norm();
+  const double cotangent = 0.5 * a.dot(b) / twice_area;
+  return std::isfinite(cotangent) ? cotangent : 0.0;
+}
+
+EdgeWeights cotangent_weights(const Mesh& mesh, const Connectivity& connectivity, double clamp) {
+  EdgeWeights result;
+  result.clamp = clamp;
+  result.w = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(connectivity.edges.size()));
+  for (int h = 0; h < static_cast<int>(mesh.F.size()); ++h) {
+    const int i = origin(mesh.F, h), j = target(mesh.F, h), o = origin(mesh.F, previous_halfedge(h));
+    result.w[connectivity.edge_of[h]] += half_cotangent(mesh.V, i, j, o);
+  }
+  for (double& w : result.w) {
+    if (!(w > 0)) {
+      w = clamp;
+      ++result.clamped_edges;
+    }
+  }
+  return result;
+}
+
+// The blank-separated words of a line, each without copying.
+std::string_view next_word(std::string_view& line) {
+  const auto first = line.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos) return line = {};
+  line.remove_prefix(first);
+  const std::string_view word = line.substr(0, line.find_first_of(" \t\r"));
+  line.remove_prefix(word.size());
+  return word;
+}
+
+template <typename Number>
+bool parse(std::string_view word, Number& number) {
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  return error == std::errc() && end == word.data() + word.size() && !word.empty();
+}
+
+int find_edge(const Connectivity& connectivity, int i, int j) {
+  const std::array<int, 2> edge = {std::min(i, j), std::max(i, j)};
+  const auto at = std::lower_bound(connectivity.edges.begin(), connectivity.edges.end(), edge);
+  return at != connectivity.edges.end() && *at == edge ? static_cast<int>(at - connectivity.edges.begin()) : -1;
+}
+
+}  // namespace
+
+std::string name(WeightKind kind) {
+  switch (kind) {
+    case WeightKind::cotan: return "cotan";
+    case WeightKind::uniform: return "uniform";
+    case WeightKind::file: return "file";
+  }
+  return {};
+}
+
+EdgeWeights edge_weights(const Mesh& mesh, const Connectivity& connectivity, const WeightOptions& options) {
+  if (!(options.clamp > 0) || !std::isfinite(options.clamp))
+    throw ArgumentError(fmt::format("the clamp of the weights is {}; it must be positive and finite", options.clamp));
+  if (options.kind == WeightKind::file) throw ArgumentError("weights of the kind 'file' are read by read_weights");
+  if (options.kind == WeightKind::cotan) return cotangent_weights(mesh, connectivity, options.clamp);
+  EdgeWeights result;
+  result.kind = WeightKind::uniform;
+  result.clamp = options.clamp;
+  result.w = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(connectivity.edges.size()));
+  return result;
+}
+
+EdgeWeights read_weights(const std::string& path, const Connectivity& connectivity) {
+  const std::string text = read_file(path);
+  const double missing = -1;
+  EdgeWeights result;
+  result.kind = WeightKind::file;
+  result.w.setConstant(static_cast<Eigen::Index>(connectivity.edges.size()), missing);
+  int number = 0;
+  for (std::string_view rest = text; !rest.empty();) {
+    std::string_view line = rest.substr(0, rest.find('\n'));
+    rest.remove_prefix(std::min(line.size() + 1, rest.size()));
+    ++number;
+    const std::string_view first = next_word(line);
+    if (first.empty() || first.front() == '#') continue;
+    int i = 0, j = 0;
+    double w = 0;
+    if (!parse(first, i) || !parse(next_word(line), j) || !parse(next_word(line), w))
+      throw MeshError(fmt::format("{}: line {} is not 'i j w' (two vertices and a weight); mend it", path, number));
+    if (!(w >= 0) || !std::isfinite(w))
+      throw MeshError(fmt::format("{}: line {}: edge ({}, {}) has the weight {}; weights must be finite and not negative", path,
+                                  number, i, j, w));
+    const int edge = find_edge(connectivity, i, j);
+    if (edge < 0) throw MeshError(fmt::format("{}: line {}: ({}, {}) is no edge of the mesh; remove the line", path, number, i, j));
+    if (result.w[edge] != missing)
+      throw MeshError(fmt::format("{}: line {}: edge ({}, {}) is given twice; give every edge once", path, number, i, j));
+    result.w[edge] = w;
+  }
+  const auto absent = std::find(result.w.begin(), result.w.end(), missing);
+  if (absent != result.w.end()) {
+    const auto [i, j] = connectivity.edges[absent - result.w.begin()];
+    throw MeshError(fmt::format("{}: edge ({}, {}) has no line; give every edge of the mesh once", path, i, j));
+  }
+  result.zero_edges = static_cast<int>(std::count(result.w.begin(), result.w.end(), 0.0));
+  return result;
+}
+
+}  // namespace orbitutte

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// The one table of families: symbol, tile and gluing of each (appendix A). Private to orbifold/.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "orbitutte/orbifold/tile.h"
+
+namespace orbitutte {
+
+/// One row of the table. A family is known by its symbol with the orders sorted, where 0 stands for the free order N.
+struct Family {
+  std::string name;           ///< "22N"
+  std::string group_order;    ///< "2N"
+  std::string marked_points;  ///< for people
+  ConwaySymbol pattern;       ///< sorted orders, 0 for N
+  Topology topology;
+  Tile (*tile)(const std::vector<int>& orders, const std::vector<int>& marks);  ///< null: not embedded yet
+};
+
+const std::vector<Family>& family_table();
+
+/// The row that the symbol belongs to, or null.
+const Family* find_family(const ConwaySymbol& symbol);
+
+}  // namespace orbitutte

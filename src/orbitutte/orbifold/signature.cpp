@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT
+// J. H. Conway, H. Burgiel, C. Goodman-Strauss, "The Symmetries of Things", chapters 3, 4 and 9.
+#include "orbitutte/orbifold/signature.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "orbitutte/orbifold/families.h"
+
+namespace orbitutte {
+namespace {
+
+using Orders = std::vector<int>;
+
+// A rational number, exact while orders stay below 30,000.
+struct Fraction {
+  long long numerator = 0, denominator = 1;
+
+  Fraction minus(long long n, long long d) const {
+    const long long top = numerator * d - n * denominator, bottom = denominator * d, common = std::gcd(top, bottom);
+    return {top / common, bottom / common};
+  }
+};
+
+// The orbifold's Euler characteristic: 2 - sum (1 - 1/n) - [star] - sum (1 - 1/m)/2 - [cross]; |G| is 2 over it.
+Fraction euler_characteristic(const ConwaySymbol& symbol) {
+  Fraction chi = {2, 1};
+  for (const long long n : symbol.rotations) chi = chi.minus(n - 1, n);
+  for (const long long m : symbol.corners) chi = chi.minus(m - 1, 2 * m);
+  if (symbol.star) chi = chi.minus(1, 1);
+  if (symbol.cross) chi = chi.minus(1, 1);
+  return chi;
+}
+
+std::string join(const Orders& orders) {
+  const bool digits = std::all_of(orders.begin(), orders.end(), [](int n) { return n < 10; });
+  return fmt::format("{}", fmt::join(orders, digits ? "" : ","));
+}
+
+bool any_below_two(const Orders& orders) {
+  return std::any_of(orders.begin(), orders.end(), [](int n) { return n < 2; });
+}
+
+// An order of one marks nothing; only the cross may stand behind it (1x).
+bool trivial_order(const ConwaySymbol& symbol) {
+  return (!symbol.cross && any_below_two(symbol.rotations)) || any_below_two(symbol.corners);
+}
+
+constexpr int largest_order = 20000;
+
+[[noreturn]] void refuse(const std::string& text, const std::string& reason) {
+  throw ArgumentError(fmt::format("'{}' {}", text, reason));
+}
+
+// All ways to read a string of digits without commas as orders: one digit each, or longer numbers.
+void readings(const std::string& digits, std::size_t from, Orders& prefix, std::vector<Orders>& all) {
+  if (from == digits.size()) {
+    all.push_back(prefix);
+    return;
+  }
+  if (digits[from] == '0') return;
+  int order = 0;
+  for (std::size_t end = from; end < digits.size() && order <= largest_order; ++end) {
+    order = 10 * order + (digits[end] - '0');
+    prefix.push_back(order);
+    readings(digits, end + 1, prefix, all);
+    prefix.pop_back();
+  }
+}
+
+int parse_order(const std::string& text, const std::string& number) {
+  int order = 0;
+  for (const char digit : number) order = std::min(10 * order + (digit - '0'), largest_order + 1);
+  if (number.empty()) refuse(text, "has an empty place between commas; give every order once");
+  if (order < 1) refuse(text, "has an order of 0; orders are 2 or more");
+  if (order > largest_order) refuse(text, fmt::format("has an order above {}, the largest that is supported", largest_order));
+  return order;
+}
+
+// The possible readings of one half of a symbol. With commas there is exactly one; a comma at the end ("22,*") may mark a
+// single order of two digits as such.
+std::vector<Orders> read_orders(const std::string& text, std::string part) {
+  if (part.empty()) return {Orders()};
+  if (part.find(',') == std::string::npos) {
+    std::vector<Orders> all;
+    Orders prefix;
+    if (part.size() > 12) refuse(text, "has too many digits without commas; separate the orders by commas");
+    readings(part, 0, prefix, all);
+    return all;
+  }
+  if (part.back() == ',') part.pop_back();
+  Orders orders;
+  for (std::size_t from = 0; from <= part.size();) {
+    const std::size_t end = std::min(part.find(',', from), part.size());
+    orders.push_back(parse_order(text, part.substr(from, end - from)));
+    from = end + 1;
+  }
+  return {orders};
+}
+
+struct Halves {
+  std::string before, after;
+  bool star = false, cross = false;
+};
+
+Halves split(const std::string& text) {
+  Halves halves;
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    const char c = text[k];
+    const bool multiplication_sign = text.compare(k, 2, "\xc3\x97") == 0;
+    if ((c >= '0' && c <= '9') || c == ',') {
+      if (halves.cross) refuse(text, "has orders after the cross; rotations stand before it");
+      (halves.star ? halves.after : halves.before) += c;
+    } else if (c == '*' && !halves.star && !halves.cross) {
+      halves.star = true;
+    } else if ((c == 'x' || c == 'X' || multiplication_sign) && !halves.star && !halves.cross) {
+      halves.cross = true;
+      if (multiplication_sign) ++k;
+    } else if (c == '*' || c == 'x' || c == 'X' || multiplication_sign) {
+      refuse(text, "has more than one star or cross, which is no spherical orbifold");
+    } else {
+      refuse(text, "is no Conway symbol: it may hold digits, commas, one '*' and one 'x'; see 'orbitutte types'");
+    }
+  }
+  if (text.empty()) throw ArgumentError("the signature is empty; see 'orbitutte types'");
+  return halves;
+}
+
+std::vector<ConwaySymbol> all_readings(const std::string& text) {
+  const Halves halves = split(text);
+  std::vector<ConwaySymbol> result;
+  for (const Orders& before : read_orders(text, halves.before)) {
+    for (const Orders& after : read_orders(text, halves.after)) result.push_back({before, after, halves.star, halves.cross});
+  }
+  if (result.empty()) refuse(text, "has an order of 0; orders are 2 or more");
+  return result;
+}
+
+bool is_bad(const ConwaySymbol& symbol) {
+  const Orders& orders = symbol.star ? symbol.corners : symbol.rotations;
+  if (symbol.cross || (symbol.star && !symbol.rotations.empty())) return false;
+  return orders.size() == 1 || (orders.size() == 2 && orders[0] != orders[1]);
+}
+
+std::string commas(const ConwaySymbol& symbol) {
+  const auto list = [](const Orders& orders) {
+    return fmt::format("{}{}", fmt::join(orders, ","), orders.size() == 1 && orders[0] >= 10 ? "," : "");
+  };
+  return list(symbol.rotations) + (symbol.star ? "*" : "") + list(symbol.corners) + (symbol.cross ? "x" : "");
+}
+
+// The families of spherical orbifolds that the table does not hold yet, in the notation of Conway's list.
+bool is_mixed_spherical(const ConwaySymbol& symbol) {
+  return (symbol.star || symbol.cross) && !is_bad(symbol) && euler_characteristic(symbol).numerator > 0;
+}
+
+// Why a reading cannot be embedded; empty where it can.
+std::string objection(const ConwaySymbol& symbol) {
+  if (find_family(symbol)) return {};
+  if (trivial_order(symbol)) return "has an order of 1, which marks nothing; orders are 2 or more";
+  if (symbol.rotations.empty() && symbol.corners.empty() && !symbol.cross)
+    return "marks no vertex; the families embedded have two or three (see 'orbitutte types')";
+  if (is_bad(symbol))
+    return "is not an orbifold of the sphere: one order alone, or two different ones, close up no tiling (a teardrop or spindle)";
+  const long long chi = euler_characteristic(symbol).numerator;
+  if (chi == 0) return "is a Euclidean orbifold: its tiles fill the plane, not the sphere";
+  if (chi < 0) return "is a hyperbolic orbifold: its tiles fill the hyperbolic plane, not the sphere";
+  return "is a spherical orbifold of a family that is not embedded yet; see 'orbitutte types' for those that are";
+}
+
+// The reading by the rule of the notation: one character per order, unless a half is a single number that can be read in no
+// other way ("2*12", "12*").
+const ConwaySymbol& choose(const std::string& text, const std::vector<ConwaySymbol>& all) {
+  const auto embeds = [](const ConwaySymbol& s) { return find_family(s) || is_mixed_spherical(s); };
+  if (text.find(',') != std::string::npos && all.size() == 1) return all.front();
+  const ConwaySymbol& digits = all.front();  // the readings begin with the one of single digits
+  if (embeds(digits)) return digits;
+  std::vector<const ConwaySymbol*> others;
+  for (std::size_t k = 1; k < all.size(); ++k)
+    if (embeds(all[k])) others.push_back(&all[k]);
+  if (others.empty()) return digits;
+  const bool lone = others.size() == 1 && others[0]->rotations.size() <= 1 && others[0]->corners.size() <= 1;
+  if (lone && (trivial_order(digits) || text.find('0') != std::string::npos)) return *others[0];
+  std::string named;
+  for (const ConwaySymbol* other : others) named += (named.empty() ? "" : " or as ") + commas(*other);
+  refuse(text, fmt::format("could be read as {} or as {}; separate the orders by commas, as in '{}'", commas(digits), named,
+                           commas(*others[0])));
+}
+
+std::vector<Mark> marks_of(const ConwaySymbol& symbol) {
+  std::vector<Mark> marks;
+  for (const int n : symbol.rotations) marks.push_back({n, ConeKind::rotation});
+  for (const int m : symbol.corners) marks.push_back({m, ConeKind::corner});
+  return marks;
+}
+
+}  // namespace
+
+std::string ConwaySymbol::text() const {
+  return join(rotations) + (star ? "*" : "") + join(corners) + (cross ? "x" : "");
+}
+
+Orbifold parse_orbifold(const std::string& signature) {
+  const ConwaySymbol symbol = choose(signature, all_readings(signature));
+  if (const std::string reason = objection(symbol); !reason.empty()) refuse(signature, reason);
+  const Fraction chi = euler_characteristic(symbol);
+  Orbifold orbifold;
+  orbifold.signature = symbol.text();
+  orbifold.symbol = symbol;
+  orbifold.group_order = static_cast<int>(2 * chi.denominator / chi.numerator);
+  orbifold.topology = find_family(symbol)->topology;
+  orbifold.marks = marks_of(symbol);
+  return orbifold;
+}
+
+std::vector<FamilyDescription> families() {
+  std::vector<FamilyDescription> result;
+  for (const Family& family : family_table())
+    result.push_back({family.name, family.group_order, family.topology, family.marked_points});
+  return result;
+}
+
+}  // namespace orbitutte

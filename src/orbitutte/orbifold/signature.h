@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// Conway's symbols of the spherical orbifolds S^2/G, and what each family asks of a mesh.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "orbitutte/orbifold/embedding.h"
+#include "orbitutte/types.h"
+
+namespace orbitutte {
+
+/// A Conway symbol, read: rotation orders before the first star or cross, corner orders after the star.
+struct ConwaySymbol {
+  std::vector<int> rotations;
+  std::vector<int> corners;
+  bool star = false;
+  bool cross = false;
+
+  /// One character per order while each is a single digit, commas otherwise; `x` for the cross.
+  std::string text() const;
+};
+
+/// A marked point of the orbifold: the angles around it add up to 2 pi/order, at a corner to pi/order.
+struct Mark {
+  int order = 1;
+  ConeKind kind = ConeKind::rotation;
+};
+
+struct Orbifold {
+  std::string signature;    ///< canonical text, the orders in the arrangement that was given
+  ConwaySymbol symbol;
+  int group_order = 1;      ///< |G|
+  Topology topology = Topology::sphere;  ///< what the mesh has to be
+  std::vector<Mark> marks;  ///< in the order in which vertices are marked
+};
+
+/// Reads a symbol and finds its family. Orders may come in any arrangement.
+/// Throws ArgumentError, in one sentence: what is no symbol; what could be read in two ways (both are named); orders that make
+/// a Euclidean or hyperbolic orbifold or none at all (teardrops, spindles, order one); families that are not embedded yet.
+Orbifold parse_orbifold(const std::string& signature);
+
+/// A row of `orbitutte types`.
+struct FamilyDescription {
+  std::string family;       ///< "532", "22N", "*NN", ...
+  std::string group_order;  ///< "60", "2N", ...
+  Topology topology;
+  std::string marked_points;
+};
+
+/// All families that can be embedded.
+std::vector<FamilyDescription> families();
+
+}  // namespace orbitutte

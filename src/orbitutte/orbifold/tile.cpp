@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/orbifold/tile.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "orbitutte/orbifold/families.h"
+
+namespace orbitutte {
+
+Vector3 TileSide::point(double s) const { return std::cos(s) * start + std::sin(s) * direction; }
+
+Vector3 Tile::centroid() const {
+  Vector3 sum = Vector3::Zero();
+  for (const TileSide& side : sides) sum += 0.5 * side.length * side.pole();
+  return sum.normalized();
+}
+
+Tile basic_tile(const Orbifold& orbifold, const std::vector<int>& arrangement) {
+  std::vector<int> orders;
+  for (const int mark : arrangement) {
+    if (mark < 0 || mark >= static_cast<int>(orbifold.marks.size()) ||
+        std::count(arrangement.begin(), arrangement.end(), mark) != 1)
+      throw ArgumentError("the arrangement of the marks is no permutation of them");
+    orders.push_back(orbifold.marks[mark].order);
+  }
+  if (arrangement.size() != orbifold.marks.size()) throw ArgumentError("the arrangement leaves marks out");
+  return find_family(orbifold.symbol)->tile(orders, arrangement);
+}
+
+bool free_rotation_axis(const Tile& tile, Vector3& axis) {
+  axis = tile.sides.front().start;
+  return std::all_of(tile.sides.begin(), tile.sides.end(), [&](const TileSide& side) {
+    return side.partner != -1 && (side.transform * axis - axis).norm() < 1e-12 && side.transform.determinant() > 0 &&
+           std::abs(std::abs(side.start.dot(axis)) - 1) < 1e-12;
+  });
+}
+
+}  // namespace orbitutte

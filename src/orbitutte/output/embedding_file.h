@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// The embedding as a file: a binary PLY of the cut mesh on the unit sphere.
+#pragma once
+
+#include <string>
+
+#include "orbitutte/orbifold/embedding.h"
+
+namespace orbitutte {
+
+/// The bytes of the PLY: vertices with double x, y, z and int source_vertex; faces as lists vertex_indices.
+std::string serialize_embedding(const Embedding& embedding);
+
+/// Positions, faces and source vertices of such a file; what the report holds (signature, group order, seams, cones) stays
+/// empty. Throws FileError, and MeshError naming what is missing or out of range.
+Embedding read_embedding(const std::string& path);
+
+}  // namespace orbitutte

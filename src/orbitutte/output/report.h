@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// The report: everything about an embedding that is no position, as JSON (docs/file-formats.md).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "orbitutte/embed.h"
+
+namespace orbitutte {
+
+/// What the library cannot know of a run.
+struct RunRecord {
+  std::string mesh_path;
+  std::string input_sha256;  ///< hexadecimal
+  double read_seconds = 0;
+  double write_seconds = 0;
+  double total_seconds = 0;
+  long long peak_memory_bytes = 0;
+};
+
+/// The report of an embedding, schema orbitutte.report/1; ends with a line break.
+std::string report_json(const EmbedResult& result, const RunRecord& run);
+
+/// What a report says that can be checked against the files that it speaks of.
+struct Report {
+  std::string signature;
+  int group_order = 0;
+  std::vector<Seam> seams;
+  std::vector<ConeCopies> cones;
+  WeightOptions weights;
+  double energy = 0;
+  bool converged = false;
+  bool bijective = false;
+  std::vector<int> nonpositive_faces;
+};
+
+/// Reads a report. Throws FileError, and MeshError naming the key that is missing or of the wrong type.
+Report read_report(const std::string& path);
+
+/// An embedding from its two files. Throws as read_embedding and read_report do, and MeshError where a vertex of the report
+/// is not in the embedding.
+Embedding read_embedding(const std::string& ply_path, const Report& report);
+
+/// The SHA-256 digest of bytes, hexadecimal.
+std::string sha256(std::string_view bytes);
+
+}  // namespace orbitutte

@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: MIT
+// Why this is a proof: seams with orthogonal transforms glue |G| copies of the cut disk to a closed surface with a map to the sphere.
+// Positive triangles with edges shorter than pi make the map a local homeomorphism away from the vertices, and by the
+// area, |G| times 4 pi/|G|, it covers the sphere once, so it is one at the vertices too.
+#include "orbitutte/verify/certificate.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <unordered_map>
+
+#include "orbitutte/mesh/connectivity.h"
+#include "orbitutte/orbifold/signature.h"
+#include "orbitutte/orbifold/symmetry_group.h"
+#include "orbitutte/verify/orientation.h"
+#include "orbitutte/verify/spherical_triangle.h"
+
+namespace orbitutte {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double unit_bound = 1e-12, seam_bound = 1e-12, angle_bound = 1e-8, area_bound = 1e-9;
+
+Check at_most(std::string name, double value, double bound) {
+  Check check = {std::move(name), value <= bound, value, bound, {}};
+  if (!check.passed) check.detail = fmt::format("{:.3g} is more than {:.3g}", value, bound);
+  return check;
+}
+
+// A check that counts offences and names the first.
+Check none(std::string name, long long offences, std::string first) {
+  return {std::move(name), offences == 0, static_cast<double>(offences), 0, offences ? std::move(first) : std::string()};
+}
+
+class Offences {
+ public:
+  template <typename... Arguments>
+  void add(fmt::format_string<Arguments...> text, Arguments&&... arguments) {
+    if (count_++ == 0) first_ = fmt::format(text, std::forward<Arguments>(arguments)...);
+  }
+  bool any() const { return count_ > 0; }
+  Check check(std::string name) const { return none(std::move(name), count_, first_); }
+
+ private:
+  long long count_ = 0;
+  std::string first_;
+};
+
+// The faces of the cut mesh are the input's, on copies of its vertices, the first n of which are the input vertices.
+Check cut_mesh_check(const Mesh& mesh, const Embedding& embedding) {
+  Offences offences;
+  const int n = static_cast<int>(mesh.V.rows()), n_cut = static_cast<int>(embedding.source_vertex.size());
+  if (embedding.positions.rows() != n_cut || n_cut < n)
+    offences.add("{} positions, {} source vertices and {} input vertices do not fit together", embedding.positions.rows(), n_cut, n);
+  if (embedding.faces.rows() != mesh.F.rows())
+    offences.add("the cut mesh has {} faces, the input {}", embedding.faces.rows(), mesh.F.rows());
+  if (offences.any()) return offences.check("cut_mesh");
+  for (int v = 0; v < n_cut; ++v) {
+    const int source = embedding.source_vertex[v];
+    if (source < 0 || source >= n || (v < n && source != v)) offences.add("cut vertex {} names the input vertex {}", v, source);
+  }
+  for (int f = 0; f < mesh.F.rows(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      const int v = embedding.faces(f, k);
+      if (v < 0 || v >= n_cut || embedding.source_vertex[v] != mesh.F(f, k))
+        offences.add("face {} is not the input's face {}, cut", f, f);
+    }
+  }
+  return offences.check("cut_mesh");
+}
+
+Check unit_check(const Points& positions) {
+  if (!positions.allFinite()) return none("unit_positions", 1, "a position is not finite");
+  const double off = positions.rows() ? (positions.rowwise().norm().array() - 1).abs().maxCoeff() : 0.0;
+  return at_most("unit_positions", off, unit_bound);
+}
+
+// The boundary half-edges of the cut mesh, each by its origin; empty, with an offence, unless the cut mesh is a disk: every
+// edge has one face, or two that run along it in opposite directions, there is one simple boundary loop, and V - E + F = 1.
+std::unordered_map<int, int> disk_boundary(const Embedding& embedding, Offences& offences) {
+  const Faces& F = embedding.faces;
+  const int n_cut = static_cast<int>(embedding.source_vertex.size());
+  const Connectivity connectivity = connect(F, n_cut);
+  std::vector<char> used(n_cut, 0), faces_of_edge(connectivity.edges.size(), 0);
+  std::unordered_map<int, int> next;
+  for (int h = 0; h < static_cast<int>(F.size()); ++h) {
+    used[origin(F, h)] = 1;
+    if (++faces_of_edge[connectivity.edge_of[h]] > 2)
+      offences.add("edge ({}, {}) of the cut mesh has more than two faces", origin(F, h), target(F, h));
+    const int other = connectivity.opposite[h];
+    if (other >= 0 && origin(F, other) == origin(F, h))
+      offences.add("two faces run along edge ({}, {}) of the cut mesh in the same direction", origin(F, h), target(F, h));
+    if (other < 0 && !next.emplace(origin(F, h), target(F, h)).second)
+      offences.add("the boundary of the cut mesh passes twice through vertex {}", origin(F, h));
+  }
+  const long long euler = std::count(used.begin(), used.end(), 1) - static_cast<long long>(connectivity.edges.size()) + F.rows();
+  if (euler != 1) offences.add("the cut mesh has Euler characteristic {}; a disk has 1", euler);
+  if (offences.any() || next.empty()) return {};
+  std::size_t steps = 0;
+  const int start = next.begin()->first;
+  for (int v = start; steps == 0 || (v != start && steps <= next.size()); ++steps) {
+    const auto at = next.find(v);
+    if (at == next.end()) break;
+    v = at->second;
+  }
+  if (steps != next.size()) offences.add("the boundary of the cut mesh is not one loop");
+  return next;
+}
+
+// Is (a, b) a boundary edge in either direction? Then counts it as covered.
+bool cover(std::unordered_map<int, int>& uncovered, int a, int b) {
+  for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)}) {
+    const auto at = uncovered.find(from);
+    if (at == uncovered.end() || at->second != to) continue;
+    uncovered.erase(at);
+    return true;
+  }
+  return false;
+}
+
+void cover_bank(const std::vector<int>& bank, std::size_t seam, std::unordered_map<int, int>& uncovered, Offences& offences) {
+  for (std::size_t k = 1; k < bank.size(); ++k) {
+    if (!cover(uncovered, bank[k - 1], bank[k]))
+      offences.add("({}, {}) of seam {} is no boundary edge of the cut mesh, or lies in two banks", bank[k - 1], bank[k], seam);
+  }
+}
+
+// Every boundary edge of the cut mesh lies in exactly one bank; paired vertices are copies of one input vertex.
+Check seam_gluing_check(const Embedding& embedding) {
+  Offences offences;
+  const int n_cut = static_cast<int>(embedding.source_vertex.size());
+  std::unordered_map<int, int> uncovered = disk_boundary(embedding, offences);
+  for (std::size_t s = 0; s < embedding.seams.size() && !offences.any(); ++s) {
+    const Seam& seam = embedding.seams[s];
+    if (seam.left.size() != seam.right.size() || seam.left.size() < 2) {
+      offences.add("the banks of seam {} do not pair", s);
+      continue;
+    }
+    for (std::size_t k = 0; k < seam.left.size(); ++k) {
+      const int l = seam.left[k], r = seam.right[k];
+      if (l < 0 || r < 0 || l >= n_cut || r >= n_cut || embedding.source_vertex[l] != embedding.source_vertex[r])
+        offences.add("seam {} pairs the cut vertices {} and {}, which are no copies of one input vertex", s, l, r);
+    }
+    if (offences.any()) continue;
+    cover_bank(seam.left, s, uncovered, offences);
+    if (seam.left != seam.right) cover_bank(seam.right, s, uncovered, offences);
+  }
+  if (!uncovered.empty()) {
+    const auto first = *std::min_element(uncovered.begin(), uncovered.end());
+    offences.add("the boundary edge ({}, {}) of the cut mesh lies in no seam", first.first, first.second);
+  }
+  return offences.check("seam_gluing");
+}
+
+// Orthogonal transforms whose determinant is that of their kind.
+Check transform_check(const std::vector<Seam>& seams) {
+  Offences offences;
+  for (std::size_t s = 0; s < seams.size(); ++s) {
+    const Matrix3& M = seams[s].transform;
+    const bool orthogonal = M.allFinite() && (M * M.transpose() - Matrix3::Identity()).cwiseAbs().maxCoeff() < unit_bound;
+    if (!orthogonal) {
+      offences.add("the transform of seam {} is not orthogonal", s);
+    } else if (seams[s].left == seams[s].right && (M.determinant() > 0 || std::abs(M.trace() - 1) > unit_bound)) {
+      offences.add("seam {} is glued to itself by what is no reflection", s);
+    }
+  }
+  return offences.check("seam_transforms");
+}
+
+double max_seam_residual(const Embedding& embedding) {
+  double residual = 0;
+  for (const Seam& seam : embedding.seams) {
+    for (std::size_t k = 0; k < seam.left.size(); ++k) {
+      const Vector3 left = embedding.positions.row(seam.left[k]), right = embedding.positions.row(seam.right[k]);
+      residual = std::max(residual, (left - seam.transform * right).cwiseAbs().maxCoeff());
+    }
+  }
+  return residual;
+}
+
+// The marks are those of the signature, in its order, and name all copies of their vertices.
+Check cone_check(const Embedding& embedding) {
+  Offences offences;
+  try {
+    const Orbifold orbifold = parse_orbifold(embedding.signature);
+    if (orbifold.marks.size() != embedding.cones.size())
+      offences.add("{} marks {} vertices, not {}", embedding.signature, orbifold.marks.size(), embedding.cones.size());
+    for (std::size_t k = 0; !offences.any() && k < orbifold.marks.size(); ++k) {
+      const ConeCopies& cone = embedding.cones[k];
+      if (cone.order != orbifold.marks[k].order || cone.kind != orbifold.marks[k].kind)
+        offences.add("vertex {} is a {} of order {}, which {} does not ask for there", cone.vertex, name(cone.kind), cone.order,
+                     embedding.signature);
+    }
+  } catch (const ArgumentError& error) {
+    offences.add("{}", error.what());
+  }
+  for (const ConeCopies& cone : embedding.cones) {
+    std::vector<int> copies;
+    for (int v = 0; v < static_cast<int>(embedding.source_vertex.size()); ++v)
+      if (embedding.source_vertex[v] == cone.vertex) copies.push_back(v);
+    std::vector<int> named = cone.copies;
+    std::sort(named.begin(), named.end());
+    if (copies.empty() || copies != named) offences.add("the copies named for the cone {} are not all there are", cone.vertex);
+  }
+  return offences.check("cones");
+}
+
+// The largest difference between an angle sum and 2 pi/order (rotation) or pi/order (corner).
+Check angle_check(const Embedding& embedding) {
+  std::unordered_map<int, std::size_t> cone_of;
+  for (std::size_t k = 0; k < embedding.cones.size(); ++k)
+    for (const int v : embedding.cones[k].copies) cone_of[v] = k;
+  std::vector<double> angle(embedding.cones.size(), 0.0);
+  const Faces& F = embedding.faces;
+  for (int h = 0; h < static_cast<int>(F.size()); ++h) {
+    const auto at = cone_of.find(origin(F, h));
+    if (at == cone_of.end()) continue;
+    const Points& X = embedding.positions;
+    angle[at->second] += angle_at(X.row(origin(F, h)), X.row(target(F, h)), X.row(origin(F, previous_halfedge(h))));
+  }
+  double worst = 0;
+  for (std::size_t k = 0; k < embedding.cones.size(); ++k) {
+    const ConeCopies& cone = embedding.cones[k];
+    if (cone.kind == ConeKind::fixed) continue;
+    const double expected = (cone.kind == ConeKind::rotation ? 2 : 1) * pi / cone.order;
+    worst = std::max(worst, std::abs(angle[k] - expected));
+  }
+  return at_most("cone_angles", worst, angle_bound);
+}
+
+Check group_check(const Embedding& embedding) {
+  const std::string name = "group_order";
+  const double expected = embedding.group_order;
+  try {
+    const int of_signature = parse_orbifold(embedding.signature).group_order;
+    if (of_signature != embedding.group_order)
+      return {name, false, expected, static_cast<double>(of_signature),
+              fmt::format("{} has a group of order {}, not {}", embedding.signature, of_signature, embedding.group_order)};
+    std::vector<Matrix3> generators;
+    for (const Seam& seam : embedding.seams) generators.push_back(seam.transform);
+    const int generated = SymmetryGroup(generators, embedding.group_order).order();
+    const std::string detail = generated == embedding.group_order
+                                   ? std::string()
+                                   : fmt::format("the seams generate a group of order {}", generated);
+    return {name, detail.empty(), static_cast<double>(generated), expected, detail};
+  } catch (const ArgumentError& error) {
+    return {name, false, 0, expected, error.what()};
+  }
+}
+
+Check orientation_check(const Embedding& embedding, std::vector<int>& nonpositive) {
+  const Points& X = embedding.positions;
+  for (int f = 0; f < embedding.faces.rows(); ++f) {
+    const auto v = embedding.faces.row(f);
+    if (orientation_sign(X.row(v[0]), X.row(v[1]), X.row(v[2])) <= 0) nonpositive.push_back(f);
+  }
+  const std::string first =
+      nonpositive.empty() ? std::string() : fmt::format("face {} is not positively oriented", nonpositive.front());
+  return none("positive_faces", static_cast<long long>(nonpositive.size()), first);
+}
+
+Check edge_length_check(const Embedding& embedding, double& longest) {
+  const Points& X = embedding.positions;
+  double widest_chord = 0;
+  for (int h = 0; h < static_cast<int>(embedding.faces.size()); ++h) {
+    const auto p = X.row(origin(embedding.faces, h)), q = X.row(target(embedding.faces, h));
+    const double chord = (p - q).squaredNorm();
+    if (chord <= widest_chord) continue;
+    widest_chord = chord;
+    longest = arc_length(p, q);
+  }
+  Check check = {"edge_lengths", longest < pi, longest, pi, {}};
+  if (!check.passed) check.detail = "an edge is not shorter than pi";
+  return check;
+}
+
+Check area_check(const Embedding& embedding, Certificate& certificate) {
+  const Points& X = embedding.positions;
+  for (int f = 0; f < embedding.faces.rows(); ++f) {
+    const auto v = embedding.faces.row(f);
+    certificate.signed_area += signed_area(X.row(v[0]), X.row(v[1]), X.row(v[2]));
+  }
+  Check check = at_most("signed_area", std::abs(certificate.signed_area - certificate.expected_area), area_bound);
+  if (!check.passed)
+    check.detail = fmt::format("the area is {:.12g}, not {:.12g}", certificate.signed_area, certificate.expected_area);
+  return check;
+}
+
+bool all_passed(const std::vector<Check>& checks) {
+  return std::all_of(checks.begin(), checks.end(), [](const Check& check) { return check.passed; });
+}
+
+}  // namespace
+
+Certificate certify(const Mesh& mesh, const Embedding& embedding) {
+  Certificate certificate;
+  certificate.expected_area = 4 * pi / embedding.group_order;
+  std::vector<Check>& checks = certificate.checks;
+  checks.push_back(cut_mesh_check(mesh, embedding));
+  checks.push_back(unit_check(embedding.positions));
+  if (!all_passed(checks)) return certificate;  // nothing else can be computed safely
+  checks.push_back(seam_gluing_check(embedding));
+  checks.push_back(transform_check(embedding.seams));
+  checks.push_back(cone_check(embedding));
+  if (!all_passed(checks)) return certificate;
+  checks.push_back(group_check(embedding));
+  certificate.max_seam_residual = max_seam_residual(embedding);
+  checks.push_back(at_most("seam_residual", certificate.max_seam_residual, seam_bound));
+  checks.push_back(orientation_check(embedding, certificate.nonpositive_faces));
+  checks.push_back(edge_length_check(embedding, certificate.max_edge_length));
+  checks.push_back(angle_check(embedding));
+  checks.push_back(area_check(embedding, certificate));
+  certificate.bijective = all_passed(checks);
+  return certificate;
+}
+
+}  // namespace orbitutte

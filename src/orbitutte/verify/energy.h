@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// The energy of an embedding, computed again from its files.
+#pragma once
+
+#include "orbitutte/mesh/weights.h"
+#include "orbitutte/orbifold/embedding.h"
+
+namespace orbitutte {
+
+/// E = sum over undirected edges of the uncut mesh of w_ij d^2, d the arc length of one of the edge's images. Equation (2).
+/// The embedding's faces must be those of the mesh, cut (see certify).
+double dirichlet_energy(const Connectivity& connectivity, const EdgeWeights& weights, const Embedding& embedding);
+
+}  // namespace orbitutte

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "../fuzz/round_trip.h"
+#include "orbitutte/mesh/file.h"
+
+namespace orbitutte {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> corpus(const std::string& format) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(fs::path(ORBITUTTE_SOURCE_DIR) / "fuzz/corpus" / format)) {
+    files.push_back(entry.path());
+  }
+  return files;
+}
+
+class FuzzCorpus : public testing::TestWithParam<std::pair<std::string, MeshFormat>> {};
+
+TEST_P(FuzzCorpus, IsReadAndComesBackOrIsRefusedInOneSentence) {
+  const auto& [name, format] = GetParam();
+  const std::vector<fs::path> files = corpus(name);
+  EXPECT_FALSE(files.empty());
+  for (const fs::path& file : files) {
+    EXPECT_NO_THROW(fuzz::check_round_trip(read_file(file.string()), format)) << file;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, FuzzCorpus,
+                         testing::Values(std::pair{"obj", MeshFormat::obj}, std::pair{"off", MeshFormat::off},
+                                         std::pair{"ply", MeshFormat::ply},
+                                         std::pair{"stl", MeshFormat::stl}),
+                         [](const auto& info) { return info.param.first; });
+
+}  // namespace
+}  // namespace orbitutte
