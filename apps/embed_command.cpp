@@ -23,7 +23,9 @@ enum ExitCode { certified = 0, not_converged = 4, not_certified = 5 };
 
 class Stopwatch {
  public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
 
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
@@ -46,8 +48,8 @@ class ProgressLine {
   void show(const Progress& progress) const {
     if (!shown_) return;
     if (progress.stage == "optimize" && progress.energy > 0) {
-      fmt::print(stderr, "\r\033[Koptimize: iteration {}, energy {:.9g}, gradient {:.1e}", progress.iteration, progress.energy,
-                 progress.gradient_norm);
+      fmt::print(stderr, "\r\033[Koptimize: iteration {}, energy {:.9g}, gradient {:.1e}", progress.iteration,
+                 progress.energy, progress.gradient_norm);
     } else {
       fmt::print(stderr, "\r\033[K{} ...", progress.stage);
     }
@@ -69,7 +71,8 @@ std::vector<int> parse_cones(const std::string& text) {
     int vertex = 0;
     const auto [stop, error] = std::from_chars(text.data() + from, text.data() + end, vertex);
     if (error != std::errc() || stop != text.data() + end)
-      throw ArgumentError(fmt::format("--cones is '{}'; give vertices separated by commas, as in 12,40,7, or 'auto'", text));
+      throw ArgumentError(
+          fmt::format("--cones is '{}'; give vertices separated by commas, as in 12,40,7, or 'auto'", text));
     cones.push_back(vertex);
     from = end + 1;
   }
@@ -112,13 +115,14 @@ void summarize(const EmbedArguments& arguments, const EmbedResult& result) {
   const Minimum& minimum = result.minimum;
   std::vector<int> cones;
   for (const ConeCopies& cone : result.embedding.cones) cones.push_back(cone.vertex);
-  fmt::print(stderr, "{}: {} vertices, {} triangles, a {}, onto {} (group of order {}), cones {}\n", arguments.mesh,
-             minimum.positions.rows(), result.embedding.faces.rows(), name(result.topology), result.embedding.signature,
-             result.embedding.group_order, fmt::join(cones, ","));
-  fmt::print(stderr, "energy {:.12g} after {} iterations, gradient {:.1e}: {}\n", minimum.energy, minimum.iterations,
-             minimum.gradient_norm, name(minimum.termination));
+  fmt::print(stderr, "{}: {} vertices, {} triangles, a {}, onto {} (group of order {}), cones {}\n",
+             arguments.mesh, minimum.positions.rows(), result.embedding.faces.rows(), name(result.topology),
+             result.embedding.signature, result.embedding.group_order, fmt::join(cones, ","));
+  fmt::print(stderr, "energy {:.12g} after {} iterations, gradient {:.1e}: {}\n", minimum.energy,
+             minimum.iterations, minimum.gradient_norm, name(minimum.termination));
   fmt::print(stderr, "area distortion: mean {:.4g}, max {:.4g}; angle distortion: mean {:.4g}, max {:.4g}\n",
-             result.distortion.area.mean, result.distortion.area.max, result.distortion.angle.mean, result.distortion.angle.max);
+             result.distortion.area.mean, result.distortion.area.max, result.distortion.angle.mean,
+             result.distortion.angle.max);
   if (result.certificate.bijective) {
     fmt::print(stderr, "certified: bijective\n");
     return;

@@ -27,13 +27,16 @@ Check claim(std::string name, bool holds, std::string detail) {
 }
 
 // E as the report says, from the mesh and the positions. Weights from a file are not among the three files.
-void check_energy(const Mesh& mesh, const Embedding& embedding, const Report& report, std::vector<Check>& checks) {
+void check_energy(const Mesh& mesh, const Embedding& embedding, const Report& report,
+                  std::vector<Check>& checks) {
   if (report.weights.kind == WeightKind::file) return;
   const Connectivity connectivity = connect(mesh.F, static_cast<int>(mesh.V.rows()));
-  const double energy = dirichlet_energy(connectivity, edge_weights(mesh, connectivity, report.weights), embedding);
+  const double energy =
+      dirichlet_energy(connectivity, edge_weights(mesh, connectivity, report.weights), embedding);
   const double difference = std::abs(energy - report.energy);
   Check check = {"energy", difference <= 1e-9 * std::abs(energy), difference, 1e-9 * std::abs(energy), {}};
-  if (!check.passed) check.detail = fmt::format("the energy is {:.12g}, the report says {:.12g}", energy, report.energy);
+  if (!check.passed)
+    check.detail = fmt::format("the energy is {:.12g}, the report says {:.12g}", energy, report.energy);
   checks.push_back(check);
 }
 
@@ -41,15 +44,18 @@ std::vector<Check> check_claims(const Certificate& certificate, const Report& re
   return {claim("report_bijective", report.bijective == (certificate.bijective && report.converged),
                 fmt::format("the report says bijective = {}", report.bijective)),
           claim("report_nonpositive_faces", report.nonpositive_faces == certificate.nonpositive_faces,
-                fmt::format("the report names {} nonpositive faces, there are {}", report.nonpositive_faces.size(),
-                            certificate.nonpositive_faces.size()))};
+                fmt::format("the report names {} nonpositive faces, there are {}",
+                            report.nonpositive_faces.size(), certificate.nonpositive_faces.size()))};
 }
 
 void print_checks(const std::vector<Check>& checks, bool bijective, bool json) {
   if (json) {
     Json rows = Json::array();
     for (const Check& check : checks)
-      rows.push_back({{"name", check.name}, {"passed", check.passed}, {"value", check.value}, {"bound", check.bound},
+      rows.push_back({{"name", check.name},
+                      {"passed", check.passed},
+                      {"value", check.value},
+                      {"bound", check.bound},
                       {"detail", check.detail}});
     fmt::print("{}\n", Json({{"bijective", bijective}, {"checks", rows}}).dump(1));
     return;
@@ -83,8 +89,8 @@ int verify_command(const VerifyArguments& arguments) {
 int tile_command(const TileArguments& arguments) {
   const Tiling tiling = tile_sphere(read_embedding(arguments.embedding, read_report(arguments.report)));
   write_tiling(arguments.output, tiling);
-  fmt::print(stderr, "{}: {} tiles, {} vertices, {} triangles\n", arguments.output, tiling.tiles, tiling.mesh.V.rows(),
-             tiling.mesh.F.rows());
+  fmt::print(stderr, "{}: {} tiles, {} vertices, {} triangles\n", arguments.output, tiling.tiles,
+             tiling.mesh.V.rows(), tiling.mesh.F.rows());
   return accepted;
 }
 
@@ -103,8 +109,8 @@ int sample_command(const SampleArguments& arguments) {
 std::string version_text() {
   const Backend backend = available_backends().front();
   const bool gpl = backend == Backend::cholmod;
-  return fmt::format("orbitutte {} ({})\nlinear algebra: {}, BLAS: {}\nlicence: {}", version, commit, name(backend),
-                     blas_description(backend),
+  return fmt::format("orbitutte {} ({})\nlinear algebra: {}, BLAS: {}\nlicence: {}", version, commit,
+                     name(backend), blas_description(backend),
                      gpl ? "sources MIT; this binary GPL-2.0-or-later through CHOLMOD's supernodal module"
                          : "MIT (with Eigen, MPL-2.0)");
 }

@@ -28,7 +28,8 @@ double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
 Json to_json(const std::string& path, const Inspection& inspection) {
   Json loops = Json::array(), defects = Json::array();
-  for (const std::vector<int>& loop : inspection.boundary) loops.push_back({{"vertices", loop.size()}, {"first", loop.front()}});
+  for (const std::vector<int>& loop : inspection.boundary)
+    loops.push_back({{"vertices", loop.size()}, {"first", loop.front()}});
   for (const Defect& defect : inspection.defects)
     defects.push_back({{"kind", name(defect.kind)}, {"count", defect.count}, {"message", defect.message}});
   return {{"path", path},
@@ -58,16 +59,19 @@ Json to_json(const std::string& path, const Inspection& inspection) {
 
 void print_text(const std::string& path, const Inspection& inspection) {
   fmt::print("{}: {}\n", path, inspection.defects.empty() ? name(inspection.topology) : "defective");
-  fmt::print("  vertices {} ({} in no face), edges {}, faces {} ({} triangles, up to {} corners)\n", inspection.vertices,
-             inspection.unreferenced_vertices, inspection.edges, inspection.faces, inspection.triangles,
-             inspection.max_face_degree);
-  fmt::print("  components {}, Euler characteristic {}, genus {}, boundary curves {}\n", inspection.components,
-             inspection.euler_characteristic, inspection.genus, inspection.boundary.size());
+  fmt::print("  vertices {} ({} in no face), edges {}, faces {} ({} triangles, up to {} corners)\n",
+             inspection.vertices, inspection.unreferenced_vertices, inspection.edges, inspection.faces,
+             inspection.triangles, inspection.max_face_degree);
+  fmt::print("  components {}, Euler characteristic {}, genus {}, boundary curves {}\n",
+             inspection.components, inspection.euler_characteristic, inspection.genus,
+             inspection.boundary.size());
   for (const std::vector<int>& loop : inspection.boundary)
     fmt::print("    boundary of {} edges through vertex {}\n", loop.size(), loop.front());
-  fmt::print("  angles {:.3g} to {:.3g} degrees, edges {:.4g} to {:.4g}, zero-area faces {}\n", degrees(inspection.min_angle),
-             degrees(inspection.max_angle), inspection.min_edge_length, inspection.max_edge_length, inspection.zero_area_faces);
-  fmt::print("  cotangent weights: {} negative, {} zero\n", inspection.negative_cotangent_edges, inspection.zero_cotangent_edges);
+  fmt::print("  angles {:.3g} to {:.3g} degrees, edges {:.4g} to {:.4g}, zero-area faces {}\n",
+             degrees(inspection.min_angle), degrees(inspection.max_angle), inspection.min_edge_length,
+             inspection.max_edge_length, inspection.zero_area_faces);
+  fmt::print("  cotangent weights: {} negative, {} zero\n", inspection.negative_cotangent_edges,
+             inspection.zero_cotangent_edges);
   for (const Defect& defect : inspection.defects) fmt::print("  defect: {}\n", defect.message);
   if (const std::vector<std::string> into = targets(inspection); !into.empty()) {
     fmt::print("  embeds into {}\n", fmt::join(into, ", "));
@@ -94,7 +98,8 @@ int types_command(bool json) {
   if (!json) {
     fmt::print("{:<8} {:>11}  {:<8} {}\n", "family", "group order", "input", "marked points");
     for (const FamilyDescription& family : families())
-      fmt::print("{:<8} {:>11}  {:<8} {}\n", family.family, family.group_order, name(family.topology), family.marked_points);
+      fmt::print("{:<8} {:>11}  {:<8} {}\n", family.family, family.group_order, name(family.topology),
+                 family.marked_points);
     fmt::print("N is any order of 2 or more. Orders of two digits are separated by commas: 2,2,12.\n");
     return 0;
   }

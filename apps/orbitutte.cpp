@@ -35,20 +35,28 @@ int run(const Command& command) {
 }
 
 void add_embed(CLI::App& app, int& code) {
-  auto* command = app.add_subcommand("embed", "Embed a mesh into a spherical orbifold and certify the result");
+  auto* command =
+      app.add_subcommand("embed", "Embed a mesh into a spherical orbifold and certify the result");
   auto arguments = std::make_shared<EmbedArguments>();
   command->add_option("mesh", arguments->mesh, "The mesh: OBJ, OFF, PLY or STL")->required();
-  command->add_option("--orbifold", arguments->orbifold, "Conway's symbol, e.g. 432, *532, 2,2,12")->required();
-  command->add_option("--cones", arguments->cones, "The marked vertices, 0-based, in the order of the symbol, or 'auto'")
+  command->add_option("--orbifold", arguments->orbifold, "Conway's symbol, e.g. 432, *532, 2,2,12")
+      ->required();
+  command
+      ->add_option("--cones", arguments->cones,
+                   "The marked vertices, 0-based, in the order of the symbol, or 'auto'")
       ->required();
   command->add_option("-o,--output", arguments->output, "Write the embedding (binary PLY) here");
   command->add_option("--report", arguments->report, "Write the report (JSON) here");
   command->add_option("--weights", arguments->weights, "cotan or uniform")->capture_default_str();
-  command->add_option("--clamp", arguments->clamp, "What cotangent weights that are not positive become")->capture_default_str();
+  command->add_option("--clamp", arguments->clamp, "What cotangent weights that are not positive become")
+      ->capture_default_str();
   command->add_option("--weights-file", arguments->weights_file, "Lines 'i j w', every edge once");
-  command->add_option("--cut-seed", arguments->cut_seed, "Another cut through the same cones")->capture_default_str();
-  command->add_option("--tolerance", arguments->tolerance, "On the gradient and on the last step")->capture_default_str();
-  command->add_option("--max-iterations", arguments->max_iterations, "Then give up with exit code 4")->capture_default_str();
+  command->add_option("--cut-seed", arguments->cut_seed, "Another cut through the same cones")
+      ->capture_default_str();
+  command->add_option("--tolerance", arguments->tolerance, "On the gradient and on the last step")
+      ->capture_default_str();
+  command->add_option("--max-iterations", arguments->max_iterations, "Then give up with exit code 4")
+      ->capture_default_str();
   command->add_option("--threads", arguments->threads, "0: all cores")->capture_default_str();
   command->add_flag("--quiet", arguments->quiet, "No progress and no summary");
   command->add_flag("--json", arguments->json, "The report on standard output");
@@ -56,7 +64,8 @@ void add_embed(CLI::App& app, int& code) {
 }
 
 void add_info(CLI::App& app, int& code) {
-  auto* command = app.add_subcommand("info", "Topology, quality, every defect found, and what the mesh can be embedded into");
+  auto* command = app.add_subcommand(
+      "info", "Topology, quality, every defect found, and what the mesh can be embedded into");
   auto arguments = std::make_shared<InfoArguments>();
   command->add_option("mesh", arguments->mesh, "The mesh: OBJ, OFF, PLY or STL")->required();
   command->add_flag("--json", arguments->json, "As JSON");
@@ -93,7 +102,8 @@ void add_sample(CLI::App& app, int& code) {
   auto* command = app.add_subcommand("sample", "Generate a mesh to try things on");
   auto arguments = std::make_shared<SampleArguments>();
   command->add_option("-o,--output", arguments->output, "The mesh: .obj, .off, .ply or .stl")->required();
-  command->add_option("--shape", arguments->shape, "figure (a sphere with limbs) or mask (a disk)")->capture_default_str();
+  command->add_option("--shape", arguments->shape, "figure (a sphere with limbs) or mask (a disk)")
+      ->capture_default_str();
   command->add_option("--faces", arguments->faces, "About so many triangles")->capture_default_str();
   command->callback([arguments, &code] { code = run([&] { return sample_command(*arguments); }); });
 }

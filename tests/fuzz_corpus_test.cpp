@@ -37,7 +37,7 @@ INSTANTIATE_TEST_SUITE_P(Formats, FuzzCorpus,
                          testing::Values(std::pair{"obj", MeshFormat::obj}, std::pair{"off", MeshFormat::off},
                                          std::pair{"ply", MeshFormat::ply},
                                          std::pair{"stl", MeshFormat::stl}),
-                         [](const auto& info) { return info.param.first; });
+                         [](const auto& test) { return test.param.first; });
 
 }  // namespace
 }  // namespace orbitutte

@@ -181,6 +181,9 @@ TEST_P(PlyRefusal, NamesTheLineOrByteAndTheElement) {
 }
 
 const std::string mend = "; mend the file or export it again";
+const std::string too_much =
+    ", more than the rest of the file can hold, so that the file is cut short or its header wrong; export it "
+    "again";
 const std::string point = "element vertex 1\nproperty float x\nproperty float y\n";
 const std::string triangle = "element face 1\nproperty list uchar int vertex_indices\n";
 
@@ -218,34 +221,25 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"ListLengthAsFloat",
                 header("ascii", "element face 1\nproperty list float int vertex_indices\n"),
                 "line 4: the length of a list has a type that is no integer" + mend}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& test) { return test.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(
     Promise, PlyRefusal,
     testing::Values(
-        Refusal{
-            "OfBinary", header(native_format, "element vertex 3000000000\nproperty float x\n") + native(0.f),
-            "the header promises 3000000000 times the element 'vertex', each at least 4 bytes long, but only "
-            "4 "
-            "bytes are left for them, so that the file is cut short or its header wrong; export it again"},
+        Refusal{"OfBinary",
+                header(native_format, "element vertex 3000000000\nproperty float x\n") + native(0.f),
+                "the header promises 3000000000 elements 'vertex'" + too_much},
         Refusal{
             "ThatOverflows",
             header(native_format, "element vertex 18446744073709551615\nproperty double x\n") + native(0.0),
-            "the header promises 18446744073709551615 times the element 'vertex', each at least 8 bytes "
-            "long, but "
-            "only 8 bytes are left for them, so that the file is cut short or its header wrong; export it "
-            "again"},
+            "the header promises 18446744073709551615 elements 'vertex'" + too_much},
         Refusal{"OfLists",
                 header(native_format, point + "element face 9\nproperty list ushort int vertex_indices\n") +
                     std::string(16, '\0'),
-                "the header promises 9 times the element 'face', each at least 2 bytes long, but only 8 "
-                "bytes are left "
-                "for them, so that the file is cut short or its header wrong; export it again"},
+                "the header promises 9 elements 'face'" + too_much},
         Refusal{"OfAscii", header("ascii", "element vertex 4\nproperty float x\n") + "0 0 0",
-                "the header promises 4 times the element 'vertex', each at least 2 bytes long, but only 6 "
-                "bytes are "
-                "left for them, so that the file is cut short or its header wrong; export it again"}),
-    [](const auto& info) { return info.param.name; });
+                "the header promises 4 elements 'vertex'" + too_much}),
+    [](const auto& test) { return test.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(
     AsciiData, PlyRefusal,
@@ -263,32 +257,34 @@ INSTANTIATE_TEST_SUITE_P(
                 "line 6: face 0 has a list 'vertex_indices' of length -1" + mend},
         Refusal{"CutShortWithinAnElement", header("ascii", triangle) + "3 0 1\n",
                 "line 7: the text ends within face 0" + mend},
+        Refusal{"UnprintableNames", header("ascii", "element a\xB8 1\nproperty int \x01\n") + "x\n",
+                "line 6: a? 0 has the ? 'x', which is no integer" + mend},
         Refusal{"CutShortBeforeAnElement", header("ascii", point) + "  \n\n\n",
                 "line 10: the text ends before vertex 0" + mend},
         Refusal{"TooManyValues", header("ascii", point) + "0 0 0\n",
                 "line 7: '0' follows behind the last property of vertex 0" + mend},
         Refusal{"TooManyElements", header("ascii", point) + "0 0\n0 0\n",
                 "line 8: '0' follows behind the last element that the header promises" + mend}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& test) { return test.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(
     BinaryData, PlyRefusal,
     testing::Values(
         Refusal{"CutShort", header("binary_big_endian", triangle) + std::string("\3\0\0\0\0\0\0\0\1\0\0", 11),
-                "byte 104: the file ends within face 0, property 'vertex_indices'; export the file again"},
+                "byte 99: the file ends within face 0, property 'vertex_indices'; export the file again"},
         Refusal{"EndlessList",
                 header("binary_big_endian", "element face 1\nproperty list uint double vertex_indices\n") +
                     std::string("\xFF\xFF\xFF\xFF\0\0", 6),
-                "byte 109: the file ends within face 0, property 'vertex_indices'; export the file again"},
+                "byte 104: the file ends within face 0, property 'vertex_indices'; export the file again"},
         Refusal{
             "NegativeList",
             header("binary_big_endian", "element face 1\nproperty list char int vertex_indices\n") + "\xFF",
-            "byte 104: face 0 has a list 'vertex_indices' of length -1; export the file again"},
+            "byte 98: face 0 has a list 'vertex_indices' of length -1; export the file again"},
         Refusal{"TooManyBytes",
                 header("binary_big_endian", "element a 1\nproperty int x\n") + std::string(7, '\0'),
-                "byte 78: 3 bytes follow behind the last element that the header promises; export the file "
+                "byte 75: 3 bytes follow behind the last element that the header promises; export the file "
                 "again"}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& test) { return test.param.name; });
 
 // What is written
 

@@ -10,6 +10,7 @@
 
 #include "orbitutte/mesh/extremities.h"
 #include "orbitutte/mesh/inspection.h"
+#include "orbitutte/solve/ears.h"
 #include "orbitutte/solve/initial_embedding.h"
 
 namespace orbitutte {
@@ -64,11 +65,13 @@ class ThreadCount {
 void require_topology(const Inspection& inspection, const Orbifold& orbifold) {
   require_embeddable(inspection);
   if (inspection.topology == orbifold.topology) return;
-  throw MeshError(fmt::format("the mesh is a {}, but {} needs a {}; choose an orbifold for it (see 'orbitutte types')",
-                              name(inspection.topology), orbifold.signature, name(orbifold.topology)));
+  throw MeshError(
+      fmt::format("the mesh is a {}, but {} needs a {}; choose an orbifold for it (see 'orbitutte types')",
+                  name(inspection.topology), orbifold.signature, name(orbifold.topology)));
 }
 
-// Where a rotation about the axis changes nothing, turns the map so that the vertex nearest to the equator has longitude 0.
+// Where a rotation about the axis changes nothing, turns the map so that the vertex nearest to the equator
+// has longitude 0.
 void fix_gauge(const Tile& tile, Points& positions) {
   Vector3 axis;
   if (!free_rotation_axis(tile, axis)) return;
@@ -81,9 +84,18 @@ void fix_gauge(const Tile& tile, Points& positions) {
   positions.rowwise().normalize();
 }
 
-std::vector<std::string> warnings_about(const EdgeWeights& weights) {
-  if (weights.zero_edges == 0) return {};
-  return {fmt::format("{} edges have the weight zero; the theory asks for positive weights", weights.zero_edges)};
+std::vector<std::string> warnings_about(const EdgeWeights& weights, const std::vector<Ear>& ears) {
+  std::vector<std::string> warnings;
+  if (weights.zero_edges > 0)
+    warnings.push_back(fmt::format("{} edges have the weight zero; the theory asks for positive weights",
+                                   weights.zero_edges));
+  if (!ears.empty())
+    warnings.push_back(
+        fmt::format("{} triangles have two edges on one mirror and become arcs, the first face {}: their "
+                    "areas are rounding errors; "
+                    "swap their inner edges, or mark their tips",
+                    ears.size(), ears.front().face));
+  return warnings;
 }
 
 }  // namespace
@@ -92,8 +104,8 @@ EmbedResult embed(const Mesh& mesh, const Orbifold& orbifold, const std::vector<
                   const EmbedOptions& options) {
   if (options.threads < 0) throw ArgumentError("the number of threads must not be negative");
   if (marked_vertices.size() != orbifold.marks.size())
-    throw MeshError(fmt::format("{} needs {} marked vertices, not {}", orbifold.signature, orbifold.marks.size(),
-                                marked_vertices.size()));
+    throw MeshError(fmt::format("{} needs {} marked vertices, not {}", orbifold.signature,
+                                orbifold.marks.size(), marked_vertices.size()));
   EmbedResult result;
   Stages stage(options.progress, result.timings);
   const ThreadCount threads(options.threads);
@@ -111,16 +123,17 @@ EmbedResult embed(const Mesh& mesh, const Orbifold& orbifold, const std::vector<
     return options.weights_file.empty() ? edge_weights(mesh, connectivity, options.weights)
                                         : read_weights(options.weights_file, connectivity);
   });
-  result.warnings = warnings_about(result.weights);
 
-  const CutMesh cut = stage("cut", [&] { return cut_to_disk(mesh, connectivity, marked_vertices, options.cut); });  // 4.1
-  const Tile tile = basic_tile(orbifold, cut.arrangement);                                   // appendix A
-  const BoundaryConditions boundary = glue(cut, tile, orbifold, marked_vertices);            // (3), (4), (7)
+  const CutMesh cut =
+      stage("cut", [&] { return cut_to_disk(mesh, connectivity, marked_vertices, options.cut); });  // 4.1
+  const Tile tile = basic_tile(orbifold, cut.arrangement);                         // appendix A
+  const BoundaryConditions boundary = glue(cut, tile, orbifold, marked_vertices);  // (3), (4), (7)
   const GluedEdges glued = glued_edges(cut, connectivity, boundary);
-  const SphericalEnergy energy(glued, result.weights, boundary);                             // (2)
+  const SphericalEnergy energy(glued, result.weights, boundary);  // (2)
   const LaplacianSolver laplacian = stage(
       "factorize", [&] { return LaplacianSolver(cut, glued, result.weights, boundary, options.laplacian); });
-  const Points start = stage("initialize", [&] { return initial_embedding(mesh, cut, tile, boundary, laplacian); });  // B
+  const Points start =
+      stage("initialize", [&] { return initial_embedding(mesh, cut, tile, boundary, laplacian); });  // B
 
   LbfgsOptions lbfgs;
   lbfgs.tolerance = options.tolerance;
@@ -129,12 +142,21 @@ EmbedResult embed(const Mesh& mesh, const Orbifold& orbifold, const std::vector<
     stage.tell({"optimize", iteration, state.energy, state.gradient_norm});
     return true;
   };
-  result.minimum = stage("optimize", [&] { return minimize(energy, laplacian, start, lbfgs); });  // algorithm 1
+  result.minimum =
+      stage("optimize", [&] { return minimize(energy, laplacian, start, lbfgs); });  // algorithm 1
+  const std::vector<Ear> ears = find_ears(cut, tile, boundary);
+  result.warnings = warnings_about(result.weights, ears);
   fix_gauge(tile, result.minimum.positions);
+  round_outward(ears, result.minimum.positions);
 
   const Points& positions = result.minimum.positions;
-  result.embedding = {orbifold.signature, orbifold.group_order, boundary.spread(positions, cut.source_vertex), cut.F,
-                      cut.source_vertex,  boundary.seams,       boundary.cones};
+  result.embedding = {orbifold.signature,
+                      orbifold.group_order,
+                      boundary.spread(positions, cut.source_vertex),
+                      cut.F,
+                      cut.source_vertex,
+                      boundary.seams,
+                      boundary.cones};
   stage("certify", [&] {
     result.certificate = certify(mesh, result.embedding);
     result.distortion = measure_distortion(mesh, result.embedding);
@@ -149,7 +171,8 @@ EmbedResult embed(const Mesh& mesh, const Orbifold& orbifold, const std::vector<
 
 std::vector<int> choose_marked_vertices(const Mesh& mesh, const Orbifold& orbifold) {
   require_topology(inspect(mesh), orbifold);
-  return extremities(mesh, connect(mesh.F, static_cast<int>(mesh.V.rows())), static_cast<int>(orbifold.marks.size()));
+  return extremities(mesh, connect(mesh.F, static_cast<int>(mesh.V.rows())),
+                     static_cast<int>(orbifold.marks.size()));
 }
 
 }  // namespace orbitutte

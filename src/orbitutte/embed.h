@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// From a mesh and marked vertices to a certified spherical orbifold Tutte embedding: the whole method on one page.
+// From a mesh and marked vertices to a certified spherical orbifold Tutte embedding: the whole method on one
+// page.
 #pragma once
 
 #include <functional>
@@ -18,7 +19,8 @@
 
 namespace orbitutte {
 
-/// Where the computation is. `iteration`, `energy` and `gradient_norm` mean something in the stage "optimize" only.
+/// Where the computation is. `iteration`, `energy` and `gradient_norm` mean something in the stage "optimize"
+/// only.
 struct Progress {
   std::string stage;  ///< "validate", "weights", "cut", "factorize", "initialize", "optimize", "certify"
   int iteration = 0;
@@ -31,12 +33,12 @@ using ProgressCallback = std::function<bool(const Progress&)>;
 
 struct EmbedOptions {
   WeightOptions weights;
-  std::string weights_file;      ///< lines `i j w` (read_weights); when not empty, instead of `weights`
-  CutOptions cut;                ///< which of all cuts; it does not change the result
-  LaplacianOptions laplacian;    ///< the linear solver
-  double tolerance = 1e-9;       ///< LbfgsOptions::tolerance
+  std::string weights_file;    ///< lines `i j w` (read_weights); when not empty, instead of `weights`
+  CutOptions cut;              ///< which of all cuts; it does not change the result
+  LaplacianOptions laplacian;  ///< the linear solver
+  double tolerance = 1e-9;     ///< LbfgsOptions::tolerance
   int max_iterations = 2000;
-  int threads = 0;               ///< 0: as many as the machine has; results do not depend on it
+  int threads = 0;  ///< 0: as many as the machine has; results do not depend on it
   ProgressCallback progress;
 };
 
@@ -58,11 +60,11 @@ struct EmbedResult {
   std::vector<std::string> warnings;  ///< one sentence each
 };
 
-/// Embeds a mesh into an orbifold, its marked vertices (0-based, in the order of Orbifold::marks) at the cones and corners.
-/// Minimises the energy (2) over the gluings of appendix A by algorithm 1, as corrected in docs/deviations.md, and judges the
-/// result. Not converging and not being bijective are results, not errors: see minimum.termination and
-/// certificate.bijective, which is true only for converged maps.
-/// Throws MeshError naming the defect and the vertex, edge or face; ArgumentError; Cancelled; std::bad_alloc.
+/// Embeds a mesh into an orbifold, its marked vertices (0-based, in the order of Orbifold::marks) at the
+/// cones and corners. Minimises the energy (2) over the gluings of appendix A by algorithm 1, as corrected in
+/// docs/deviations.md, and judges the result. Not converging and not being bijective are results, not errors:
+/// see minimum.termination and certificate.bijective, which is true only for converged maps. Throws MeshError
+/// naming the defect and the vertex, edge or face; ArgumentError; Cancelled; std::bad_alloc.
 EmbedResult embed(const Mesh& mesh, const Orbifold& orbifold, const std::vector<int>& marked_vertices,
                   const EmbedOptions& options = {});
 

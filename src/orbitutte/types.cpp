@@ -5,10 +5,14 @@ namespace orbitutte {
 
 std::string name(Topology topology) {
   switch (topology) {
-    case Topology::sphere: return "sphere";
-    case Topology::disk: return "disk";
-    case Topology::projective_plane: return "projective-plane";
-    case Topology::other: return "other";
+    case Topology::sphere:
+      return "sphere";
+    case Topology::disk:
+      return "disk";
+    case Topology::projective_plane:
+      return "projective-plane";
+    case Topology::other:
+      return "other";
   }
   return {};
 }

@@ -7,7 +7,8 @@
 namespace orbitutte {
 namespace {
 
-// Half-edges sorted by (lower vertex, upper vertex): a counting sort over the lower one, then a sort of each short bucket.
+// Half-edges sorted by (lower vertex, upper vertex): a counting sort over the lower one, then a sort of each
+// short bucket.
 std::vector<int> sorted_halfedges(const Faces& F, int vertex_count) {
   const int halfedges = static_cast<int>(F.size());
   const auto lower = [&](int h) { return std::min(origin(F, h), target(F, h)); };

@@ -28,7 +28,8 @@ struct Connectivity {
   std::vector<int> opposite;              ///< 3 m: the half-edge on the other side, or -1 on the boundary
 };
 
-/// The edges of an edge-manifold mesh of n vertices, in O(n + m). The mesh is expected to have passed `inspect`.
+/// The edges of an edge-manifold mesh of n vertices, in O(n + m). The mesh is expected to have passed
+/// `inspect`.
 Connectivity connect(const Faces& F, int vertex_count);
 
 Neighbors neighbors(const std::vector<std::array<int, 2>>& edges, int vertex_count);

@@ -9,7 +9,8 @@
 namespace orbitutte {
 namespace {
 
-// A random number in [0, 1) for an edge and a seed (the mixing function of SplitMix64): the same on every machine.
+// A random number in [0, 1) for an edge and a seed (the mixing function of SplitMix64): the same on every
+// machine.
 double random_unit(std::uint64_t seed, std::uint64_t edge) {
   std::uint64_t z = seed * 0x9e3779b97f4a7c15ULL + edge * 0xbf58476d1ce4e5b9ULL + 0x94d049bb133111ebULL;
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
@@ -24,11 +25,13 @@ void perturb_lengths(EdgeGraph& graph, std::uint64_t seed) {
 
 double straight_distance(const Mesh& mesh, int i, int j) { return (mesh.V.row(i) - mesh.V.row(j)).norm(); }
 
-// Which of three marks the cut passes through: the one nearest to the two others in space, or any, by the seed.
+// Which of three marks the cut passes through: the one nearest to the two others in space, or any, by the
+// seed.
 int middle_mark(const Mesh& mesh, const std::vector<int>& marks, std::uint64_t seed) {
   if (seed != 0) return static_cast<int>(3 * random_unit(seed, 0));
   const auto detour = [&](int k) {
-    return straight_distance(mesh, marks[k], marks[(k + 1) % 3]) + straight_distance(mesh, marks[k], marks[(k + 2) % 3]);
+    return straight_distance(mesh, marks[k], marks[(k + 1) % 3]) +
+           straight_distance(mesh, marks[k], marks[(k + 2) % 3]);
   };
   int best = 0;
   for (const int k : {1, 2})
@@ -40,7 +43,8 @@ MeshError no_path(int i, int j) {
   return MeshError(fmt::format("no edge path joins the marked vertices {} and {}; mark others", i, j));
 }
 
-Path path_through(const Mesh& mesh, const EdgeGraph& graph, const std::vector<int>& marks, std::uint64_t seed) {
+Path path_through(const Mesh& mesh, const EdgeGraph& graph, const std::vector<int>& marks,
+                  std::uint64_t seed) {
   if (marks.size() == 2) {
     Path path = shortest_path(graph, marks[0], marks[1]);
     if (path.empty()) throw no_path(marks[0], marks[1]);
@@ -55,7 +59,8 @@ Path path_through(const Mesh& mesh, const EdgeGraph& graph, const std::vector<in
   return back;
 }
 
-// A half-edge that leaves each vertex (-1 where no face uses it); at boundary vertices the one on the boundary.
+// A half-edge that leaves each vertex (-1 where no face uses it); at boundary vertices the one on the
+// boundary.
 std::vector<int> outgoing_halfedges(const Faces& F, const std::vector<int>& opposite, int vertex_count) {
   std::vector<int> result(vertex_count, -1);
   for (int h = 0; h < static_cast<int>(F.size()); ++h) {
@@ -69,16 +74,19 @@ void check_marks(const std::vector<int>& marks, const std::vector<int>& outgoing
   const int n = static_cast<int>(outgoing.size());
   for (std::size_t k = 0; k < marks.size(); ++k) {
     if (marks[k] < 0 || marks[k] >= n)
-      throw MeshError(fmt::format("the marked vertex {} is out of range; the mesh has the vertices 0 to {}", marks[k], n - 1));
+      throw MeshError(fmt::format("the marked vertex {} is out of range; the mesh has the vertices 0 to {}",
+                                  marks[k], n - 1));
     if (std::count(marks.begin(), marks.begin() + k, marks[k]))
       throw MeshError(fmt::format("the vertex {} is marked twice; mark different vertices", marks[k]));
     if (outgoing[marks[k]] < 0)
-      throw MeshError(fmt::format("the marked vertex {} belongs to no face; mark a vertex of the surface", marks[k]));
+      throw MeshError(
+          fmt::format("the marked vertex {} belongs to no face; mark a vertex of the surface", marks[k]));
   }
 }
 
 // The half-edge from v to its neighbour w on a closed mesh.
-int halfedge_to(int v, int w, const Faces& F, const std::vector<int>& outgoing, const std::vector<int>& opposite) {
+int halfedge_to(int v, int w, const Faces& F, const std::vector<int>& outgoing,
+                const std::vector<int>& opposite) {
   int h = outgoing[v];
   while (target(F, h) != w) h = opposite[previous_halfedge(h)];
   return h;
@@ -91,8 +99,8 @@ std::vector<int> open_along(const std::vector<int>& halfedges, const std::vector
   return opened;
 }
 
-// Gives each sector of faces between opened edges around v its own copy of v. The sector that begins left of the opened
-// half-edge `begin` from v keeps the index.
+// Gives each sector of faces between opened edges around v its own copy of v. The sector that begins left of
+// the opened half-edge `begin` from v keeps the index.
 void split_vertex(int begin, const std::vector<int>& opened, const std::vector<int>& opposite, CutMesh& cut) {
   const int v = cut.F.data()[begin];
   int copy = v;
@@ -119,7 +127,8 @@ std::vector<int> boundary_loop(int start, const Faces& F, const std::vector<int>
   return loop;
 }
 
-std::vector<int> order_met(const std::vector<int>& boundary, const std::vector<int>& source, const std::vector<int>& marks) {
+std::vector<int> order_met(const std::vector<int>& boundary, const std::vector<int>& source,
+                           const std::vector<int>& marks) {
   std::unordered_map<int, int> mark_of;
   for (std::size_t k = 0; k < marks.size(); ++k) mark_of[marks[k]] = static_cast<int>(k);
   std::vector<int> order;
@@ -177,7 +186,8 @@ CutMesh cut_to_disk(const Mesh& mesh, const Connectivity& connectivity, const st
   } else {
     for (const int v : marks) {
       if (opposite[outgoing[v]] >= 0)
-        throw MeshError(fmt::format("the marked vertex {} is inside the disk; mark a vertex on its boundary", v));
+        throw MeshError(
+            fmt::format("the marked vertex {} is inside the disk; mark a vertex on its boundary", v));
     }
     cut.boundary = boundary_loop(outgoing[marks[0]], cut.F, opposite);
   }

@@ -14,8 +14,10 @@ namespace orbitutte {
 struct CutMesh {
   Faces F;                         ///< m x 3, the input faces in their order, on cut vertices
   std::vector<int> source_vertex;  ///< n_cut: the input vertex
-  std::vector<int> boundary;       ///< cut vertices along the boundary's half-edges: counterclockwise, interior on the left
-  std::vector<int> arrangement;    ///< the marks in the order in which the boundary first meets them; it begins with the first
+  std::vector<int>
+      boundary;  ///< cut vertices along the boundary's half-edges: counterclockwise, interior on the left
+  std::vector<int> arrangement;  ///< the marks in the order in which the boundary first meets them; it begins
+                                 ///< with the first
 
   int vertex_count() const { return static_cast<int>(source_vertex.size()); }
 };
@@ -25,13 +27,14 @@ struct CutOptions {
 };
 
 /// Cuts so that every marked vertex lies on the boundary of a disk.
-/// A sphere with two marks is cut along the shortest edge path between them; with three, along two disjoint paths from one of
-/// them to the other two. A disk whose marks are on its boundary is left as it is.
-/// Throws MeshError for marks that are not vertices of a face, repeated, too few for a sphere, or inside a disk.
+/// A sphere with two marks is cut along the shortest edge path between them; with three, along two disjoint
+/// paths from one of them to the other two. A disk whose marks are on its boundary is left as it is. Throws
+/// MeshError for marks that are not vertices of a face, repeated, too few for a sphere, or inside a disk.
 CutMesh cut_to_disk(const Mesh& mesh, const Connectivity& connectivity, const std::vector<int>& marks,
                     const CutOptions& options = {});
 
-/// The edges with their lengths in space. Edges of length zero get a tiny length, so that paths stay short in edges too.
+/// The edges with their lengths in space. Edges of length zero get a tiny length, so that paths stay short in
+/// edges too.
 EdgeGraph edge_length_graph(const Mesh& mesh, const Connectivity& connectivity);
 
 }  // namespace orbitutte

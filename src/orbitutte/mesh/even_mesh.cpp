@@ -11,12 +11,15 @@
 namespace orbitutte {
 namespace {
 
-constexpr int kMostGrownFaces = 5000;  // a mesh with more is divided instead
-constexpr double kGrowth = 0.15;       // so many of the edges, the longest ones, are split at a time
+constexpr int kFewestRelaxedFaces = 600;      // with fewer, vertices slide off what is thin
+constexpr int kMostGrownFaces = 10'000;       // a mesh with more is divided instead
+constexpr int kMostFlippedFaces = 1'000'000;  // beyond, triangles have taken their shapes
+constexpr double kGrowth = 0.15;              // so many of the edges, the longest ones, are split at a time
 constexpr int kFlipPasses = 30;
-constexpr int kGrowingRounds = 3;   // of relaxation after every growth
-constexpr int kFinalRounds = 60;    // and after the last one
-constexpr int kDividingRounds = 3;  // and after every division
+constexpr int kGrowingRounds = 3;        // of relaxation after every growth
+constexpr int kFinalRounds = 40;         // and after the last one
+constexpr int kDividingRounds = 2;       // and after every division
+constexpr int kSerialVertices = 20'000;  // fewer are not worth waking threads for
 
 int face_count(const Mesh& mesh) { return static_cast<int>(mesh.F.rows()); }
 int vertex_count(const Mesh& mesh) { return static_cast<int>(mesh.V.rows()); }
@@ -66,6 +69,16 @@ Vector3 drawn_midpoint(const Mesh& mesh, const SmoothSurface& surface, int v, in
 Vector3 area_vector(const Mesh& mesh, int a, int b, int c) {
   const Vector3 u = mesh.V.row(b) - mesh.V.row(a), v = mesh.V.row(c) - mesh.V.row(a);
   return u.cross(v);
+}
+
+Vector3 normal_at(const SmoothSurface& surface, const Vector3& p) {
+  return surface.field(p).gradient.normalized();
+}
+
+Points normals(const Points& V, const SmoothSurface& surface) {
+  Points result(V.rows(), 3);
+  for (Eigen::Index v = 0; v < V.rows(); ++v) result.row(v) = normal_at(surface, V.row(v));
+  return result;
 }
 
 // ---- growing
@@ -127,17 +140,16 @@ bool has_edge(const Connectivity& connectivity, int v, int w) {
   return std::binary_search(connectivity.edges.begin(), connectivity.edges.end(), edge);
 }
 
-// Whether the edge (a, b) between triangles (a, b, o) and (b, a, q) is so sharp that a flip would turn them
-// over.
-bool turns_over(const Mesh& mesh, int a, int b, int o, int q) {
+// Whether a triangle lies with its back to the surface, or nearly so.
+bool lies_wrong(const Mesh& mesh, const SmoothSurface& surface, int a, int b, int c) {
   constexpr double kLeastCosine = 0.3;
-  const auto normal = [&](int i, int j, int k) { return area_vector(mesh, i, j, k).normalized(); };
-  const Vector3 first = normal(a, b, o), second = normal(b, a, q), mean = (first + second).normalized();
-  return normal(a, q, o).dot(mean) < kLeastCosine || normal(q, b, o).dot(mean) < kLeastCosine;
+  Vector3 expected = Vector3::Zero();
+  for (const int v : {a, b, c}) expected += normal_at(surface, mesh.V.row(v));
+  return area_vector(mesh, a, b, c).normalized().dot(expected.normalized()) < kLeastCosine;
 }
 
 // Flips every edge whose opposite angles add up to more than pi, no two at the same vertex. Returns how many.
-int flip_edges(Mesh& mesh) {
+int flip_edges(Mesh& mesh, const SmoothSurface& surface) {
   constexpr double kRounding = 1e-9;
   const Connectivity connectivity = connect(mesh);
   std::vector<char> at_flip(mesh.V.rows(), 0);
@@ -150,7 +162,7 @@ int flip_edges(Mesh& mesh) {
     if (at_flip[a] || at_flip[b] || at_flip[o] || at_flip[q]) continue;
     if (cotangent(mesh, a, b, o) + cotangent(mesh, a, b, q) >= -kRounding || has_edge(connectivity, o, q))
       continue;
-    if (turns_over(mesh, a, b, o, q)) continue;
+    if (lies_wrong(mesh, surface, a, q, o) || lies_wrong(mesh, surface, q, b, o)) continue;
     mesh.F.row(h / 3) << a, q, o;
     mesh.F.row(g / 3) << q, b, o;
     at_flip[a] = at_flip[b] = at_flip[o] = at_flip[q] = 1;
@@ -159,36 +171,29 @@ int flip_edges(Mesh& mesh) {
   return flips;
 }
 
-void flip_to_delaunay(Mesh& mesh) {
+void flip_to_delaunay(Mesh& mesh, const SmoothSurface& surface) {
   for (int pass = 0; pass < kFlipPasses; ++pass) {
-    if (flip_edges(mesh) == 0) return;
+    if (flip_edges(mesh, surface) == 0) return;
   }
 }
 
 // ---- relaxing
 
-// What a vertex sees of its surroundings.
-struct Surroundings {
-  Points centre;  // the area-weighted mean of its triangles' centroids; on the boundary, the middle of its
-                  // two neighbours
-  Points normal;  // of the surface, not normalized
-};
-
-Surroundings surroundings(const Mesh& mesh, const Connectivity& connectivity,
-                          const std::vector<char>& on_rim) {
-  Surroundings result = {Points::Zero(mesh.V.rows(), 3), Points::Zero(mesh.V.rows(), 3)};
+// The area-weighted mean of the centroids of a vertex's triangles; on the boundary, the middle of its two
+// neighbours there.
+Points centres(const Mesh& mesh, const Connectivity& connectivity, const std::vector<char>& on_rim) {
+  Points sum = Points::Zero(mesh.V.rows(), 3);
   Eigen::VectorXd weight = Eigen::VectorXd::Zero(mesh.V.rows());
   const auto put = [&](int v, double w, const Vector3& p) {
-    result.centre.row(v) += w * p;
+    sum.row(v) += w * p;
     weight[v] += w;
   };
   for (int f = 0; f < face_count(mesh); ++f) {
     const int a = mesh.F(f, 0), b = mesh.F(f, 1), c = mesh.F(f, 2);
-    const Vector3 area = area_vector(mesh, a, b, c);
+    const double area = area_vector(mesh, a, b, c).norm();
     const Vector3 centroid = (mesh.V.row(a) + mesh.V.row(b) + mesh.V.row(c)) / 3;
     for (const int v : {a, b, c}) {
-      result.normal.row(v) += area;
-      if (!on_rim[v]) put(v, area.norm(), centroid);
+      if (!on_rim[v]) put(v, area, centroid);
     }
   }
   for (int h = 0; h < static_cast<int>(mesh.F.size()); ++h) {
@@ -197,28 +202,20 @@ Surroundings surroundings(const Mesh& mesh, const Connectivity& connectivity,
     put(v, 1, mesh.V.row(w));
     put(w, 1, mesh.V.row(v));
   }
-  result.centre.array().colwise() /= weight.array();
-  return result;
+  return sum.array().colwise() / weight.array();
 }
 
-// Where every vertex comes to when it moves to the centre of its surroundings, but along the surface only:
+// Where every vertex comes to when it moves to the centre of its triangles, but along the surface only:
 // otherwise limbs would shrink.
 Points centred(const Mesh& mesh, const SmoothSurface& surface, const Connectivity& connectivity) {
   const std::vector<char> on_rim = boundary_vertices(mesh, connectivity);
-  const Surroundings around = surroundings(mesh, connectivity, on_rim);
-  Points result = mesh.V;
+  Points result = centres(mesh, connectivity, on_rim);
+#pragma omp parallel for if (vertex_count(mesh) > kSerialVertices)
   for (int v = 0; v < vertex_count(mesh); ++v) {
-    const Vector3 p = mesh.V.row(v), n = around.normal.row(v).normalized(),
-                  move = around.centre.row(v).transpose() - p;
+    const Vector3 p = mesh.V.row(v), n = normal_at(surface, p), move = result.row(v).transpose() - p;
     const Vector3 moved = p + move - n.dot(move) * n;
     result.row(v) = on_rim[v] ? drawn_to_rim(surface, moved) : drawn(surface, moved);
   }
-  return result;
-}
-
-Points normals(const Points& V, const SmoothSurface& surface) {
-  Points result(V.rows(), 3);
-  for (Eigen::Index v = 0; v < V.rows(); ++v) result.row(v) = surface.field(V.row(v)).gradient.normalized();
   return result;
 }
 
@@ -232,10 +229,10 @@ bool lies_wrong(const Mesh& mesh, const Points& normal, int f) {
 }
 
 // Moves all vertices to their centres, but those of triangles that would come to lie wrong.
-void relax(Mesh& mesh, const SmoothSurface& surface, const Connectivity& connectivity) {
+void relax(Mesh& mesh, const SmoothSurface& surface) {
   const Mesh before = mesh;
   const Points normal_before = normals(mesh.V, surface);
-  mesh.V = centred(mesh, surface, connectivity);
+  mesh.V = centred(mesh, surface, connect(mesh));
   Points normal = normals(mesh.V, surface);
   for (bool put_back = true; put_back;) {
     put_back = false;
@@ -252,10 +249,10 @@ void relax(Mesh& mesh, const SmoothSurface& surface, const Connectivity& connect
 
 void relax_and_flip(Mesh& mesh, const SmoothSurface& surface, int rounds) {
   for (int round = 0; round < rounds; ++round) {
-    flip_to_delaunay(mesh);
-    relax(mesh, surface, connect(mesh));
+    flip_to_delaunay(mesh, surface);
+    relax(mesh, surface);
   }
-  flip_to_delaunay(mesh);
+  flip_to_delaunay(mesh, surface);
 }
 
 // ---- dividing
@@ -277,8 +274,9 @@ Mesh divided(const Mesh& mesh, const SmoothSurface& surface) {
   Mesh result;
   result.V.resize(n + edges, 3);
   result.V.topRows(n) = mesh.V;
+#pragma omp parallel for if (n > kSerialVertices)
   for (int e = 0; e < edges; ++e) {
-    const auto [i, j] = connectivity.edges[e];
+    const auto& [i, j] = connectivity.edges[e];
     result.V.row(n + e) = drawn_midpoint(mesh, surface, i, j, connectivity.opposite[halfedge[e]] < 0);
   }
   result.F.resize(4 * mesh.F.rows(), 3);
@@ -301,16 +299,17 @@ Mesh even_mesh(Mesh mesh, const SmoothSurface& surface, int faces) {
   for (double share = faces; share > kMostGrownFaces; share /= 4) ++divisions;
   const int grown = grown_faces(mesh, faces, divisions);
 
-  relax_and_flip(mesh, surface, kGrowingRounds);
+  for (Eigen::Index v = 0; v < mesh.V.rows(); ++v) mesh.V.row(v) = drawn(surface, mesh.V.row(v));
   while (face_count(mesh) < grown) {
     split_long_edges(mesh, surface, grown);
-    relax_and_flip(mesh, surface, kGrowingRounds);
+    relax_and_flip(mesh, surface, face_count(mesh) < kFewestRelaxedFaces ? 0 : kGrowingRounds);
   }
   relax_and_flip(mesh, surface, kFinalRounds);
   for (int division = 0; division < divisions; ++division) {
     mesh = divided(mesh, surface);
+    if (face_count(mesh) <= kMostFlippedFaces) flip_to_delaunay(mesh, surface);
     const Connectivity connectivity = connect(mesh);
-    for (int round = 0; round < kDividingRounds; ++round) relax(mesh, surface, connectivity);
+    for (int round = 0; round < kDividingRounds; ++round) mesh.V = centred(mesh, surface, connectivity);
   }
   return mesh;
 }

@@ -26,7 +26,8 @@ std::vector<int> candidates(const Faces& F, const Connectivity& connectivity, in
 }
 
 int farthest(const std::vector<int>& among, const std::vector<double>& distance) {
-  return *std::max_element(among.begin(), among.end(), [&](int a, int b) { return distance[a] < distance[b]; });
+  return *std::max_element(among.begin(), among.end(),
+                           [&](int a, int b) { return distance[a] < distance[b]; });
 }
 
 }  // namespace

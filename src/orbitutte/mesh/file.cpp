@@ -55,10 +55,12 @@ class OpenFile {
   int descriptor_;
 };
 
+/// None where nothing stands at the path.
 std::optional<struct stat> status(const std::string& path) {
   struct stat result;
-  if (::stat(path.c_str(), &result) != 0) return std::nullopt;
-  return result;
+  if (::stat(path.c_str(), &result) == 0) return result;
+  if (errno != ENOENT) refuse(path, cannot_write);
+  return std::nullopt;
 }
 
 std::size_t expected_size(const OpenFile& file) {
@@ -79,14 +81,12 @@ bool write_all(const OpenFile& file, std::string_view bytes) {
   return true;
 }
 
-/// The path that a chain of symbolic links leads to, whether or not something stands there.
+/// The path that a chain of symbolic links leads to, whether or not something stands there. The chain has an
+/// end: `status` has followed it.
 std::string link_target(const std::string& path) {
-  constexpr int most_links = 40;
   fs::path target = path;
   std::error_code error;
-  for (int i = 0; i < most_links && fs::is_symlink(target, error); ++i) {
-    target = target.parent_path() / fs::read_symlink(target, error);
-  }
+  while (fs::is_symlink(target, error)) target = target.parent_path() / fs::read_symlink(target, error);
   return target.string();
 }
 

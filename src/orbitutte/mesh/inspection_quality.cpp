@@ -12,18 +12,19 @@ namespace {
 
 constexpr double kZeroCotangent = 1e-12;  // rounding errors of a right angle, many times over
 
-// The longest edge of a triangle is the unit in which its area and angles are computed: nothing overflows.
+// The largest coordinate of a triangle's edges is the unit in which its area and angles are computed: nothing
+// overflows.
 struct Triangle {
   std::array<Vector3, 3> edge;  // edge[k] runs from corner k to the next, divided by `unit`
   double unit = 0;
 
   Triangle(const Points& V, int i, int j, int k) {
     edge = {V.row(j) - V.row(i), V.row(k) - V.row(j), V.row(i) - V.row(k)};
-    for (const Vector3& e : edge) unit = std::max(unit, e.stableNorm());
+    for (const Vector3& e : edge) unit = std::max(unit, e.lpNorm<Eigen::Infinity>());
     for (Vector3& e : edge) e /= unit;
   }
 
-  // Twice the area over the square of the longest edge.
+  // Twice the area over the square of the unit.
   double doubled_area() const { return edge[0].cross(edge[1]).norm(); }
 
   double angle(int corner) const {

@@ -74,8 +74,7 @@ Counts read_header(TextScanner& in) {
 /// Goes to the line that holds the item, one of `count`.
 void find_line(TextScanner& in, const TextItem& item, int count) {
   if (in.find_word()) return;
-  in.refuse(fmt::format("the text ends before {} {}, but the header promises {}", item.element, item.number,
-                        count));
+  in.refuse(fmt::format("the text ends before {}, but the header promises {}", shown(item), count));
 }
 
 Points read_points(TextScanner& in, int count) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// J. W. Suurballe, "Disjoint paths in a network", Networks 4 (1974), with the vertices split into an entry and an exit.
+// J. W. Suurballe, "Disjoint paths in a network", Networks 4 (1974), with the vertices split into an entry
+// and an exit.
 #include "orbitutte/mesh/paths.h"
 
 #include <algorithm>
@@ -20,8 +21,8 @@ struct Search {
 
   explicit Search(int count) : distance(count, infinity), previous(count, -1) {}
 
-  // for_each_arc(node, visit) calls visit(next node, length >= 0); the search ends when done(node) says so of a settled
-  // node, which is returned, or -1.
+  // for_each_arc(node, visit) calls visit(next node, length >= 0); the search ends when done(node) says so of
+  // a settled node, which is returned, or -1.
   template <typename ForEachArc, typename Done>
   int run(const std::vector<int>& sources, const ForEachArc& for_each_arc, const Done& done) {
     using Entry = std::pair<double, int>;
@@ -61,8 +62,8 @@ auto arcs_of(const EdgeGraph& graph) {
   };
 }
 
-// The residual graph after one unit has gone along `first`: node 2 v is the entry of vertex v, 2 v + 1 its exit. Lengths
-// are reduced by the potentials, so none is negative.
+// The residual graph after one unit has gone along `first`: node 2 v is the entry of vertex v, 2 v + 1 its
+// exit. Lengths are reduced by the potentials, so none is negative.
 class Residual {
  public:
   Residual(const EdgeGraph& graph, const Path& first, const std::vector<double>& potential)
@@ -79,7 +80,8 @@ class Residual {
     if (entry && before == before_.end()) {
       visit(2 * v + 1, 0.0);
     } else if (entry) {
-      visit(2 * before->second + 1, 0.0);  // takes back the edge of the first path, whose reduced length is zero
+      visit(2 * before->second + 1,
+            0.0);  // takes back the edge of the first path, whose reduced length is zero
     } else {
       visit_edges(v, visit);
     }
@@ -153,7 +155,8 @@ std::array<Path, 2> disjoint_paths(const EdgeGraph& graph, int from, const std::
 
   const int other = nearest == to[0] ? to[1] : to[0];
   Search second(2 * graph.vertex_count());
-  const int reached = second.run({2 * from + 1}, Residual(graph, path, potential), [&](int node) { return node == 2 * other; });
+  const int reached = second.run({2 * from + 1}, Residual(graph, path, potential),
+                                 [&](int node) { return node == 2 * other; });
   if (reached < 0) return {};
   return untangle(path, second.path_to(reached), to);
 }

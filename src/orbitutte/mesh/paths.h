@@ -25,9 +25,10 @@ std::vector<double> distances(const EdgeGraph& graph, const std::vector<int>& so
 /// The shortest path between two vertices, O(n log n). Empty where there is none.
 Path shortest_path(const EdgeGraph& graph, int from, int to);
 
-/// Two paths from one vertex to two others that share no vertex but the first, of least total length: a flow of two units
-/// through vertices of capacity one (Suurballe 1974), two Dijkstra sweeps. On a triangulated sphere they always exist, so no
-/// first path can block the second. The paths are in the order of `to`; both empty where there are none.
+/// Two paths from one vertex to two others that share no vertex but the first, of least total length: a flow
+/// of two units through vertices of capacity one (Suurballe 1974), two Dijkstra sweeps. On a triangulated
+/// sphere they always exist, so no first path can block the second. The paths are in the order of `to`; both
+/// empty where there are none.
 std::array<Path, 2> disjoint_paths(const EdgeGraph& graph, int from, const std::array<int, 2>& to);
 
 }  // namespace orbitutte

@@ -26,11 +26,11 @@ class AsciiValues {
 
   void begin(const TextItem& item) {
     if (in_.find_word()) return;
-    in_.refuse(fmt::format("the text ends before {} {}", item.element, item.number));
+    in_.refuse(fmt::format("the text ends before {}", shown(item)));
   }
 
   double next(PlyType type, const TextItem& item, std::string_view property) {
-    if (!in_.find_word()) in_.refuse(fmt::format("the text ends within {} {}", item.element, item.number));
+    if (!in_.find_word()) in_.refuse(fmt::format("the text ends within {}", shown(item)));
     return visit_type(type, [&](auto number) -> double {
       using T = decltype(number);
       using Read = std::conditional_t<std::is_integral_v<T>, T, double>;  // floats with all their digits
@@ -45,8 +45,7 @@ class AsciiValues {
 
   void end(const TextItem& item) {
     if (!in_.find_word_in_line()) return;
-    in_.refuse(fmt::format("{} follows behind the last property of {} {}", quoted(in_.word()), item.element,
-                           item.number));
+    in_.refuse(fmt::format("{} follows behind the last property of {}", quoted(in_.word()), shown(item)));
   }
 
   void end_of_file() {
@@ -100,8 +99,7 @@ class BinaryValues {
  private:
   const char* take(std::size_t size, const TextItem& item, std::string_view property) {
     if (bytes_.size() - at_ < size) {
-      refuse(fmt::format("the file ends within {} {}, property {}", item.element, item.number,
-                         quoted(property)));
+      refuse(fmt::format("the file ends within {}, property {}", shown(item), quoted(property)));
     }
     at_ += size;
     return bytes_.data() + at_ - size;
@@ -116,8 +114,7 @@ template <class Values>
 void read_list(Values& in, const TextItem& item, PlyProperty& property) {
   const double length = in.next(property.count_type, item, "list length");
   if (length < 0) {
-    in.refuse(fmt::format("{} {} has a list {} of length {}", item.element, item.number,
-                          quoted(property.name), length));
+    in.refuse(fmt::format("{} has a list {} of length {}", shown(item), quoted(property.name), length));
   }
   in.append_list(property.values, static_cast<std::size_t>(length), property.type, item, property.name);
   property.list_start.push_back(property.values.size());

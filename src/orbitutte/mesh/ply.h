@@ -11,7 +11,8 @@ namespace orbitutte {
 
 enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
-/// One property of an element: `count` numbers, or `count` lists of numbers. Every PLY type fits into a double.
+/// One property of an element: `count` numbers, or `count` lists of numbers. Every PLY type fits into a
+/// double.
 struct PlyProperty {
   std::string name;
   PlyType type = PlyType::float64;

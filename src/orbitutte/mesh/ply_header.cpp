@@ -133,10 +133,10 @@ void check_promises(const PlyHeader& header, std::size_t data_size) {
     if (least == 0) continue;
     if (element.count > left / least) {
       throw MeshError(
-          fmt::format("the header promises {} times the element {}, each at least {} bytes long, but only {} "
-                      "bytes are left for "
-                      "them, so that the file is cut short or its header wrong; export it again",
-                      element.count, quoted(element.name), least, left));
+          fmt::format("the header promises {} elements {}, more than the rest of the file can hold, so that "
+                      "the file is cut short "
+                      "or its header wrong; export it again",
+                      element.count, quoted(element.name)));
     }
     left -= element.count * least;
   }

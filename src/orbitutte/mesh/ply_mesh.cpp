@@ -60,7 +60,8 @@ void append_faces(const PlyElement& element, PolygonMesh& mesh) {
 void append_strips(const PlyElement& element, PolygonMesh& mesh) {
   const PlyProperty& lists = index_lists(element);
   for (std::size_t strip = 0; strip < element.count; ++strip) {
-    int before_last = 0, last = 0, length = 0;
+    int before_last = 0, last = 0;
+    std::size_t length = 0;
     for (std::size_t k = lists.list_start[strip]; k < lists.list_start[strip + 1]; ++k) {
       const int index = to_index(lists.values[k], element, strip);
       if (index == strip_end) {
@@ -82,8 +83,7 @@ void append_strips(const PlyElement& element, PolygonMesh& mesh) {
 
 PolygonMesh to_mesh(const PlyFile& file) {
   const PlyElement* vertex = file.find("vertex");
-  if (vertex == nullptr)
-    throw MeshError("the header has no element 'vertex'; check that the file holds a mesh");
+  if (vertex == nullptr) throw MeshError("there is no element 'vertex'; check that the file holds a mesh");
   PolygonMesh mesh;
   mesh.V = to_points(*vertex);
   const PlyElement* faces = file.find("face");

@@ -24,45 +24,53 @@ constexpr int kMostFaces = 20'000'000;
 
 // A limb: the hull of two balls.
 struct Limb {
-  Vector3 a, b;
-  double radius_a, radius_b;
+  Vector3 start, direction;
+  double length, radius, slope;  // the radius grows by the slope along the direction
+  double lean;  // how much further along the nearest ball's centre lies, per distance from the axis
+
+  Limb(const Vector3& a, const Vector3& b, double radius_a, double radius_b)
+      : start(a),
+        direction((b - a).normalized()),
+        length((b - a).norm()),
+        radius(radius_a),
+        slope((radius_b - radius_a) / length),
+        lean(slope / std::sqrt(1 - slope * slope)) {}
 };
 
 const std::array<Limb, 12>& limbs() {
   static const std::array<Limb, 12> result = {{
-      {{0, -0.08, 0}, {0, 0.34, 0}, 0.29, 0.21},             // trunk
-      {{0, 0.45, 0}, {0, 0.70, 0}, 0.10, 0.12},              // neck
-      {{0, 0.80, 0.02}, {0, 0.86, 0.02}, 0.285, 0.27},       // head
-      {{0, 0.75, 0.30}, {0, 0.76, 0.31}, 0.055, 0.055},      // nose
-      {{-0.20, 0.36, 0}, {-0.48, 0.12, 0.03}, 0.12, 0.115},  // right arm, hanging
-      {{-0.48, 0.12, 0.03}, {-0.62, -0.12, 0.12}, 0.11, 0.125},
-      {{0.20, 0.36, 0}, {0.52, 0.44, 0.02}, 0.12, 0.115},  // left arm, raised
-      {{0.52, 0.44, 0.02}, {0.68, 0.72, 0.08}, 0.11, 0.125},
-      {{-0.16, -0.22, 0}, {-0.23, -0.82, 0}, 0.17, 0.125},  // right leg and foot
-      {{-0.23, -0.85, 0}, {-0.27, -0.87, 0.19}, 0.12, 0.10},
-      {{0.16, -0.22, 0}, {0.23, -0.82, 0}, 0.17, 0.125},  // left leg and foot
-      {{0.23, -0.85, 0}, {0.27, -0.87, 0.19}, 0.12, 0.10},
+      {{0, -0.08, 0}, {0, 0.34, 0}, 0.28, 0.20},              // trunk
+      {{0, 0.45, 0}, {0, 0.70, 0}, 0.10, 0.12},               // neck
+      {{0, 0.80, 0.02}, {0, 0.86, 0.02}, 0.27, 0.255},        // head
+      {{0, 0.75, 0.30}, {0, 0.76, 0.31}, 0.045, 0.045},       // nose
+      {{-0.20, 0.36, 0}, {-0.54, 0.17, 0.03}, 0.105, 0.095},  // right arm, hanging
+      {{-0.54, 0.17, 0.03}, {-0.70, -0.07, 0.12}, 0.09, 0.11},
+      {{0.20, 0.36, 0}, {0.52, 0.44, 0.02}, 0.105, 0.095},  // left arm, raised
+      {{0.52, 0.44, 0.02}, {0.68, 0.72, 0.08}, 0.09, 0.11},
+      {{-0.17, -0.22, 0}, {-0.25, -0.82, 0}, 0.15, 0.105},  // right leg and foot
+      {{-0.25, -0.85, 0}, {-0.30, -0.87, 0.18}, 0.10, 0.09},
+      {{0.17, -0.22, 0}, {0.25, -0.82, 0}, 0.15, 0.105},  // left leg and foot
+      {{0.25, -0.85, 0}, {0.30, -0.87, 0.18}, 0.10, 0.09},
   }};
   return result;
 }
 
 // The distance to the hull of two balls, the least of |p - c(t)| - r(t) over the balls between them.
 FieldSample limb_distance(const Limb& limb, const Vector3& p) {
-  const Vector3 axis = limb.b - limb.a;
-  const double length = axis.norm(), slope = (limb.radius_b - limb.radius_a) / length;
-  const double along = (p - limb.a).dot(axis) / length;
-  const double across = std::sqrt(std::max(0.0, (p - limb.a).squaredNorm() - along * along));
-  const double t = std::clamp((along + across * slope / std::sqrt(1 - slope * slope)) / length, 0.0, 1.0);
-  const Vector3 from_centre = p - (limb.a + t * axis);
-  const double distance = from_centre.norm();
-  if (distance == 0) return {-(limb.radius_a + t * length * slope), Vector3::Zero()};
-  return {distance - (limb.radius_a + t * length * slope), from_centre / distance};
+  const Vector3 from_start = p - limb.start;
+  const double along = from_start.dot(limb.direction);
+  const double across = std::sqrt(std::max(0.0, from_start.squaredNorm() - along * along));
+  const double t = std::clamp(along + across * limb.lean, 0.0, limb.length);
+  const Vector3 from_centre = from_start - t * limb.direction;
+  const double distance = from_centre.norm(), radius = limb.radius + t * limb.slope;
+  if (distance == 0) return {-radius, Vector3::Zero()};
+  return {distance - radius, from_centre / distance};
 }
 
 // -log(sum_i exp(-k d_i)) / k: the limbs' distances, smoothly joined over lengths of 1 / k.
 FieldSample figure_field(const Vector3& p) {
-  constexpr double kSharpness = 22;
-  constexpr double kNegligible = 1.5;  // exp(-k d) is below the rounding errors
+  constexpr double kSharpness = 15;
+  constexpr double kNegligible = 1.5;  // exp(-k d) is 2e-10: no step that shows
   std::array<FieldSample, 12> distance;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < distance.size(); ++i) {
@@ -117,43 +125,57 @@ struct Boxes {
 };
 
 // The trunk: a box of three columns, for a leg, nothing and a leg below, for a shoulder, the neck and a
-// shoulder above. Its faces are the left side, the right side, the bottom and the top from left to right (-x
-// to x), the fronts, the backs.
+// shoulder above, and of two rows, for the arms above and the hips below. Its first faces are those that are
+// pulled out: the right and the left shoulder's side, the bottoms of the legs, the top of the middle.
 Boxes trunk() {
   Boxes result;
-  const auto vertex = [](int x, int y, int z) { return 4 * x + 2 * y + z; };
+  const auto vertex = [](int x, int y, int z) { return 6 * x + 2 * y + z; };
   for (const double x : {-0.28, -0.1, 0.1, 0.28}) {
-    for (const double y : {-0.4, 0.42}) {
+    for (const double y : {-0.4, 0.15, 0.42}) {
       for (const double z : {-0.15, 0.15}) result.points.emplace_back(x, y, z);
     }
   }
-  auto& faces = result.faces;
-  faces.push_back({vertex(0, 0, 0), vertex(0, 0, 1), vertex(0, 1, 1), vertex(0, 1, 0)});
-  faces.push_back({vertex(3, 0, 0), vertex(3, 1, 0), vertex(3, 1, 1), vertex(3, 0, 1)});
-  for (int x = 0; x < 3; ++x)
-    faces.push_back({vertex(x, 0, 0), vertex(x + 1, 0, 0), vertex(x + 1, 0, 1), vertex(x, 0, 1)});
-  for (int x = 0; x < 3; ++x)
-    faces.push_back({vertex(x, 1, 0), vertex(x, 1, 1), vertex(x + 1, 1, 1), vertex(x + 1, 1, 0)});
-  for (int x = 0; x < 3; ++x)
-    faces.push_back({vertex(x, 0, 1), vertex(x + 1, 0, 1), vertex(x + 1, 1, 1), vertex(x, 1, 1)});
-  for (int x = 0; x < 3; ++x)
-    faces.push_back({vertex(x, 0, 0), vertex(x, 1, 0), vertex(x + 1, 1, 0), vertex(x + 1, 0, 0)});
+  const auto right = [&](int y) {
+    result.faces.push_back({vertex(0, y, 0), vertex(0, y, 1), vertex(0, y + 1, 1), vertex(0, y + 1, 0)});
+  };
+  const auto left = [&](int y) {
+    result.faces.push_back({vertex(3, y, 0), vertex(3, y + 1, 0), vertex(3, y + 1, 1), vertex(3, y, 1)});
+  };
+  const auto bottom = [&](int x) {
+    result.faces.push_back({vertex(x, 0, 0), vertex(x + 1, 0, 0), vertex(x + 1, 0, 1), vertex(x, 0, 1)});
+  };
+  const auto top = [&](int x) {
+    result.faces.push_back({vertex(x, 2, 0), vertex(x, 2, 1), vertex(x + 1, 2, 1), vertex(x + 1, 2, 0)});
+  };
+  const auto front = [&](int x, int y) {
+    result.faces.push_back(
+        {vertex(x, y, 1), vertex(x + 1, y, 1), vertex(x + 1, y + 1, 1), vertex(x, y + 1, 1)});
+  };
+  const auto back = [&](int x, int y) {
+    result.faces.push_back(
+        {vertex(x, y, 0), vertex(x, y + 1, 0), vertex(x + 1, y + 1, 0), vertex(x + 1, y, 0)});
+  };
+  right(1), left(1), bottom(0), bottom(2), top(1);
+  right(0), left(0), bottom(1), top(0), top(2);
+  for (int x = 0; x < 3; ++x) {
+    for (int y = 0; y < 2; ++y) front(x, y), back(x, y);
+  }
   return result;
 }
 
-// The trunk with head, arms and legs pulled out: 54 quadrilaterals.
+// The trunk with head, arms and legs pulled out: 62 quadrilaterals.
 Mesh coarse_figure() {
   Boxes boxes = trunk();
-  boxes.pull(0, {-0.48, 0.12, 0.03}, {-1, -1, 0.1}, 0.13);
-  boxes.pull(0, {-0.67, -0.20, 0.14}, {-0.5, -1, 0.3}, 0.13);
+  boxes.pull(0, {-0.54, 0.17, 0.03}, {-1, -1, 0.1}, 0.13);
+  boxes.pull(0, {-0.75, -0.15, 0.14}, {-0.5, -1, 0.3}, 0.13);
   boxes.pull(1, {0.52, 0.44, 0.02}, {1, 0.8, 0.1}, 0.13);
   boxes.pull(1, {0.73, 0.80, 0.10}, {0.5, 1, 0.3}, 0.13);
-  boxes.pull(2, {-0.2, -0.64, 0}, {0, -1, 0}, 0.17);
-  boxes.pull(2, {-0.25, -0.93, 0.05}, {0, -1, 0}, 0.17);
-  boxes.pull(4, {0.2, -0.64, 0}, {0, -1, 0}, 0.17);
-  boxes.pull(4, {0.25, -0.93, 0.05}, {0, -1, 0}, 0.17);
-  boxes.pull(6, {0, 0.56, 0}, {0, 1, 0}, 0.2);
-  boxes.pull(6, {0, 1.0, 0.02}, {0, 1, 0}, 0.25);
+  boxes.pull(2, {-0.21, -0.60, 0}, {0, -1, 0}, 0.14);
+  boxes.pull(2, {-0.28, -0.93, 0.07}, {0, -1, 0}, 0.15);
+  boxes.pull(3, {0.21, -0.60, 0}, {0, -1, 0}, 0.14);
+  boxes.pull(3, {0.28, -0.93, 0.07}, {0, -1, 0}, 0.15);
+  boxes.pull(4, {0, 0.56, 0}, {0, 1, 0}, 0.2);
+  boxes.pull(4, {0, 1.0, 0.02}, {0, 1, 0}, 0.25);
   return boxes.triangles();
 }
 
@@ -165,25 +187,24 @@ struct Bump {
   double height;
 };
 
-const std::array<Bump, 17>& bumps() {
-  static const std::array<Bump, 17> result = {{
+const std::array<Bump, 16>& bumps() {
+  static const std::array<Bump, 16> result = {{
       {{0, 0.02, 0.62}, {0.09, 0.24, 0.3}, 0.09},       // bridge of the nose
       {{0, -0.14, 0.68}, {0.10, 0.10, 0.2}, 0.13},      // its tip
-      {{-0.10, -0.17, 0.62}, {0.07, 0.06, 0.2}, 0.04},  // its wings
-      {{0.10, -0.17, 0.62}, {0.07, 0.06, 0.2}, 0.04},
+      {{-0.10, -0.17, 0.62}, {0.08, 0.08, 0.2}, 0.03},  // its wings
+      {{0.10, -0.17, 0.62}, {0.08, 0.08, 0.2}, 0.03},
       {{-0.27, 0.18, 0.5}, {0.18, 0.11, 0.3}, -0.10},  // sockets
       {{0.27, 0.18, 0.5}, {0.18, 0.11, 0.3}, -0.10},
       {{-0.26, 0.16, 0.5}, {0.11, 0.07, 0.3}, 0.06},  // eyes
       {{0.26, 0.16, 0.5}, {0.11, 0.07, 0.3}, 0.06},
-      {{-0.27, 0.32, 0.5}, {0.20, 0.07, 0.3}, 0.045},  // brows
-      {{0.27, 0.32, 0.5}, {0.20, 0.07, 0.3}, 0.045},
+      {{-0.27, 0.32, 0.5}, {0.20, 0.09, 0.3}, 0.045},  // brows
+      {{0.27, 0.32, 0.5}, {0.20, 0.09, 0.3}, 0.045},
       {{-0.36, -0.15, 0.45}, {0.16, 0.16, 0.3}, 0.04},  // cheeks
       {{0.36, -0.15, 0.45}, {0.16, 0.16, 0.3}, 0.04},
-      {{0, -0.43, 0.55}, {0.20, 0.05, 0.3}, 0.06},  // lips
-      {{0, -0.55, 0.53}, {0.16, 0.055, 0.3}, 0.06},
-      {{0, -0.485, 0.55}, {0.20, 0.03, 0.3}, -0.03},  // mouth
-      {{0, -0.66, 0.45}, {0.16, 0.05, 0.3}, -0.03},   // hollow under it
-      {{0, -0.80, 0.38}, {0.17, 0.12, 0.3}, 0.06},    // chin
+      {{0, -0.42, 0.55}, {0.21, 0.06, 0.3}, 0.05},  // lips
+      {{0, -0.57, 0.53}, {0.17, 0.065, 0.3}, 0.05},
+      {{0, -0.69, 0.45}, {0.18, 0.08, 0.3}, -0.03},  // hollow under it
+      {{0, -0.80, 0.38}, {0.17, 0.12, 0.3}, 0.06},   // chin
   }};
   return result;
 }

@@ -57,9 +57,9 @@ class Welder {
     return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
   }
 
+  /// Knuth's multiplicative hashing with 2^64 / golden ratio.
   static std::size_t hash(const Position& position) {
-    constexpr std::uint64_t multiplier =
-        0x9E3779B97F4A7C15;  // 2^64 / golden ratio, Knuth's multiplicative hashing
+    constexpr std::uint64_t multiplier = 0x9E3779B97F4A7C15;
     std::uint64_t h = 0;
     for (const double x : position) {
       h = (h ^ std::bit_cast<std::uint64_t>(x)) * multiplier;

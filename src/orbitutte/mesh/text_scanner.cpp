@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "orbitutte/types.h"
@@ -14,6 +15,8 @@ namespace {
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 
 bool is_line_end(char c) { return c == '\n' || c == '\r'; }
+
+bool is_unprintable(char c) { return c < ' ' || c > '~'; }
 
 std::string_view without_byte_order_mark(std::string_view text) {
   constexpr std::string_view mark = "\xEF\xBB\xBF";
@@ -31,13 +34,17 @@ NumberError parse_tiny_number(std::string_view word, double& value) {
   return NumberError::none;
 }
 
-std::string quoted(std::string_view word) {
+std::string shown(std::string_view word) {
   constexpr std::size_t longest = 40;
-  std::string text = "'";
-  for (const char c : word.substr(0, longest)) text += c >= ' ' && c <= '~' ? c : '?';
+  std::string text(word.substr(0, longest));
+  std::replace_if(text.begin(), text.end(), is_unprintable, '?');
   if (word.size() > longest) text += "...";
-  return text + "'";
+  return text;
 }
+
+std::string quoted(std::string_view word) { return "'" + shown(word) + "'"; }
+
+std::string shown(const TextItem& item) { return fmt::format("{} {}", shown(item.element), item.number); }
 
 TextScanner::TextScanner(std::string_view text, Syntax syntax, int first_line)
     : syntax_(syntax), line_(first_line) {
@@ -106,12 +113,12 @@ void TextScanner::skip_line_break() {
 void TextScanner::refuse_number(NumberError error, bool is_integer, std::string_view text,
                                 const TextItem& item, std::string_view what) const {
   if (text.empty()) {
-    refuse(fmt::format("the line ends where {} {} needs another {}", item.element, item.number, what));
+    refuse(fmt::format("the line ends where {} needs another {}", shown(item), shown(what)));
   }
   const std::string_view why = error == NumberError::out_of_range ? "is out of range"
                                : is_integer                       ? "is no integer"
                                                                   : "is no number";
-  refuse(fmt::format("{} {} has the {} {}, which {}", item.element, item.number, what, quoted(text), why));
+  refuse(fmt::format("{} has the {} {}, which {}", shown(item), shown(what), quoted(text), why));
 }
 
 void TextScanner::refuse(std::string_view problem) const {

@@ -28,7 +28,10 @@ NumberError parse_number(std::string_view word, T& value) {
   return NumberError::out_of_range;
 }
 
-/// The word in quotes as messages show it: printable ASCII, cut after forty characters.
+/// The word as messages show it: printable ASCII, cut after forty characters.
+std::string shown(std::string_view word);
+
+/// The same in quotes.
 std::string quoted(std::string_view word);
 
 /// What a number of the text belongs to: {"face", 3}.
@@ -36,6 +39,9 @@ struct TextItem {
   std::string_view element;
   std::size_t number;
 };
+
+/// "face 3"
+std::string shown(const TextItem& item);
 
 /// Walks over a text word by word. Words are separated by blanks; '\n', "\r\n" and '\r' end a line.
 class TextScanner {

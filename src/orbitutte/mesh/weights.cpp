@@ -57,24 +57,30 @@ bool parse(std::string_view word, Number& number) {
 int find_edge(const Connectivity& connectivity, int i, int j) {
   const std::array<int, 2> edge = {std::min(i, j), std::max(i, j)};
   const auto at = std::lower_bound(connectivity.edges.begin(), connectivity.edges.end(), edge);
-  return at != connectivity.edges.end() && *at == edge ? static_cast<int>(at - connectivity.edges.begin()) : -1;
+  return at != connectivity.edges.end() && *at == edge ? static_cast<int>(at - connectivity.edges.begin())
+                                                       : -1;
 }
 
 }  // namespace
 
 std::string name(WeightKind kind) {
   switch (kind) {
-    case WeightKind::cotan: return "cotan";
-    case WeightKind::uniform: return "uniform";
-    case WeightKind::file: return "file";
+    case WeightKind::cotan:
+      return "cotan";
+    case WeightKind::uniform:
+      return "uniform";
+    case WeightKind::file:
+      return "file";
   }
   return {};
 }
 
 EdgeWeights edge_weights(const Mesh& mesh, const Connectivity& connectivity, const WeightOptions& options) {
   if (!(options.clamp > 0) || !std::isfinite(options.clamp))
-    throw ArgumentError(fmt::format("the clamp of the weights is {}; it must be positive and finite", options.clamp));
-  if (options.kind == WeightKind::file) throw ArgumentError("weights of the kind 'file' are read by read_weights");
+    throw ArgumentError(
+        fmt::format("the clamp of the weights is {}; it must be positive and finite", options.clamp));
+  if (options.kind == WeightKind::file)
+    throw ArgumentError("weights of the kind 'file' are read by read_weights");
   if (options.kind == WeightKind::cotan) return cotangent_weights(mesh, connectivity, options.clamp);
   EdgeWeights result;
   result.kind = WeightKind::uniform;
@@ -99,20 +105,26 @@ EdgeWeights read_weights(const std::string& path, const Connectivity& connectivi
     int i = 0, j = 0;
     double w = 0;
     if (!parse(first, i) || !parse(next_word(line), j) || !parse(next_word(line), w))
-      throw MeshError(fmt::format("{}: line {} is not 'i j w' (two vertices and a weight); mend it", path, number));
+      throw MeshError(
+          fmt::format("{}: line {} is not 'i j w' (two vertices and a weight); mend it", path, number));
     if (!(w >= 0) || !std::isfinite(w))
-      throw MeshError(fmt::format("{}: line {}: edge ({}, {}) has the weight {}; weights must be finite and not negative", path,
-                                  number, i, j, w));
+      throw MeshError(
+          fmt::format("{}: line {}: edge ({}, {}) has the weight {}; weights must be finite and not negative",
+                      path, number, i, j, w));
     const int edge = find_edge(connectivity, i, j);
-    if (edge < 0) throw MeshError(fmt::format("{}: line {}: ({}, {}) is no edge of the mesh; remove the line", path, number, i, j));
+    if (edge < 0)
+      throw MeshError(
+          fmt::format("{}: line {}: ({}, {}) is no edge of the mesh; remove the line", path, number, i, j));
     if (result.w[edge] != missing)
-      throw MeshError(fmt::format("{}: line {}: edge ({}, {}) is given twice; give every edge once", path, number, i, j));
+      throw MeshError(
+          fmt::format("{}: line {}: edge ({}, {}) is given twice; give every edge once", path, number, i, j));
     result.w[edge] = w;
   }
   const auto absent = std::find(result.w.begin(), result.w.end(), missing);
   if (absent != result.w.end()) {
     const auto [i, j] = connectivity.edges[absent - result.w.begin()];
-    throw MeshError(fmt::format("{}: edge ({}, {}) has no line; give every edge of the mesh once", path, i, j));
+    throw MeshError(
+        fmt::format("{}: edge ({}, {}) has no line; give every edge of the mesh once", path, i, j));
   }
   result.zero_edges = static_cast<int>(std::count(result.w.begin(), result.w.end(), 0.0));
   return result;

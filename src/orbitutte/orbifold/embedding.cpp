@@ -7,9 +7,12 @@ namespace orbitutte {
 
 std::string name(SeamKind kind) {
   switch (kind) {
-    case SeamKind::rotation: return "rotation";
-    case SeamKind::reflection: return "reflection";
-    case SeamKind::rotoreflection: return "rotoreflection";
+    case SeamKind::rotation:
+      return "rotation";
+    case SeamKind::reflection:
+      return "reflection";
+    case SeamKind::rotoreflection:
+      return "rotoreflection";
   }
   return {};
 }
@@ -21,9 +24,12 @@ SeamKind Seam::kind() const {
 
 std::string name(ConeKind kind) {
   switch (kind) {
-    case ConeKind::rotation: return "rotation";
-    case ConeKind::corner: return "corner";
-    case ConeKind::fixed: return "fixed";
+    case ConeKind::rotation:
+      return "rotation";
+    case ConeKind::corner:
+      return "corner";
+    case ConeKind::fixed:
+      return "fixed";
   }
   return {};
 }

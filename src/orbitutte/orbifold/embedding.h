@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A map of a cut mesh onto the basic tile of a spherical orbifold S^2/G: what is certified, measured, tiled and written.
+// A map of a cut mesh onto the basic tile of a spherical orbifold S^2/G: what is certified, measured, tiled
+// and written.
 #pragma once
 
 #include <string>
@@ -15,11 +16,11 @@ enum class SeamKind { rotation, reflection, rotoreflection };
 std::string name(SeamKind kind);
 
 /// Two banks of the cut mesh's boundary and the symmetry that takes the right one to the left one:
-/// position(left[i]) = transform * position(right[i]), for the interior vertices of the seam and its two end points.
-/// A mirror is a seam whose banks are the same vertices.
+/// position(left[i]) = transform * position(right[i]), for the interior vertices of the seam and its two end
+/// points. A mirror is a seam whose banks are the same vertices.
 struct Seam {
-  std::vector<int> left;   ///< cut vertices
-  std::vector<int> right;  ///< cut vertices, as many as in left
+  std::vector<int> left;                    ///< cut vertices
+  std::vector<int> right;                   ///< cut vertices, as many as in left
   Matrix3 transform = Matrix3::Identity();  ///< an element of O(3)
 
   SeamKind kind() const;
@@ -43,7 +44,8 @@ struct Embedding {
   int group_order = 1;    ///< |G|
   Points positions;       ///< n_cut x 3, on the unit sphere; vertices that no face uses sit at the north pole
   Faces faces;            ///< m x 3, the faces of the input in their order, on cut vertices
-  std::vector<int> source_vertex;  ///< n_cut: the input vertex; the first n cut vertices are the input vertices
+  std::vector<int>
+      source_vertex;  ///< n_cut: the input vertex; the first n cut vertices are the input vertices
   std::vector<Seam> seams;
   std::vector<ConeCopies> cones;
 };

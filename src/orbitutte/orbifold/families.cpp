@@ -12,16 +12,20 @@ namespace {
 
 using std::numbers::pi;
 
-Matrix3 rotation(const Vector3& axis, double angle) { return Eigen::AngleAxisd(angle, axis).toRotationMatrix(); }
+Matrix3 rotation(const Vector3& axis, double angle) {
+  return Eigen::AngleAxisd(angle, axis).toRotationMatrix();
+}
 
 Matrix3 reflection(const Vector3& normal) { return Matrix3::Identity() - 2 * normal * normal.transpose(); }
 
-// The side opposite to the angle a of a spherical triangle with angles a, b, c: the law of cosines for angles.
+// The side opposite to the angle a of a spherical triangle with angles a, b, c: the law of cosines for
+// angles.
 double opposite_side(double a, double b, double c) {
   return std::acos((std::cos(a) + std::cos(b) * std::cos(c)) / (std::sin(b) * std::sin(c)));
 }
 
-// The corners p1, p2, p3 of the triangle with angles pi/n1, pi/n2, pi/n3, counterclockwise from outside, p1 at the north pole.
+// The corners p1, p2, p3 of the triangle with angles pi/n1, pi/n2, pi/n3, counterclockwise from outside, p1
+// at the north pole.
 std::vector<Vector3> triangle_corners(const std::vector<int>& n) {
   const double a1 = pi / n[0], a2 = pi / n[1], a3 = pi / n[2];
   const double p1p2 = opposite_side(a3, a1, a2), p1p3 = opposite_side(a2, a3, a1);

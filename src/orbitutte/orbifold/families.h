@@ -9,7 +9,8 @@
 
 namespace orbitutte {
 
-/// One row of the table. A family is known by its symbol with the orders sorted, where 0 stands for the free order N.
+/// One row of the table. A family is known by its symbol with the orders sorted, where 0 stands for the free
+/// order N.
 struct Family {
   std::string name;           ///< "22N"
   std::string group_order;    ///< "2N"

@@ -20,12 +20,14 @@ struct Fraction {
   long long numerator = 0, denominator = 1;
 
   Fraction minus(long long n, long long d) const {
-    const long long top = numerator * d - n * denominator, bottom = denominator * d, common = std::gcd(top, bottom);
+    const long long top = numerator * d - n * denominator, bottom = denominator * d,
+                    common = std::gcd(top, bottom);
     return {top / common, bottom / common};
   }
 };
 
-// The orbifold's Euler characteristic: 2 - sum (1 - 1/n) - [star] - sum (1 - 1/m)/2 - [cross]; |G| is 2 over it.
+// The orbifold's Euler characteristic: 2 - sum (1 - 1/n) - [star] - sum (1 - 1/m)/2 - [cross]; |G| is 2 over
+// it.
 Fraction euler_characteristic(const ConwaySymbol& symbol) {
   Fraction chi = {2, 1};
   for (const long long n : symbol.rotations) chi = chi.minus(n - 1, n);
@@ -76,12 +78,13 @@ int parse_order(const std::string& text, const std::string& number) {
   for (const char digit : number) order = std::min(10 * order + (digit - '0'), largest_order + 1);
   if (number.empty()) refuse(text, "has an empty place between commas; give every order once");
   if (order < 1) refuse(text, "has an order of 0; orders are 2 or more");
-  if (order > largest_order) refuse(text, fmt::format("has an order above {}, the largest that is supported", largest_order));
+  if (order > largest_order)
+    refuse(text, fmt::format("has an order above {}, the largest that is supported", largest_order));
   return order;
 }
 
-// The possible readings of one half of a symbol. With commas there is exactly one; a comma at the end ("22,*") may mark a
-// single order of two digits as such.
+// The possible readings of one half of a symbol. With commas there is exactly one; a comma at the end
+// ("22,*") may mark a single order of two digits as such.
 std::vector<Orders> read_orders(const std::string& text, std::string part) {
   if (part.empty()) return {Orders()};
   if (part.find(',') == std::string::npos) {
@@ -122,7 +125,8 @@ Halves split(const std::string& text) {
     } else if (c == '*' || c == 'x' || c == 'X' || multiplication_sign) {
       refuse(text, "has more than one star or cross, which is no spherical orbifold");
     } else {
-      refuse(text, "is no Conway symbol: it may hold digits, commas, one '*' and one 'x'; see 'orbitutte types'");
+      refuse(text,
+             "is no Conway symbol: it may hold digits, commas, one '*' and one 'x'; see 'orbitutte types'");
     }
   }
   if (text.empty()) throw ArgumentError("the signature is empty; see 'orbitutte types'");
@@ -133,7 +137,8 @@ std::vector<ConwaySymbol> all_readings(const std::string& text) {
   const Halves halves = split(text);
   std::vector<ConwaySymbol> result;
   for (const Orders& before : read_orders(text, halves.before)) {
-    for (const Orders& after : read_orders(text, halves.after)) result.push_back({before, after, halves.star, halves.cross});
+    for (const Orders& after : read_orders(text, halves.after))
+      result.push_back({before, after, halves.star, halves.cross});
   }
   if (result.empty()) refuse(text, "has an order of 0; orders are 2 or more");
   return result;
@@ -164,15 +169,17 @@ std::string objection(const ConwaySymbol& symbol) {
   if (symbol.rotations.empty() && symbol.corners.empty() && !symbol.cross)
     return "marks no vertex; the families embedded have two or three (see 'orbitutte types')";
   if (is_bad(symbol))
-    return "is not an orbifold of the sphere: one order alone, or two different ones, close up no tiling (a teardrop or spindle)";
+    return "is not an orbifold of the sphere: one order alone, or two different ones, close up no tiling (a "
+           "teardrop or spindle)";
   const long long chi = euler_characteristic(symbol).numerator;
   if (chi == 0) return "is a Euclidean orbifold: its tiles fill the plane, not the sphere";
   if (chi < 0) return "is a hyperbolic orbifold: its tiles fill the hyperbolic plane, not the sphere";
-  return "is a spherical orbifold of a family that is not embedded yet; see 'orbitutte types' for those that are";
+  return "is a spherical orbifold of a family that is not embedded yet; see 'orbitutte types' for those that "
+         "are";
 }
 
-// The reading by the rule of the notation: one character per order, unless a half is a single number that can be read in no
-// other way ("2*12", "12*").
+// The reading by the rule of the notation: one character per order, unless a half is a single number that can
+// be read in no other way ("2*12", "12*").
 const ConwaySymbol& choose(const std::string& text, const std::vector<ConwaySymbol>& all) {
   const auto embeds = [](const ConwaySymbol& s) { return find_family(s) || is_mixed_spherical(s); };
   if (text.find(',') != std::string::npos && all.size() == 1) return all.front();
@@ -186,8 +193,8 @@ const ConwaySymbol& choose(const std::string& text, const std::vector<ConwaySymb
   if (lone && (trivial_order(digits) || text.find('0') != std::string::npos)) return *others[0];
   std::string named;
   for (const ConwaySymbol* other : others) named += (named.empty() ? "" : " or as ") + commas(*other);
-  refuse(text, fmt::format("could be read as {} or as {}; separate the orders by commas, as in '{}'", commas(digits), named,
-                           commas(*others[0])));
+  refuse(text, fmt::format("could be read as {} or as {}; separate the orders by commas, as in '{}'",
+                           commas(digits), named, commas(*others[0])));
 }
 
 std::vector<Mark> marks_of(const ConwaySymbol& symbol) {

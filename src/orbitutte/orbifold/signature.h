@@ -28,16 +28,17 @@ struct Mark {
 };
 
 struct Orbifold {
-  std::string signature;    ///< canonical text, the orders in the arrangement that was given
+  std::string signature;  ///< canonical text, the orders in the arrangement that was given
   ConwaySymbol symbol;
-  int group_order = 1;      ///< |G|
+  int group_order = 1;                   ///< |G|
   Topology topology = Topology::sphere;  ///< what the mesh has to be
-  std::vector<Mark> marks;  ///< in the order in which vertices are marked
+  std::vector<Mark> marks;               ///< in the order in which vertices are marked
 };
 
 /// Reads a symbol and finds its family. Orders may come in any arrangement.
-/// Throws ArgumentError, in one sentence: what is no symbol; what could be read in two ways (both are named); orders that make
-/// a Euclidean or hyperbolic orbifold or none at all (teardrops, spindles, order one); families that are not embedded yet.
+/// Throws ArgumentError, in one sentence: what is no symbol; what could be read in two ways (both are named);
+/// orders that make a Euclidean or hyperbolic orbifold or none at all (teardrops, spindles, order one);
+/// families that are not embedded yet.
 Orbifold parse_orbifold(const std::string& signature);
 
 /// A row of `orbitutte types`.

@@ -32,8 +32,8 @@ Tile basic_tile(const Orbifold& orbifold, const std::vector<int>& arrangement) {
 bool free_rotation_axis(const Tile& tile, Vector3& axis) {
   axis = tile.sides.front().start;
   return std::all_of(tile.sides.begin(), tile.sides.end(), [&](const TileSide& side) {
-    return side.partner != -1 && (side.transform * axis - axis).norm() < 1e-12 && side.transform.determinant() > 0 &&
-           std::abs(std::abs(side.start.dot(axis)) - 1) < 1e-12;
+    return side.partner != -1 && (side.transform * axis - axis).norm() < 1e-12 &&
+           side.transform.determinant() > 0 && std::abs(std::abs(side.start.dot(axis)) - 1) < 1e-12;
   });
 }
 

@@ -8,9 +8,9 @@
 
 namespace orbitutte {
 
-/// A side of a tile: the great arc p(s) = cos(s) start + sin(s) direction, 0 <= s <= length, the tile on its left.
-/// A point of this side at arc length s is transform * (the point of side `partner` at length - s); a side that is its own
-/// partner is a mirror, and stays as it is under the transform.
+/// A side of a tile: the great arc p(s) = cos(s) start + sin(s) direction, 0 <= s <= length, the tile on its
+/// left. A point of this side at arc length s is transform * (the point of side `partner` at length - s); a
+/// side that is its own partner is a mirror, and stays as it is under the transform.
 struct TileSide {
   Vector3 start;      ///< the corner where the side begins, unit
   Vector3 direction;  ///< unit tangent there
@@ -20,24 +20,27 @@ struct TileSide {
   Matrix3 transform = Matrix3::Identity();
 
   Vector3 point(double s) const;
-  Vector3 pole() const { return start.cross(direction); }  ///< the unit normal of the arc's plane, towards the tile
+  Vector3 pole() const {
+    return start.cross(direction);
+  }  ///< the unit normal of the arc's plane, towards the tile
 };
 
 /// A spherical polygon; corner k is where side k begins. Counterclockwise from outside.
 struct Tile {
   std::vector<TileSide> sides;
 
-  /// The direction of the integral of the position over the tile: half the sum of length * pole over the sides, which
-  /// holds for lunes and hemispheres too, where the mean of the corners vanishes.
+  /// The direction of the integral of the position over the tile: half the sum of length * pole over the
+  /// sides, which holds for lunes and hemispheres too, where the mean of the corners vanishes.
   Vector3 centroid() const;
 };
 
-/// The tile whose boundary meets the orbifold's marks in the order `arrangement` (a permutation of their indices; every other
-/// corner is a further image of one of them). Throws ArgumentError where it is no permutation.
+/// The tile whose boundary meets the orbifold's marks in the order `arrangement` (a permutation of their
+/// indices; every other corner is a further image of one of them). Throws ArgumentError where it is no
+/// permutation.
 Tile basic_tile(const Orbifold& orbifold, const std::vector<int>& arrangement);
 
-/// True where a rotation about an axis changes no side's gluing, so that the embedding is fixed only up to it; then `axis`
-/// is that direction.
+/// True where a rotation about an axis changes no side's gluing, so that the embedding is fixed only up to
+/// it; then `axis` is that direction.
 bool free_rotation_axis(const Tile& tile, Vector3& axis);
 
 }  // namespace orbitutte

@@ -22,14 +22,17 @@ PlyProperty column(std::string name, PlyType type, std::vector<double> values) {
 const PlyProperty& require(const PlyElement& element, const char* property, bool is_list) {
   const PlyProperty* found = element.find(property);
   if (!found || found->is_list != is_list)
-    throw MeshError(fmt::format("the element '{}' has no {} property '{}'; is this an embedding written by orbitutte?",
-                                element.name, is_list ? "list" : "scalar", property));
+    throw MeshError(
+        fmt::format("the element '{}' has no {} property '{}'; is this an embedding written by orbitutte?",
+                    element.name, is_list ? "list" : "scalar", property));
   return *found;
 }
 
 const PlyElement& require(const PlyFile& file, const char* element) {
   const PlyElement* found = file.find(element);
-  if (!found) throw MeshError(fmt::format("there is no element '{}'; is this an embedding written by orbitutte?", element));
+  if (!found)
+    throw MeshError(
+        fmt::format("there is no element '{}'; is this an embedding written by orbitutte?", element));
   return *found;
 }
 
@@ -45,7 +48,8 @@ Embedding to_embedding(const PlyFile& file) {
   embedding.positions.resize(static_cast<Eigen::Index>(vertex.count), 3);
   for (int k = 0; k < 3; ++k) {
     const std::vector<double>& values = require(vertex, k == 0 ? "x" : k == 1 ? "y" : "z", false).values;
-    for (std::size_t v = 0; v < vertex.count; ++v) embedding.positions(static_cast<Eigen::Index>(v), k) = values[v];
+    for (std::size_t v = 0; v < vertex.count; ++v)
+      embedding.positions(static_cast<Eigen::Index>(v), k) = values[v];
   }
   const std::vector<double>& source = require(vertex, "source_vertex", false).values;
   for (std::size_t v = 0; v < vertex.count; ++v)
@@ -53,7 +57,8 @@ Embedding to_embedding(const PlyFile& file) {
   const PlyProperty& corners = require(face, "vertex_indices", true);
   embedding.faces.resize(static_cast<Eigen::Index>(face.count), 3);
   for (std::size_t f = 0; f < face.count; ++f) {
-    if (corners.list_start[f + 1] - corners.list_start[f] != 3) throw MeshError(fmt::format("face {} is no triangle", f));
+    if (corners.list_start[f + 1] - corners.list_start[f] != 3)
+      throw MeshError(fmt::format("face {} is no triangle", f));
     for (std::size_t k = 0; k < 3; ++k)
       embedding.faces(static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(k)) =
           to_index(corners.values[3 * f + k], vertex.count, "face", f);
@@ -72,8 +77,8 @@ std::string serialize_embedding(const Embedding& embedding) {
     vertex.properties.push_back(
         column(std::string(1, static_cast<char>('x' + k)), PlyType::float64, {values.begin(), values.end()}));
   }
-  vertex.properties.push_back(
-      column("source_vertex", PlyType::int32, {embedding.source_vertex.begin(), embedding.source_vertex.end()}));
+  vertex.properties.push_back(column("source_vertex", PlyType::int32,
+                                     {embedding.source_vertex.begin(), embedding.source_vertex.end()}));
   PlyElement face = {"face", static_cast<std::size_t>(embedding.faces.rows()), {}};
   const auto corners = embedding.faces.reshaped<Eigen::RowMajor>();
   PlyProperty lists = column("vertex_indices", PlyType::int32, {corners.begin(), corners.end()});

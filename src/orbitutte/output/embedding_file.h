@@ -11,8 +11,8 @@ namespace orbitutte {
 /// The bytes of the PLY: vertices with double x, y, z and int source_vertex; faces as lists vertex_indices.
 std::string serialize_embedding(const Embedding& embedding);
 
-/// Positions, faces and source vertices of such a file; what the report holds (signature, group order, seams, cones) stays
-/// empty. Throws FileError, and MeshError naming what is missing or out of range.
+/// Positions, faces and source vertices of such a file; what the report holds (signature, group order, seams,
+/// cones) stays empty. Throws FileError, and MeshError naming what is missing or out of range.
 Embedding read_embedding(const std::string& path);
 
 }  // namespace orbitutte

@@ -27,7 +27,10 @@ Json to_json(const ConeCopies& cone) {
 }
 
 Json to_json(const Seam& seam) {
-  return {{"kind", name(seam.kind())}, {"left", seam.left}, {"right", seam.right}, {"transform", to_json(seam.transform)}};
+  return {{"kind", name(seam.kind())},
+          {"left", seam.left},
+          {"right", seam.right},
+          {"transform", to_json(seam.transform)}};
 }
 
 Json to_json(const EdgeWeights& weights) {
@@ -37,7 +40,8 @@ Json to_json(const EdgeWeights& weights) {
 Json to_json(const Certificate& certificate) {
   Json checks = Json::array();
   for (const Check& check : certificate.checks) {
-    Json row = {{"name", check.name}, {"passed", check.passed}, {"value", check.value}, {"bound", check.bound}};
+    Json row = {
+        {"name", check.name}, {"passed", check.passed}, {"value", check.value}, {"bound", check.bound}};
     if (!check.detail.empty()) row["detail"] = check.detail;
     checks.push_back(std::move(row));
   }
@@ -55,7 +59,9 @@ Json to_json(const Distortion& distortion) {
   return {{"area", {{"mean", mean}, {"std", std}, {"median", median}, {"max", max}}},
           {"angle", {{"mean", distortion.angle.mean}, {"max", distortion.angle.max}}},
           {"histogram",
-           {{"quantity", "log2 of the area ratio"}, {"edges", distortion.histogram.edges}, {"counts", distortion.histogram.counts}}},
+           {{"quantity", "log2 of the area ratio"},
+            {"edges", distortion.histogram.edges},
+            {"counts", distortion.histogram.counts}}},
           {"measured_faces", distortion.measured_faces}};
 }
 
@@ -113,13 +119,14 @@ Seam to_seam(const Json& json) {
 }
 
 ConeCopies to_cone(const Json& json) {
-  return {json.at("vertex").get<int>(), json.at("order").get<int>(), cone_kind(json.at("kind").get<std::string>()),
-          json.at("copies").get<std::vector<int>>()};
+  return {json.at("vertex").get<int>(), json.at("order").get<int>(),
+          cone_kind(json.at("kind").get<std::string>()), json.at("copies").get<std::vector<int>>()};
 }
 
 Report to_report(const Json& json) {
   if (json.at("schema").get<std::string>() != "orbitutte.report/1")
-    throw MeshError(fmt::format("the schema is '{}', not 'orbitutte.report/1'", json.at("schema").get<std::string>()));
+    throw MeshError(
+        fmt::format("the schema is '{}', not 'orbitutte.report/1'", json.at("schema").get<std::string>()));
   Report report;
   report.signature = json.at("orbifold").at("signature").get<std::string>();
   report.group_order = json.at("orbifold").at("group_order").get<int>();
@@ -190,7 +197,8 @@ Embedding read_embedding(const std::string& ply_path, const Report& report) {
   const auto require = [&](const std::vector<int>& vertices) {
     for (const int v : vertices)
       if (v < 0 || v >= count)
-        throw MeshError(fmt::format("the report names the cut vertex {}, but {} holds {}", v, ply_path, count));
+        throw MeshError(
+            fmt::format("the report names the cut vertex {}, but {} holds {}", v, ply_path, count));
   };
   for (const Seam& seam : embedding.seams) {
     require(seam.left);

@@ -40,8 +40,8 @@ struct Report {
 /// Reads a report. Throws FileError, and MeshError naming the key that is missing or of the wrong type.
 Report read_report(const std::string& path);
 
-/// An embedding from its two files. Throws as read_embedding and read_report do, and MeshError where a vertex of the report
-/// is not in the embedding.
+/// An embedding from its two files. Throws as read_embedding and read_report do, and MeshError where a vertex
+/// of the report is not in the embedding.
 Embedding read_embedding(const std::string& ply_path, const Report& report);
 
 /// The SHA-256 digest of bytes, hexadecimal.

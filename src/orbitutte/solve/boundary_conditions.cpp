@@ -23,7 +23,8 @@ std::vector<Seam> seams_of(const std::vector<std::vector<int>>& sides, const Til
   return seams;
 }
 
-std::vector<ConeCopies> cones_of(const CutMesh& cut, const Orbifold& orbifold, const std::vector<int>& marked_vertices) {
+std::vector<ConeCopies> cones_of(const CutMesh& cut, const Orbifold& orbifold,
+                                 const std::vector<int>& marked_vertices) {
   std::vector<ConeCopies> cones;
   for (std::size_t k = 0; k < marked_vertices.size(); ++k)
     cones.push_back({marked_vertices[k], orbifold.marks[k].order, orbifold.marks[k].kind, {}});
@@ -45,8 +46,9 @@ void hold_corners(const Tile& tile, int input_vertices, BoundaryConditions& cond
   }
 }
 
-// The transform of the copies of held corners: the product of gluings is not unique there, and none is needed but one that takes
-// the input vertex's position to the copy's. It is that of the seam through which the copy is met.
+// The transform of the copies of held corners: the product of gluings is not unique there, and none is needed
+// but one that takes the input vertex's position to the copy's. It is that of the seam through which the copy
+// is met.
 void spread_transforms(const std::vector<Seam>& seams, int input_vertices, BoundaryConditions& conditions) {
   for (const Seam& seam : seams) {
     if (seam.left == seam.right) continue;
@@ -78,7 +80,8 @@ void keep_on_mirrors(const std::vector<Seam>& seams, BoundaryConditions& conditi
     if (seam.left != seam.right) continue;
     conditions.bases.push_back(mirror_plane(seam.transform));
     for (const int v : seam.left)
-      if (conditions.basis_of[v] != held_in_place) conditions.basis_of[v] = static_cast<int>(conditions.bases.size()) - 1;
+      if (conditions.basis_of[v] != held_in_place)
+        conditions.basis_of[v] = static_cast<int>(conditions.bases.size()) - 1;
   }
 }
 
@@ -93,7 +96,8 @@ void hold_unreferenced(const CutMesh& cut, BoundaryConditions& conditions) {
 }
 
 // Side k of the tile takes the vertices of the boundary from its corner to the next one.
-std::vector<std::vector<int>> boundary_sides(const CutMesh& cut, const Tile& tile, const std::vector<int>& marked_vertices) {
+std::vector<std::vector<int>> boundary_sides(const CutMesh& cut, const Tile& tile,
+                                             const std::vector<int>& marked_vertices) {
   std::vector<std::size_t> corners;
   for (std::size_t k = 0; k < cut.boundary.size(); ++k) {
     if (corners.size() == tile.sides.size()) break;
@@ -101,7 +105,8 @@ std::vector<std::vector<int>> boundary_sides(const CutMesh& cut, const Tile& til
     if (cut.source_vertex[cut.boundary[k]] == marked_vertices[mark]) corners.push_back(k);
   }
   if (corners.size() != tile.sides.size() || corners.front() != 0)
-    throw std::logic_error("the boundary of the cut mesh does not meet the marked vertices as the tile's corners do");
+    throw std::logic_error(
+        "the boundary of the cut mesh does not meet the marked vertices as the tile's corners do");
   std::vector<std::vector<int>> sides(corners.size());
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const std::size_t end = k + 1 < corners.size() ? corners[k + 1] : cut.boundary.size();
@@ -131,7 +136,8 @@ Points BoundaryConditions::spread(const Points& positions, const std::vector<int
 BoundaryConditions glue(const CutMesh& cut, const Tile& tile, const Orbifold& orbifold,
                         const std::vector<int>& marked_vertices) {
   int input_vertices = 0;
-  while (input_vertices < cut.vertex_count() && cut.source_vertex[input_vertices] == input_vertices) ++input_vertices;
+  while (input_vertices < cut.vertex_count() && cut.source_vertex[input_vertices] == input_vertices)
+    ++input_vertices;
   BoundaryConditions conditions;
   conditions.sides = boundary_sides(cut, tile, marked_vertices);
   conditions.seams = seams_of(conditions.sides, tile);

@@ -6,6 +6,7 @@
 
 #include <cholmod.h>
 #include <dlfcn.h>
+#include <omp.h>
 
 #include <cstring>
 #include <new>
@@ -20,6 +21,19 @@ void use_one_blas_thread() {
   using SetThreads = void (*)(int);
   if (const auto set = reinterpret_cast<SetThreads>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"))) set(1);
 }
+
+// CHOLMOD opens a parallel region of its own for every supernode, which costs more than it gains; while this
+// lives, OpenMP regions run on the calling thread.
+class SerialRegions {
+ public:
+  SerialRegions() : before_(omp_get_max_active_levels()) { omp_set_max_active_levels(0); }
+  ~SerialRegions() { omp_set_max_active_levels(before_); }
+  SerialRegions(const SerialRegions&) = delete;
+  SerialRegions& operator=(const SerialRegions&) = delete;
+
+ private:
+  int before_;
+};
 
 cholmod_dense dense_view(const Eigen::MatrixXd& matrix) {
   cholmod_dense view = {};
@@ -51,6 +65,7 @@ class CholmodFactor : public SparseFactor {
  public:
   explicit CholmodFactor(const SparseMatrix& lower) {
     use_one_blas_thread();
+    const SerialRegions serial;
     cholmod_l_start(&common_);
     common_.print = 0;
     common_.error_handler = nullptr;
@@ -101,7 +116,9 @@ class CholmodFactor : public SparseFactor {
 
 }  // namespace
 
-std::unique_ptr<SparseFactor> cholmod_factorize(const SparseMatrix& lower) { return std::make_unique<CholmodFactor>(lower); }
+std::unique_ptr<SparseFactor> cholmod_factorize(const SparseMatrix& lower) {
+  return std::make_unique<CholmodFactor>(lower);
+}
 
 }  // namespace orbitutte
 

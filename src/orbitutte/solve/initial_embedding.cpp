@@ -7,9 +7,10 @@
 namespace orbitutte {
 namespace {
 
-// The fraction of the path's length at each vertex, from 0 to 1. A thousandth is shared equally, so that no two vertices fall
-// together where the source has edges of length zero.
-std::vector<double> arc_length_fractions(const std::vector<int>& side, const Mesh& mesh, const std::vector<int>& source) {
+// The fraction of the path's length at each vertex, from 0 to 1. A thousandth is shared equally, so that no
+// two vertices fall together where the source has edges of length zero.
+std::vector<double> arc_length_fractions(const std::vector<int>& side, const Mesh& mesh,
+                                         const std::vector<int>& source) {
   std::vector<double> at = {0};
   for (std::size_t k = 1; k < side.size(); ++k)
     at.push_back(at.back() + (mesh.V.row(source[side[k]]) - mesh.V.row(source[side[k - 1]])).norm());
@@ -21,22 +22,26 @@ std::vector<double> arc_length_fractions(const std::vector<int>& side, const Mes
   return at;
 }
 
-// Each side's vertices on its arc. Both sides of a seam have the same fractions, so the positions agree across it.
-Points boundary_on_arcs(const Mesh& mesh, const CutMesh& cut, const Tile& tile, const BoundaryConditions& boundary) {
+// Each side's vertices on its arc. Both sides of a seam have the same fractions, so the positions agree
+// across it.
+Points boundary_on_arcs(const Mesh& mesh, const CutMesh& cut, const Tile& tile,
+                        const BoundaryConditions& boundary) {
   Points result = Points::Zero(cut.vertex_count(), 3);
   for (std::size_t s = 0; s < tile.sides.size(); ++s) {
     const std::vector<int>& side = boundary.sides[s];
     const std::vector<double> at = arc_length_fractions(side, mesh, cut.source_vertex);
-    for (std::size_t k = 0; k + 1 < side.size(); ++k) result.row(side[k]) = tile.sides[s].point(at[k] * tile.sides[s].length);
+    for (std::size_t k = 0; k + 1 < side.size(); ++k)
+      result.row(side[k]) = tile.sides[s].point(at[k] * tile.sides[s].length);
   }
   return result;
 }
 
 }  // namespace
 
-Points initial_embedding(const Mesh& mesh, const CutMesh& cut, const Tile& tile, const BoundaryConditions& boundary,
-                         const LaplacianSolver& laplacian) {
-  const Matrix3 to_pole = Eigen::Quaterniond::FromTwoVectors(tile.centroid(), Vector3::UnitZ()).toRotationMatrix();
+Points initial_embedding(const Mesh& mesh, const CutMesh& cut, const Tile& tile,
+                         const BoundaryConditions& boundary, const LaplacianSolver& laplacian) {
+  const Matrix3 to_pole =
+      Eigen::Quaterniond::FromTwoVectors(tile.centroid(), Vector3::UnitZ()).toRotationMatrix();
   const Points on_arcs = boundary_on_arcs(mesh, cut, tile, boundary) * to_pole.transpose();
   const Eigen::MatrixXd plane = laplacian.extend_harmonically(on_arcs.leftCols<2>());
   const Eigen::Index n = boundary.held.rows();

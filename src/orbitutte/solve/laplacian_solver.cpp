@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Both systems are Laplacians of one graph; they differ in the room of each vertex: one unknown inside the disk, or up to three
-// glued ones. Both are assembled in one fill-reducing order of the vertices, found once.
+// Both systems are Laplacians of one graph; they differ in the room of each vertex: one unknown inside the
+// disk, or up to three glued ones. Both are assembled in one fill-reducing order of the vertices, found once.
 #include "orbitutte/solve/laplacian_solver.h"
 
 #include <fmt/format.h>
@@ -40,10 +40,11 @@ Unknowns number_unknowns(const std::vector<int>& order, std::vector<int> count) 
   return unknowns;
 }
 
-// The lower triangle of the Laplacian sum of w |x_i - g x_j|^2 over the edges, in blocks: `coupling(e, v)` is the block that edge e
-// puts into the rows of its other end and the columns of v, without the factor -w.
+// The lower triangle of the Laplacian sum of w |x_i - g x_j|^2 over the edges, in blocks: `coupling(e, v)` is
+// the block that edge e puts into the rows of its other end and the columns of v, without the factor -w.
 template <typename Coupling>
-SparseMatrix assemble(const Unknowns& unknowns, const Neighbors& near, const Eigen::VectorXd& w, const Coupling& coupling) {
+SparseMatrix assemble(const Unknowns& unknowns, const Neighbors& near, const Eigen::VectorXd& w,
+                      const Coupling& coupling) {
   SparseMatrix A(unknowns.total, unknowns.total);
   const auto later = [&](int v, int u) { return unknowns.first[u] > unknowns.first[v]; };
   long nonzeros = 0;
@@ -86,7 +87,8 @@ SparseMatrix assemble(const Unknowns& unknowns, const Neighbors& near, const Eig
   return A;
 }
 
-std::unique_ptr<SparseFactor> factorize_laplacian(const SparseMatrix& A, const Unknowns& unknowns, Backend backend) {
+std::unique_ptr<SparseFactor> factorize_laplacian(const SparseMatrix& A, const Unknowns& unknowns,
+                                                  Backend backend) {
   if (unknowns.total == 0) return nullptr;
   try {
     return factorize(A, backend);
@@ -95,7 +97,8 @@ std::unique_ptr<SparseFactor> factorize_laplacian(const SparseMatrix& A, const U
                                          [&](long column, int v) { return column < unknowns.first[v]; });
     const std::string vertex = error.column < 0 ? "a vertex" : fmt::format("vertex {}", *(holder - 1));
     throw MeshError(fmt::format(
-        "no positive weights tie {} to the cones; give it positive weights, or use --weights uniform", vertex));
+        "no positive weights tie {} to the cones; give it positive weights, or use --weights uniform",
+        vertex));
   }
 }
 
@@ -123,8 +126,8 @@ LaplacianSolver::LaplacianSolver(const CutMesh& cut, const GluedEdges& glued, co
   disk_ = std::make_unique<System>();
   disk_->unknowns = number_unknowns(order, inside);
   disk_->factor = factorize_laplacian(
-      assemble(disk_->unknowns, near, w_, [](int, int) { return Block(Block::Identity(1, 1)); }), disk_->unknowns,
-      options.backend);
+      assemble(disk_->unknowns, near, w_, [](int, int) { return Block(Block::Identity(1, 1)); }),
+      disk_->unknowns, options.backend);
 
   // Edge (i, j, g) couples B_i' g B_j; seen from j, its transpose.
   const auto coupling = [&](int e, int v) -> Block {
@@ -135,8 +138,8 @@ LaplacianSolver::LaplacianSolver(const CutMesh& cut, const GluedEdges& glued, co
   };
   coupled_ = std::make_unique<System>();
   coupled_->unknowns = number_unknowns(order, room);
-  coupled_->factor =
-      factorize_laplacian(assemble(coupled_->unknowns, near, w_, coupling), coupled_->unknowns, options.backend);
+  coupled_->factor = factorize_laplacian(assemble(coupled_->unknowns, near, w_, coupling), coupled_->unknowns,
+                                         options.backend);
 }
 
 LaplacianSolver::~LaplacianSolver() = default;
@@ -147,8 +150,8 @@ Eigen::MatrixXd LaplacianSolver::extend_harmonically(const Eigen::MatrixXd& boun
   Eigen::MatrixXd result = boundary_positions;
   if (unknowns.total == 0) return result;
   Eigen::MatrixXd rhs = Eigen::MatrixXd::Zero(unknowns.total, boundary_positions.cols());
-  // An edge between an unknown and a given position pulls at the unknown; edges have two images only along the cut, where
-  // both ends are given.
+  // An edge between an unknown and a given position pulls at the unknown; edges have two images only along
+  // the cut, where both ends are given.
   std::vector<char> done(glued_.edges.size(), 0);
   for (int h = 0; h < static_cast<int>(cut_.F.size()); ++h) {
     const int a = origin(cut_.F, h), b = target(cut_.F, h), e = glued_.edge_of[h];
@@ -172,9 +175,11 @@ Points LaplacianSolver::precondition(const Points& gradient) const {
   if (unknowns.total == 0) return result;
   Eigen::VectorXd rhs(unknowns.total);
   for (const int v : unknowns.order)
-    rhs.segment(unknowns.first[v], unknowns.count[v]) = 0.5 * boundary_.basis(v).transpose() * gradient.row(v).transpose();
+    rhs.segment(unknowns.first[v], unknowns.count[v]) =
+        0.5 * boundary_.basis(v).transpose() * gradient.row(v).transpose();
   const Eigen::VectorXd x = coupled_->factor->solve(rhs);
-  for (const int v : unknowns.order) result.row(v) = boundary_.basis(v) * x.segment(unknowns.first[v], unknowns.count[v]);
+  for (const int v : unknowns.order)
+    result.row(v) = boundary_.basis(v) * x.segment(unknowns.first[v], unknowns.count[v]);
   return result;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The two linear systems of the method: the planar Tutte embedding of the start, and the glued Laplacian that preconditions the
-// optimiser (appendix B, algorithm 1).
+// The two linear systems of the method: the planar Tutte embedding of the start, and the glued Laplacian that
+// preconditions the optimiser (appendix B, algorithm 1).
 #pragma once
 
 #include <memory>
@@ -19,17 +19,18 @@ class LaplacianSolver {
  public:
   /// Orders the mesh once and factorises both systems. The arguments must outlive the solver.
   /// Throws MeshError naming a vertex that no positive weight ties to the cones.
-  LaplacianSolver(const CutMesh& cut, const GluedEdges& glued, const EdgeWeights& weights, const BoundaryConditions& boundary,
-                  const LaplacianOptions& options = {});
+  LaplacianSolver(const CutMesh& cut, const GluedEdges& glued, const EdgeWeights& weights,
+                  const BoundaryConditions& boundary, const LaplacianOptions& options = {});
   ~LaplacianSolver();
   LaplacianSolver(LaplacianSolver&&) noexcept;
 
-  /// The planar (or any) discrete harmonic map of the cut disk: positions (n_cut x d) whose rows on the boundary of the cut mesh
-  /// are given are completed so that every other vertex is the weighted mean of its neighbours.
+  /// The planar (or any) discrete harmonic map of the cut disk: positions (n_cut x d) whose rows on the
+  /// boundary of the cut mesh are given are completed so that every other vertex is the weighted mean of its
+  /// neighbours.
   Eigen::MatrixXd extend_harmonically(const Eigen::MatrixXd& boundary_positions) const;
 
-  /// P g, where P is the inverse of 2 L, and L the Laplacian glued across the cut, on the unknowns of the boundary
-  /// conditions: the Hessian of E where the map is nearly flat. g and the result: n x 3, feasible.
+  /// P g, where P is the inverse of 2 L, and L the Laplacian glued across the cut, on the unknowns of the
+  /// boundary conditions: the Hessian of E where the map is nearly flat. g and the result: n x 3, feasible.
   Points precondition(const Points& gradient) const;
 
  private:

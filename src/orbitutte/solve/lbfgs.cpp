@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// J. Nocedal, S. J. Wright, "Numerical Optimization", algorithm 7.4 (two loops); W. W. Hager, H. Zhang, "A new conjugate
-// gradient method with guaranteed descent and an efficient line search", SIAM J. Optim. 16 (2005): the approximate Wolfe test,
-// which sees descent in the slope where the energy's rounding hides it.
+// J. Nocedal, S. J. Wright, "Numerical Optimization", algorithm 7.4 (two loops); W. W. Hager, H. Zhang, "A
+// new conjugate gradient method with guaranteed descent and an efficient line search", SIAM J. Optim. 16
+// (2005): the approximate Wolfe test, which sees descent in the slope where the energy's rounding hides it.
 #include "orbitutte/solve/lbfgs.h"
 
 #include <cmath>
@@ -73,7 +73,8 @@ class LineSearch {
  public:
   LineSearch(const SphericalEnergy& energy, int& evaluations) : energy_(energy), evaluations_(evaluations) {}
 
-  // A step along `direction` that satisfies Armijo's condition, or, within the energy's rounding, the approximate Wolfe one.
+  // A step along `direction` that satisfies Armijo's condition, or, within the energy's rounding, the
+  // approximate Wolfe one.
   std::optional<State> run(const State& from, const Points& direction) const {
     const double slope = dot(from.value.gradient, direction);
     if (!(slope < 0)) return std::nullopt;
@@ -100,7 +101,8 @@ class LineSearch {
     return dot(to.value.gradient, direction) <= (2 * armijo - 1) * slope;
   }
 
-  // The minimum of the parabola through both energies and the slope, kept within a tenth and a half of the step.
+  // The minimum of the parabola through both energies and the slope, kept within a tenth and a half of the
+  // step.
   static double shorter(double t, double slope, double change) {
     const double parabola = -slope * t * t / (2 * (change - slope * t));
     return std::isfinite(parabola) ? std::min(std::max(parabola, 0.1 * t), 0.5 * t) : 0.1 * t;
@@ -125,9 +127,12 @@ void check(const LbfgsOptions& options) {
 
 std::string name(Termination termination) {
   switch (termination) {
-    case Termination::converged: return "converged";
-    case Termination::max_iterations: return "max_iterations";
-    case Termination::line_search_failed: return "line_search_failed";
+    case Termination::converged:
+      return "converged";
+    case Termination::max_iterations:
+      return "max_iterations";
+    case Termination::line_search_failed:
+      return "line_search_failed";
   }
   return {};
 }
@@ -162,9 +167,10 @@ Minimum minimize(const SphericalEnergy& energy, const LaplacianSolver& laplacian
     std::optional<State> next = line_search.run(state, direction);
     if (!next) {
       if (inverse_hessian.empty()) {
-        result.termination = gradient_vanishes(state.value.gradient, energy.rounding_floor(), options.tolerance)
-                                 ? Termination::converged
-                                 : Termination::line_search_failed;
+        result.termination =
+            gradient_vanishes(state.value.gradient, energy.rounding_floor(), options.tolerance)
+                ? Termination::converged
+                : Termination::line_search_failed;
         break;
       }
       inverse_hessian.forget();  // once more, along the preconditioned gradient alone

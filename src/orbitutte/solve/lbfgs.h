@@ -26,8 +26,8 @@ struct Iteration {
 using IterationCallback = std::function<bool(int iteration, const Iteration&)>;
 
 struct LbfgsOptions {
-  /// Converged when |grad_i E| <= max(tolerance, its rounding floor) at every vertex, and the next quasi-Newton step would move
-  /// no vertex by more than max(tolerance, 1e-12) radians.
+  /// Converged when |grad_i E| <= max(tolerance, its rounding floor) at every vertex, and the next
+  /// quasi-Newton step would move no vertex by more than max(tolerance, 1e-12) radians.
   double tolerance = 1e-9;
   int max_iterations = 2000;
   int memory = 10;  ///< pairs of steps and gradient differences kept

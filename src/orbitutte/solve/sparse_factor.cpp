@@ -20,10 +20,13 @@ class EigenFactor : public SparseFactor {
   }
 
   Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const override { return factor_.solve(B); }
-  double nonzeros() const override { return static_cast<double>(factor_.matrixL().nestedExpression().nonZeros()); }
+  double nonzeros() const override {
+    return static_cast<double>(factor_.matrixL().nestedExpression().nonZeros());
+  }
 
  private:
-  Eigen::SimplicialLLT<SparseMatrix, Eigen::Lower, Eigen::NaturalOrdering<SparseMatrix::StorageIndex>> factor_;
+  Eigen::SimplicialLLT<SparseMatrix, Eigen::Lower, Eigen::NaturalOrdering<SparseMatrix::StorageIndex>>
+      factor_;
 };
 
 }  // namespace
@@ -64,7 +67,8 @@ std::vector<int> fill_reducing_order(const std::vector<int>& start, const std::v
     idx_t options[METIS_NOPTIONS];
     METIS_SetDefaultOptions(options);
     options[METIS_OPTION_SEED] = 0;
-    const int status = METIS_NodeND(&count, xadj.data(), adjncy.data(), nullptr, options, order.data(), position.data());
+    const int status =
+        METIS_NodeND(&count, xadj.data(), adjncy.data(), nullptr, options, order.data(), position.data());
     if (status == METIS_ERROR_MEMORY) throw std::bad_alloc();
     if (status != METIS_OK) throw Error("METIS could not order the mesh");
   }

@@ -27,7 +27,8 @@ std::string blas_description(Backend backend);
 /// A matrix that is not positive definite; `column` is the first that shows it.
 class NotPositiveDefinite : public Error {
  public:
-  explicit NotPositiveDefinite(long column_found) : Error("the matrix is not positive definite"), column(column_found) {}
+  explicit NotPositiveDefinite(long column_found)
+      : Error("the matrix is not positive definite"), column(column_found) {}
   long column;
 };
 
@@ -41,8 +42,9 @@ class SparseFactor {
   virtual double nonzeros() const = 0;  ///< of the factor
 };
 
-/// A = L L' of a symmetric positive definite matrix whose lower triangle is given, its rows and columns already in an order that
-/// keeps L sparse (`fill_reducing_order`). Throws NotPositiveDefinite; ArgumentError where the backend is not in this binary.
+/// A = L L' of a symmetric positive definite matrix whose lower triangle is given, its rows and columns
+/// already in an order that keeps L sparse (`fill_reducing_order`). Throws NotPositiveDefinite; ArgumentError
+/// where the backend is not in this binary.
 std::unique_ptr<SparseFactor> factorize(const SparseMatrix& lower, Backend backend);
 
 /// An elimination order of the vertices of a graph by nested dissection (METIS): order[k] is eliminated k-th.

@@ -11,20 +11,24 @@ namespace orbitutte {
 namespace {
 
 // d(p, q) of unit vectors, accurate for neighbours and for antipodes.
-double spherical_distance(const Vector3& p, const Vector3& q) { return 2 * std::atan2((p - q).norm(), (p + q).norm()); }
+double spherical_distance(const Vector3& p, const Vector3& q) {
+  return 2 * std::atan2((p - q).norm(), (p + q).norm());
+}
 
-// d/sin d, which is 1 at d = 0. It has a pole at d = pi, where the shortest arc is not unique: the edge's slope is then taken
-// just before it, large and finite, so that a line search turns back.
+// d/sin d, which is 1 at d = 0. It has a pole at d = pi, where the shortest arc is not unique: the edge's
+// slope is then taken just before it, large and finite, so that a line search turns back.
 double distance_over_sine(double d) {
   if (d < 1e-4) return 1 + d * d / 6;
   return d / std::max(std::sin(d), 1e-8);
 }
 
-constexpr int block = 4096;  // edges are summed block by block, so that the sum does not depend on the threads
+constexpr int block =
+    4096;  // edges are summed block by block, so that the sum does not depend on the threads
 
 }  // namespace
 
-GluedEdges glued_edges(const CutMesh& cut, const Connectivity& connectivity, const BoundaryConditions& boundary) {
+GluedEdges glued_edges(const CutMesh& cut, const Connectivity& connectivity,
+                       const BoundaryConditions& boundary) {
   GluedEdges result;
   result.transforms = {Matrix3::Identity()};
   result.edges.resize(connectivity.edges.size());
@@ -36,15 +40,18 @@ GluedEdges glued_edges(const CutMesh& cut, const Connectivity& connectivity, con
     if (const int ta = boundary.transform_of[a], tb = boundary.transform_of[b]; ta != tb) {
       const long long key = static_cast<long long>(ta) << 32 | tb;
       const auto at = known.find(key);
-      t = at != known.end() ? at->second
-                            : known[key] = index_among(result.transforms, boundary.transform(a).transpose() * boundary.transform(b));
+      t = at != known.end()
+              ? at->second
+              : known[key] =
+                    index_among(result.transforms, boundary.transform(a).transpose() * boundary.transform(b));
     }
     result.edges[connectivity.edge_of[h]] = {cut.source_vertex[a], cut.source_vertex[b], t};
   }
   return result;
 }
 
-SphericalEnergy::SphericalEnergy(const GluedEdges& glued, const EdgeWeights& weights, const BoundaryConditions& boundary)
+SphericalEnergy::SphericalEnergy(const GluedEdges& glued, const EdgeWeights& weights,
+                                 const BoundaryConditions& boundary)
     : glued_(glued), w_(weights.w), basis_of_(boundary.basis_of), slope_(glued.edges.size()) {
   const int n = static_cast<int>(basis_of_.size());
   for (const Basis& basis : boundary.bases) projectors_.push_back(basis * basis.transpose());
@@ -104,7 +111,8 @@ SphericalEnergy::Value SphericalEnergy::evaluate(const Points& x) const {
   for (int v = 0; v < n; ++v) {
     const Vector3 here = p.row(v);
     Vector3 pull = Vector3::Zero();
-    for (int k = start_[v]; k < start_[v + 1]; ++k) pull += slope_[incidences_[k].edge] * (image(p, incidences_[k]) - here);
+    for (int k = start_[v]; k < start_[v + 1]; ++k)
+      pull += slope_[incidences_[k].edge] * (image(p, incidences_[k]) - here);
     if (basis_of_[v] != 0) pull = projectors_[basis_of_[v]] * pull;
     pull -= here.dot(pull) * here;
     value.gradient.row(v) = -2 / length[v] * pull;

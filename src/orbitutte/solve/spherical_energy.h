@@ -12,7 +12,8 @@
 
 namespace orbitutte {
 
-/// An undirected edge of the uncut mesh with its gluing: the neighbour of i is transforms[t] * (position of j).
+/// An undirected edge of the uncut mesh with its gluing: the neighbour of i is transforms[t] * (position of
+/// j).
 struct GluedEdge {
   int i = 0, j = 0;
   int t = 0;  ///< an index into GluedEdges::transforms; 0 is the identity
@@ -25,10 +26,12 @@ struct GluedEdges {
 };
 
 /// The group element of every edge: that of one of its images in the cut mesh.
-GluedEdges glued_edges(const CutMesh& cut, const Connectivity& connectivity, const BoundaryConditions& boundary);
+GluedEdges glued_edges(const CutMesh& cut, const Connectivity& connectivity,
+                       const BoundaryConditions& boundary);
 
-/// E(x) = sum over edges of w_ij d(p_i, g_ij p_j)^2 with p = x/|x| and d(p, q) = 2 atan2(|p - q|, |p + q|), which is the
-/// paper's atan2(|p x q|, <p, q>) without its loss of digits between neighbours. E does not change where an x_i is scaled.
+/// E(x) = sum over edges of w_ij d(p_i, g_ij p_j)^2 with p = x/|x| and d(p, q) = 2 atan2(|p - q|, |p + q|),
+/// which is the paper's atan2(|p x q|, <p, q>) without its loss of digits between neighbours. E does not
+/// change where an x_i is scaled.
 class SphericalEnergy {
  public:
   SphericalEnergy(const GluedEdges& glued, const EdgeWeights& weights, const BoundaryConditions& boundary);
@@ -41,8 +44,8 @@ class SphericalEnergy {
   /// x: n x 3, no row zero. Energy and gradient are sums in a fixed order, whatever the number of threads.
   Value evaluate(const Points& x) const;
 
-  /// How exactly the gradient at unit vectors can be known in double precision: per vertex, the rounding error of a position times
-  /// the sum of its weights. n.
+  /// How exactly the gradient at unit vectors can be known in double precision: per vertex, the rounding
+  /// error of a position times the sum of its weights. n.
   const Eigen::VectorXd& rounding_floor() const { return rounding_floor_; }
 
  private:
@@ -55,12 +58,12 @@ class SphericalEnergy {
 
   GluedEdges glued_;
   const Eigen::VectorXd w_;
-  std::vector<Matrix3> projectors_;     // onto the room of each vertex, by BoundaryConditions::basis_of
+  std::vector<Matrix3> projectors_;  // onto the room of each vertex, by BoundaryConditions::basis_of
   std::vector<int> basis_of_;
-  std::vector<int> start_;              // incidences of vertex v: start_[v] .. start_[v + 1] - 1
+  std::vector<int> start_;  // incidences of vertex v: start_[v] .. start_[v + 1] - 1
   std::vector<Incidence> incidences_;
   Eigen::VectorXd rounding_floor_;
-  mutable std::vector<double> slope_;   // per edge: w d/sin d, from the last evaluation
+  mutable std::vector<double> slope_;  // per edge: w d/sin d, from the last evaluation
 };
 
 }  // namespace orbitutte

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Why this is a proof: seams with orthogonal transforms glue |G| copies of the cut disk to a closed surface with a map to the sphere.
-// Positive triangles with edges shorter than pi make the map a local homeomorphism away from the vertices, and by the
-// area, |G| times 4 pi/|G|, it covers the sphere once, so it is one at the vertices too.
+// Why this is a proof: seams with orthogonal transforms glue |G| copies of the cut disk to a closed surface
+// with a map to the sphere, and lay them on opposite sides of every seam. Positive triangles with edges
+// shorter than pi make the map a local homeomorphism away from the vertices, and by the area, |G| times
+// 4 pi/|G|, it covers the sphere once, so it is one at the vertices too.
 #include "orbitutte/verify/certificate.h"
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 #include <unordered_map>
 
 #include "orbitutte/mesh/connectivity.h"
@@ -33,7 +35,8 @@ Check at_most(std::string name, double value, double bound) {
 
 // A check that counts offences and names the first.
 Check none(std::string name, long long offences, std::string first) {
-  return {std::move(name), offences == 0, static_cast<double>(offences), 0, offences ? std::move(first) : std::string()};
+  return {std::move(name), offences == 0, static_cast<double>(offences), 0,
+          offences ? std::move(first) : std::string()};
 }
 
 class Offences {
@@ -50,18 +53,21 @@ class Offences {
   std::string first_;
 };
 
-// The faces of the cut mesh are the input's, on copies of its vertices, the first n of which are the input vertices.
+// The faces of the cut mesh are the input's, on copies of its vertices, the first n of which are the input
+// vertices.
 Check cut_mesh_check(const Mesh& mesh, const Embedding& embedding) {
   Offences offences;
   const int n = static_cast<int>(mesh.V.rows()), n_cut = static_cast<int>(embedding.source_vertex.size());
   if (embedding.positions.rows() != n_cut || n_cut < n)
-    offences.add("{} positions, {} source vertices and {} input vertices do not fit together", embedding.positions.rows(), n_cut, n);
+    offences.add("{} positions, {} source vertices and {} input vertices do not fit together",
+                 embedding.positions.rows(), n_cut, n);
   if (embedding.faces.rows() != mesh.F.rows())
     offences.add("the cut mesh has {} faces, the input {}", embedding.faces.rows(), mesh.F.rows());
   if (offences.any()) return offences.check("cut_mesh");
   for (int v = 0; v < n_cut; ++v) {
     const int source = embedding.source_vertex[v];
-    if (source < 0 || source >= n || (v < n && source != v)) offences.add("cut vertex {} names the input vertex {}", v, source);
+    if (source < 0 || source >= n || (v < n && source != v))
+      offences.add("cut vertex {} names the input vertex {}", v, source);
   }
   for (int f = 0; f < mesh.F.rows(); ++f) {
     for (int k = 0; k < 3; ++k) {
@@ -79,8 +85,9 @@ Check unit_check(const Points& positions) {
   return at_most("unit_positions", off, unit_bound);
 }
 
-// The boundary half-edges of the cut mesh, each by its origin; empty, with an offence, unless the cut mesh is a disk: every
-// edge has one face, or two that run along it in opposite directions, there is one simple boundary loop, and V - E + F = 1.
+// The boundary half-edges of the cut mesh, each by its origin; empty, with an offence, unless the cut mesh is
+// a disk: every edge has one face, or two that run along it in opposite directions, there is one simple
+// boundary loop, and V - E + F = 1.
 std::unordered_map<int, int> disk_boundary(const Embedding& embedding, Offences& offences) {
   const Faces& F = embedding.faces;
   const int n_cut = static_cast<int>(embedding.source_vertex.size());
@@ -93,11 +100,13 @@ std::unordered_map<int, int> disk_boundary(const Embedding& embedding, Offences&
       offences.add("edge ({}, {}) of the cut mesh has more than two faces", origin(F, h), target(F, h));
     const int other = connectivity.opposite[h];
     if (other >= 0 && origin(F, other) == origin(F, h))
-      offences.add("two faces run along edge ({}, {}) of the cut mesh in the same direction", origin(F, h), target(F, h));
+      offences.add("two faces run along edge ({}, {}) of the cut mesh in the same direction", origin(F, h),
+                   target(F, h));
     if (other < 0 && !next.emplace(origin(F, h), target(F, h)).second)
       offences.add("the boundary of the cut mesh passes twice through vertex {}", origin(F, h));
   }
-  const long long euler = std::count(used.begin(), used.end(), 1) - static_cast<long long>(connectivity.edges.size()) + F.rows();
+  const long long euler =
+      std::count(used.begin(), used.end(), 1) - static_cast<long long>(connectivity.edges.size()) + F.rows();
   if (euler != 1) offences.add("the cut mesh has Euler characteristic {}; a disk has 1", euler);
   if (offences.any() || next.empty()) return {};
   std::size_t steps = 0;
@@ -111,25 +120,40 @@ std::unordered_map<int, int> disk_boundary(const Embedding& embedding, Offences&
   return next;
 }
 
-// Is (a, b) a boundary edge in either direction? Then counts it as covered.
-bool cover(std::unordered_map<int, int>& uncovered, int a, int b) {
-  for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)}) {
+// 1 where (a, b) is a boundary edge that no bank has covered yet, -1 where (b, a) is, 0 where neither is;
+// then covers it.
+int cover(std::unordered_map<int, int>& uncovered, int a, int b) {
+  for (const auto& [from, to, direction] : {std::tuple(a, b, 1), std::tuple(b, a, -1)}) {
     const auto at = uncovered.find(from);
     if (at == uncovered.end() || at->second != to) continue;
     uncovered.erase(at);
-    return true;
+    return direction;
   }
-  return false;
+  return 0;
 }
 
-void cover_bank(const std::vector<int>& bank, std::size_t seam, std::unordered_map<int, int>& uncovered, Offences& offences) {
-  for (std::size_t k = 1; k < bank.size(); ++k) {
-    if (!cover(uncovered, bank[k - 1], bank[k]))
-      offences.add("({}, {}) of seam {} is no boundary edge of the cut mesh, or lies in two banks", bank[k - 1], bank[k], seam);
+// Covers both banks' edges. A rotation lays copies of the tile on both sides of an edge where the banks run
+// along the boundary in opposite directions, a reflection where they run in the same (a mirror's always do);
+// otherwise the map folds there.
+void cover_banks(const Seam& seam, std::size_t s, std::unordered_map<int, int>& uncovered,
+                 Offences& offences) {
+  const bool mirror = seam.left == seam.right, reverses = seam.transform.determinant() < 0;
+  for (std::size_t k = 1; k < seam.left.size(); ++k) {
+    const int left = cover(uncovered, seam.left[k - 1], seam.left[k]);
+    const int right = mirror ? left : cover(uncovered, seam.right[k - 1], seam.right[k]);
+    if (left == 0 || right == 0) {
+      const std::vector<int>& bank = left == 0 ? seam.left : seam.right;
+      offences.add("({}, {}) of seam {} is no boundary edge of the cut mesh, or lies in two banks",
+                   bank[k - 1], bank[k], s);
+    } else if ((left == right) != reverses) {
+      offences.add("seam {} folds the map along ({}, {}): its transform lays both faces on the same side", s,
+                   seam.left[k - 1], seam.left[k]);
+    }
   }
 }
 
-// Every boundary edge of the cut mesh lies in exactly one bank; paired vertices are copies of one input vertex.
+// Every boundary edge of the cut mesh lies in exactly one bank; paired vertices are copies of one input
+// vertex, and paired edges have their faces on opposite sides.
 Check seam_gluing_check(const Embedding& embedding) {
   Offences offences;
   const int n_cut = static_cast<int>(embedding.source_vertex.size());
@@ -142,12 +166,13 @@ Check seam_gluing_check(const Embedding& embedding) {
     }
     for (std::size_t k = 0; k < seam.left.size(); ++k) {
       const int l = seam.left[k], r = seam.right[k];
-      if (l < 0 || r < 0 || l >= n_cut || r >= n_cut || embedding.source_vertex[l] != embedding.source_vertex[r])
-        offences.add("seam {} pairs the cut vertices {} and {}, which are no copies of one input vertex", s, l, r);
+      if (l < 0 || r < 0 || l >= n_cut || r >= n_cut ||
+          embedding.source_vertex[l] != embedding.source_vertex[r])
+        offences.add("seam {} pairs the cut vertices {} and {}, which are no copies of one input vertex", s,
+                     l, r);
     }
     if (offences.any()) continue;
-    cover_bank(seam.left, s, uncovered, offences);
-    if (seam.left != seam.right) cover_bank(seam.right, s, uncovered, offences);
+    cover_banks(seam, s, uncovered, offences);
   }
   if (!uncovered.empty()) {
     const auto first = *std::min_element(uncovered.begin(), uncovered.end());
@@ -161,10 +186,12 @@ Check transform_check(const std::vector<Seam>& seams) {
   Offences offences;
   for (std::size_t s = 0; s < seams.size(); ++s) {
     const Matrix3& M = seams[s].transform;
-    const bool orthogonal = M.allFinite() && (M * M.transpose() - Matrix3::Identity()).cwiseAbs().maxCoeff() < unit_bound;
+    const bool orthogonal =
+        M.allFinite() && (M * M.transpose() - Matrix3::Identity()).cwiseAbs().maxCoeff() < unit_bound;
     if (!orthogonal) {
       offences.add("the transform of seam {} is not orthogonal", s);
-    } else if (seams[s].left == seams[s].right && (M.determinant() > 0 || std::abs(M.trace() - 1) > unit_bound)) {
+    } else if (seams[s].left == seams[s].right &&
+               (M.determinant() > 0 || std::abs(M.trace() - 1) > unit_bound)) {
       offences.add("seam {} is glued to itself by what is no reflection", s);
     }
   }
@@ -175,7 +202,8 @@ double max_seam_residual(const Embedding& embedding) {
   double residual = 0;
   for (const Seam& seam : embedding.seams) {
     for (std::size_t k = 0; k < seam.left.size(); ++k) {
-      const Vector3 left = embedding.positions.row(seam.left[k]), right = embedding.positions.row(seam.right[k]);
+      const Vector3 left = embedding.positions.row(seam.left[k]),
+                    right = embedding.positions.row(seam.right[k]);
       residual = std::max(residual, (left - seam.transform * right).cwiseAbs().maxCoeff());
     }
   }
@@ -188,12 +216,13 @@ Check cone_check(const Embedding& embedding) {
   try {
     const Orbifold orbifold = parse_orbifold(embedding.signature);
     if (orbifold.marks.size() != embedding.cones.size())
-      offences.add("{} marks {} vertices, not {}", embedding.signature, orbifold.marks.size(), embedding.cones.size());
+      offences.add("{} marks {} vertices, not {}", embedding.signature, orbifold.marks.size(),
+                   embedding.cones.size());
     for (std::size_t k = 0; !offences.any() && k < orbifold.marks.size(); ++k) {
       const ConeCopies& cone = embedding.cones[k];
       if (cone.order != orbifold.marks[k].order || cone.kind != orbifold.marks[k].kind)
-        offences.add("vertex {} is a {} of order {}, which {} does not ask for there", cone.vertex, name(cone.kind), cone.order,
-                     embedding.signature);
+        offences.add("vertex {} is a {} of order {}, which {} does not ask for there", cone.vertex,
+                     name(cone.kind), cone.order, embedding.signature);
     }
   } catch (const ArgumentError& error) {
     offences.add("{}", error.what());
@@ -204,7 +233,8 @@ Check cone_check(const Embedding& embedding) {
       if (embedding.source_vertex[v] == cone.vertex) copies.push_back(v);
     std::vector<int> named = cone.copies;
     std::sort(named.begin(), named.end());
-    if (copies.empty() || copies != named) offences.add("the copies named for the cone {} are not all there are", cone.vertex);
+    if (copies.empty() || copies != named)
+      offences.add("the copies named for the cone {} are not all there are", cone.vertex);
   }
   return offences.check("cones");
 }
@@ -220,7 +250,8 @@ Check angle_check(const Embedding& embedding) {
     const auto at = cone_of.find(origin(F, h));
     if (at == cone_of.end()) continue;
     const Points& X = embedding.positions;
-    angle[at->second] += angle_at(X.row(origin(F, h)), X.row(target(F, h)), X.row(origin(F, previous_halfedge(h))));
+    angle[at->second] +=
+        angle_at(X.row(origin(F, h)), X.row(target(F, h)), X.row(origin(F, previous_halfedge(h))));
   }
   double worst = 0;
   for (std::size_t k = 0; k < embedding.cones.size(); ++k) {
@@ -239,7 +270,8 @@ Check group_check(const Embedding& embedding) {
     const int of_signature = parse_orbifold(embedding.signature).group_order;
     if (of_signature != embedding.group_order)
       return {name, false, expected, static_cast<double>(of_signature),
-              fmt::format("{} has a group of order {}, not {}", embedding.signature, of_signature, embedding.group_order)};
+              fmt::format("{} has a group of order {}, not {}", embedding.signature, of_signature,
+                          embedding.group_order)};
     std::vector<Matrix3> generators;
     for (const Seam& seam : embedding.seams) generators.push_back(seam.transform);
     const int generated = SymmetryGroup(generators, embedding.group_order).order();
@@ -258,8 +290,9 @@ Check orientation_check(const Embedding& embedding, std::vector<int>& nonpositiv
     const auto v = embedding.faces.row(f);
     if (orientation_sign(X.row(v[0]), X.row(v[1]), X.row(v[2])) <= 0) nonpositive.push_back(f);
   }
-  const std::string first =
-      nonpositive.empty() ? std::string() : fmt::format("face {} is not positively oriented", nonpositive.front());
+  const std::string first = nonpositive.empty()
+                                ? std::string()
+                                : fmt::format("face {} is not positively oriented", nonpositive.front());
   return none("positive_faces", static_cast<long long>(nonpositive.size()), first);
 }
 
@@ -284,9 +317,11 @@ Check area_check(const Embedding& embedding, Certificate& certificate) {
     const auto v = embedding.faces.row(f);
     certificate.signed_area += signed_area(X.row(v[0]), X.row(v[1]), X.row(v[2]));
   }
-  Check check = at_most("signed_area", std::abs(certificate.signed_area - certificate.expected_area), area_bound);
+  Check check =
+      at_most("signed_area", std::abs(certificate.signed_area - certificate.expected_area), area_bound);
   if (!check.passed)
-    check.detail = fmt::format("the area is {:.12g}, not {:.12g}", certificate.signed_area, certificate.expected_area);
+    check.detail =
+        fmt::format("the area is {:.12g}, not {:.12g}", certificate.signed_area, certificate.expected_area);
   return check;
 }
 

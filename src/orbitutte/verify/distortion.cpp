@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <numeric>
 #include <optional>
 
@@ -15,9 +16,14 @@ namespace {
 
 using Complex = std::complex<double>;
 
-double triangle_area(const Vector3& a, const Vector3& b, const Vector3& c) { return 0.5 * (b - a).cross(c - a).norm(); }
+constexpr double position_rounding = 16 * std::numeric_limits<double>::epsilon();
 
-// The two edges from the first corner of a plane triangle with sides ab, bc, ca, the first along the real axis; counterclockwise.
+double triangle_area(const Vector3& a, const Vector3& b, const Vector3& c) {
+  return 0.5 * (b - a).cross(c - a).norm();
+}
+
+// The two edges from the first corner of a plane triangle with sides ab, bc, ca, the first along the real
+// axis; counterclockwise.
 std::optional<std::array<Complex, 2>> lay_out(double ab, double bc, double ca) {
   if (!(ab > 0)) return std::nullopt;
   const double x = ((ab - bc) * (ab + bc) + ca * ca) / (2 * ab);
@@ -70,7 +76,8 @@ Distortion measure_distortion(const Mesh& mesh, const Embedding& embedding) {
   for (int f = 0; f < m; ++f) {
     const auto v = mesh.F.row(f), w = embedding.faces.row(f);
     source[f] = triangle_area(mesh.V.row(v[0]), mesh.V.row(v[1]), mesh.V.row(v[2]));
-    image[f] = signed_area(embedding.positions.row(w[0]), embedding.positions.row(w[1]), embedding.positions.row(w[2]));
+    image[f] = signed_area(embedding.positions.row(w[0]), embedding.positions.row(w[1]),
+                           embedding.positions.row(w[2]));
   }
   const double source_total = std::accumulate(source.begin(), source.end(), 0.0);
   const double image_total = std::accumulate(image.begin(), image.end(), 0.0);
@@ -81,15 +88,19 @@ Distortion measure_distortion(const Mesh& mesh, const Embedding& embedding) {
   double angle_sum = 0;
   int angles = 0;
   for (int f = 0; f < m; ++f) {
-    if (!(source[f] > 0) || !(image[f] > 0)) continue;
+    const auto v = mesh.F.row(f), w = embedding.faces.row(f);
+    const auto length = [&](int i, int j) { return (mesh.V.row(v[i]) - mesh.V.row(v[j])).norm(); };
+    const auto arc = [&](int i, int j) {
+      return arc_length(embedding.positions.row(w[i]), embedding.positions.row(w[j]));
+    };
+    const double longest = std::max({arc(0, 1), arc(1, 2), arc(2, 0)});
+    if (!(source[f] > 0) || !(image[f] > position_rounding * longest)) continue;
     const double ratio = (image[f] / image_total) / (source[f] / source_total);
     areas.push_back(std::max(ratio, 1 / ratio));
     count_in(result.histogram, std::log2(ratio));
 
-    const auto v = mesh.F.row(f), w = embedding.faces.row(f);
-    const auto length = [&](int i, int j) { return (mesh.V.row(v[i]) - mesh.V.row(v[j])).norm(); };
-    const auto arc = [&](int i, int j) { return arc_length(embedding.positions.row(w[i]), embedding.positions.row(w[j])); };
-    const auto e = lay_out(length(0, 1), length(1, 2), length(2, 0)), g = lay_out(arc(0, 1), arc(1, 2), arc(2, 0));
+    const auto e = lay_out(length(0, 1), length(1, 2), length(2, 0)),
+               g = lay_out(arc(0, 1), arc(1, 2), arc(2, 0));
     if (!e || !g) continue;
     const double angle = ratio_of_singular_values(*e, *g);
     if (!std::isfinite(angle) || angle < 1) continue;

@@ -14,15 +14,17 @@ struct Distortion {
   } area;  ///< of max(A, 1/A), A the triangle's share of the tile's area over its share of the source's
   struct Angle {
     double mean = 0, max = 0;
-  } angle;  ///< of the ratio of singular values of the map to the triangle with the same arc lengths laid out flat
+  } angle;  ///< of the ratio of singular values of the map to the triangle with the same arc lengths laid out
+            ///< flat
   struct Histogram {
-    std::vector<double> edges;    ///< k + 1 bounds of log2 A, the first and last bins open to all beyond
+    std::vector<double> edges;      ///< k + 1 bounds of log2 A, the first and last bins open to all beyond
     std::vector<long long> counts;  ///< k
   } histogram;
-  int measured_faces = 0;  ///< triangles with an area on both sides; the others are left out
+  int measured_faces = 0;  ///< those not left out
 };
 
-/// Triangles of the source without area, and images that are not positively oriented, are left out and not counted.
+/// Left out and not counted are triangles without area, and images that are not positively oriented or
+/// thinner than the rounding errors of positions, whose shape is noise.
 Distortion measure_distortion(const Mesh& mesh, const Embedding& embedding);
 
 }  // namespace orbitutte

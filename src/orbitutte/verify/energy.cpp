@@ -5,7 +5,8 @@
 
 namespace orbitutte {
 
-double dirichlet_energy(const Connectivity& connectivity, const EdgeWeights& weights, const Embedding& embedding) {
+double dirichlet_energy(const Connectivity& connectivity, const EdgeWeights& weights,
+                        const Embedding& embedding) {
   const Faces& F = embedding.faces;
   std::vector<char> done(connectivity.edges.size(), 0);
   double energy = 0;

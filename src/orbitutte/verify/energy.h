@@ -7,8 +7,9 @@
 
 namespace orbitutte {
 
-/// E = sum over undirected edges of the uncut mesh of w_ij d^2, d the arc length of one of the edge's images. Equation (2).
-/// The embedding's faces must be those of the mesh, cut (see certify).
-double dirichlet_energy(const Connectivity& connectivity, const EdgeWeights& weights, const Embedding& embedding);
+/// E = sum over undirected edges of the uncut mesh of w_ij d^2, d the arc length of one of the edge's images.
+/// Equation (2). The embedding's faces must be those of the mesh, cut (see certify).
+double dirichlet_energy(const Connectivity& connectivity, const EdgeWeights& weights,
+                        const Embedding& embedding);
 
 }  // namespace orbitutte

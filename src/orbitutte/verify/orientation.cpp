@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The filter's bound follows J. R. Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric predicates",
-// Discrete & Computational Geometry 18 (1997), for the 3 x 3 determinant.
+// The filter's bound follows J. R. Shewchuk, "Adaptive precision floating-point arithmetic and fast robust
+// geometric predicates", Discrete & Computational Geometry 18 (1997), for the 3 x 3 determinant.
 #include "orbitutte/verify/orientation.h"
 
 #include <boost/multiprecision/cpp_int.hpp>
@@ -11,8 +11,11 @@ namespace {
 
 int exact_sign(const Vector3& a, const Vector3& b, const Vector3& c) {
   using Rational = boost::multiprecision::cpp_rational;
-  const auto minor = [&](int i, int j) -> Rational { return Rational(b[i]) * Rational(c[j]) - Rational(b[j]) * Rational(c[i]); };
-  const Rational determinant = Rational(a[0]) * minor(1, 2) + Rational(a[1]) * minor(2, 0) + Rational(a[2]) * minor(0, 1);
+  const auto minor = [&](int i, int j) -> Rational {
+    return Rational(b[i]) * Rational(c[j]) - Rational(b[j]) * Rational(c[i]);
+  };
+  const Rational determinant =
+      Rational(a[0]) * minor(1, 2) + Rational(a[1]) * minor(2, 0) + Rational(a[2]) * minor(0, 1);
   return determinant.sign();
 }
 

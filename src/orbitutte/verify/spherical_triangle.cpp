@@ -6,7 +6,9 @@
 
 namespace orbitutte {
 
-double arc_length(const Vector3& p, const Vector3& q) { return 2 * std::atan2((p - q).norm(), (p + q).norm()); }
+double arc_length(const Vector3& p, const Vector3& q) {
+  return 2 * std::atan2((p - q).norm(), (p + q).norm());
+}
 
 double signed_area(const Vector3& a, const Vector3& b, const Vector3& c) {
   // det[a b c] = a . ((b - a) x (c - a)) keeps the digits of small triangles.

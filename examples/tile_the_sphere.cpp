@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// A disk onto a triangle with three mirrors; its 48 images, welded along the mirrors, are the whole sphere.
+#include <cstdio>
+
+#include "orbitutte/embed.h"
+#include "orbitutte/mesh/sample.h"
+#include "orbitutte/output/tiling.h"
+
+int main() {
+  using namespace orbitutte;
+  const Mesh mesh = sample_mesh({SampleShape::mask, 4000});
+  const Orbifold orbifold = parse_orbifold("*432");
+  const EmbedResult result = embed(mesh, orbifold, choose_marked_vertices(mesh, orbifold));
+  const Tiling tiling = tile_sphere(result.embedding);
+  write_tiling("sphere.glb", tiling);
+
+  const long long edges = tiling.mesh.F.rows() * 3 / 2;
+  std::printf("%d tiles, %lld vertices - %lld edges + %lld faces = %lld; see sphere.glb\n", tiling.tiles,
+              static_cast<long long>(tiling.mesh.V.rows()), edges, static_cast<long long>(tiling.mesh.F.rows()),
+              tiling.mesh.V.rows() - edges + tiling.mesh.F.rows());
+  return result.certificate.bijective ? 0 : 1;
+}

@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/orbifold/signature.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "spherical_families.h"
+
+namespace orbitutte {
+namespace {
+
+using test::SphericalOrbifold;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const std::string euclidean = " is a Euclidean orbifold: its tiles fill the plane, not the sphere";
+const std::string hyperbolic =
+    " is a hyperbolic orbifold: its tiles fill the hyperbolic plane, not the sphere";
+const std::string bad =
+    " is not an orbifold of the sphere: one order alone, or two different ones, close up no tiling (a "
+    "teardrop or spindle)";
+const std::string order_one = " has an order of 1, which marks nothing; orders are 2 or more";
+const std::string order_zero = " has an order of 0; orders are 2 or more";
+const std::string not_yet =
+    " is a spherical orbifold of a family that is not embedded yet; see 'orbitutte types' for those that are";
+const std::string no_symbol =
+    " is no Conway symbol: it may hold digits, commas, one '*' and one 'x'; see 'orbitutte types'";
+const std::string too_many_signs = " has more than one star or cross, which is no spherical orbifold";
+const std::string after_cross = " has orders after the cross; rotations stand before it";
+const std::string empty_place = " has an empty place between commas; give every order once";
+
+/// The sentence with which a text is refused; empty where it is accepted.
+std::string refusal(const std::string& text) {
+  try {
+    parse_orbifold(text);
+    return {};
+  } catch (const ArgumentError& error) {
+    return error.what();
+  }
+}
+
+void expect_refused(const std::vector<std::string>& texts, const std::string& reason) {
+  for (const std::string& text : texts) EXPECT_EQ(refusal(text), "'" + text + "'" + reason);
+}
+
+std::vector<int> orders(const Orbifold& orbifold) {
+  std::vector<int> result;
+  for (const Mark& mark : orbifold.marks) result.push_back(mark.order);
+  return result;
+}
+
+/// Conway's price list: a sphere costs 2, every sign takes its share away.
+double euler_characteristic(const ConwaySymbol& symbol) {
+  double chi = 2;
+  for (const int n : symbol.rotations) chi -= 1 - 1.0 / n;
+  for (const int m : symbol.corners) chi -= (1 - 1.0 / m) / 2;
+  return chi - symbol.star - symbol.cross;
+}
+
+/// Do the orders make one of the five closed families, or with a star one of the five with mirrors?
+bool spherical(std::vector<int> n) {
+  std::sort(n.begin(), n.end());
+  if (n.size() == 2) return n[0] >= 2 && n[0] == n[1];
+  if (n.size() != 3 || n[0] != 2) return false;
+  return n[1] == 2 || (n[1] == 3 && n[2] <= 5);
+}
+
+// ------------------------------------------------------------------------------------------- what is read
+
+TEST(Signature, EveryFamilyHasItsGroupOrderTopologyAndMarks) {
+  for (const SphericalOrbifold& expected : test::arranged_orbifolds()) {
+    const std::string text = test::symbol(expected);
+    SCOPED_TRACE(text);
+    const Orbifold orbifold = parse_orbifold(text);
+    EXPECT_EQ(orbifold.signature, text);
+    EXPECT_EQ(orbifold.group_order, expected.group_order);
+    EXPECT_EQ(orbifold.topology, expected.topology());
+    EXPECT_EQ(orders(orbifold), expected.orders);
+    for (const Mark& mark : orbifold.marks)
+      EXPECT_EQ(mark.kind, expected.star ? ConeKind::corner : ConeKind::rotation);
+  }
+}
+
+TEST(Signature, TheSymbolKeepsTheOrdersOnTheirSideOfTheStar) {
+  EXPECT_THAT(parse_orbifold("253").symbol.rotations, ElementsAre(2, 5, 3));
+  EXPECT_THAT(parse_orbifold("253").symbol.corners, IsEmpty());
+  EXPECT_THAT(parse_orbifold("*253").symbol.corners, ElementsAre(2, 5, 3));
+  EXPECT_THAT(parse_orbifold("*253").symbol.rotations, IsEmpty());
+  EXPECT_TRUE(parse_orbifold("*253").symbol.star);
+  EXPECT_FALSE(parse_orbifold("253").symbol.star);
+  EXPECT_FALSE(parse_orbifold("*253").symbol.cross);
+}
+
+TEST(Signature, CommasMayStandBetweenSingleDigits) {
+  for (const SphericalOrbifold& expected : test::arranged_orbifolds()) {
+    const std::string text = test::symbol(expected.star, expected.orders, true);
+    EXPECT_EQ(parse_orbifold(text).signature, test::symbol(expected)) << text;
+  }
+}
+
+TEST(Signature, CanonicalTextIsReadAsTheSameOrbifold) {
+  for (const SphericalOrbifold& expected : test::arranged_orbifolds()) {
+    const Orbifold once = parse_orbifold(test::symbol(expected.star, expected.orders, true));
+    const Orbifold twice = parse_orbifold(once.signature);
+    EXPECT_EQ(twice.signature, once.signature);
+    EXPECT_EQ(once.symbol.text(), once.signature);
+    EXPECT_EQ(twice.group_order, once.group_order);
+    EXPECT_EQ(orders(twice), orders(once));
+  }
+}
+
+TEST(Signature, FamiliesAreListedOnceEach) {
+  std::set<std::string> listed, expected;
+  for (const FamilyDescription& family : families()) {
+    EXPECT_TRUE(listed.insert(family.family).second) << family.family;
+    EXPECT_FALSE(family.group_order.empty());
+    EXPECT_FALSE(family.marked_points.empty());
+  }
+  for (const SphericalOrbifold& orbifold : test::spherical_orbifolds()) expected.insert(orbifold.family);
+  for (const std::string& family : expected) EXPECT_TRUE(listed.count(family)) << family;
+}
+
+TEST(Signature, TheLargestOrderIsAcceptedAndTheNextRefused) {
+  EXPECT_EQ(parse_orbifold("2,2,20000").group_order, 40000);
+  EXPECT_EQ(parse_orbifold("*2,2,20000").group_order, 80000);
+  expect_refused({"2,2,20001", "2,2,99999999999999999999", "2230000", "30000,30000", "*30000"},
+                 " has an order above 20000, the largest that is supported");
+}
+
+// -------------------------------------------------------------------------------------- what is refused
+
+TEST(Signature, EuclideanOrbifoldsAreRefused) {
+  expect_refused({"333", "632", "442", "2,2,2,2", "*333", "*632", "*442", "*2,2,2,2", "3*3", "4*2", "2,2*",
+                  "2*2,2", "2,2x", "326", "*244"},
+                 euclidean);
+}
+
+TEST(Signature, HyperbolicOrbifoldsAreRefused) {
+  expect_refused({"237", "732", "*237", "334", "*555", "9,9,9", "3*4", "5*2", "2*2,3", "2,2,2,2,2",
+                  "*2,2,2,2,2", "2,3x", "2,3*", "2,2,2,3"},
+                 hyperbolic);
+}
+
+TEST(Signature, ManyLargeOrdersAreHyperbolicWithoutOverflow) {
+  expect_refused({"19997,19993,19991,19979,19973,19963,19961", "*19997,19993,19991,19979,19973,19963,19961",
+                  "16384,16384,16384,16384,16384,16384", "19997,19993,19991*19979,19973,19963"},
+                 hyperbolic);
+}
+
+TEST(Signature, TeardropsAndSpindlesAreRefused) {
+  expect_refused({"5", "9", "23", "73", "*5", "*23", "*94", "2,12", "12,2", "*12,2", "12,", "*12,"}, bad);
+}
+
+TEST(Signature, OrdersOfZeroAreRefused) {
+  expect_refused({"0", "05", "*0", "*05", "2,2,0", "0,0", "*0,2,2", "0*", "0x", "3*0"}, order_zero);
+}
+
+TEST(Signature, OrdersOfOneAreRefused) {
+  expect_refused({"1", "11", "12", "*1", "*11", "1,1", "1,1,1", "*1,1", "1,2,2", "221", "*221", "1,1*", "5*1",
+                  "2*1,2", "1,1x", "1,2x"},
+                 order_one);
+}
+
+TEST(Signature, TheEmptyTextIsRefused) {
+  EXPECT_EQ(refusal(""), "the signature is empty; see 'orbitutte types'");
+}
+
+TEST(Signature, AStarAloneMarksNothing) {
+  expect_refused({"*"}, " marks no vertex; the families embedded have two or three (see 'orbitutte types')");
+}
+
+TEST(Signature, OtherCharactersAreNoSymbol) {
+  expect_refused({"532 ", " 532", "5 3 2", "-532", "+22", "2.2", "2;2", "o", "O", "icosahedral", "C5", "5\t3",
+                  "\xc3", "\xc3\xa4", "5\xc3", "polygon", "*532!", "2**2?"},
+                 no_symbol);
+}
+
+TEST(Signature, TwoStarsOrCrossesAreRefused) {
+  expect_refused({"**", "xx", "*x", "x*", "2*2*2", "2*3x", "5xx", "*532*", "5\xc3\x97\xc3\x97", "5x\xc3\x97"},
+                 too_many_signs);
+}
+
+TEST(Signature, OrdersAfterTheCrossAreRefused) {
+  expect_refused({"x5", "5x3", "x2,2", "5x,", "5\xc3\x97"
+                                              "3"},
+                 after_cross);
+}
+
+TEST(Signature, MisplacedCommasAreRefused) {
+  expect_refused({",", ",,", ",5", "5,,3", "5,3,,2", ",532", "*,5", "*,", ",*", "2,,*", "*2,2,,", "2*,"},
+                 empty_place);
+}
+
+TEST(Signature, TooManyDigitsWithoutCommasAreRefused) {
+  expect_refused({"2222222222222", "*2222222222222"},
+                 " has too many digits without commas; separate the orders by commas");
+}
+
+TEST(Signature, MixedFamiliesAreNotEmbeddedYet) {
+  expect_refused({"3*2", "2*5",  "2*2",        "5*",  "9*",  "3x",  "1x",   "x",     "7x",    "2*12", "12*",
+                  "12x", "3\xc3\x97", "12\xc3\x97", "12,*", "22,*", "22,x", "2*22,", "2,*12", "11*",  "11x", "10*",
+                  "2*10", "2*11", "5X"},
+                 not_yet);
+}
+
+// ----------------------------------------------------------------------------------- two ways to be read
+
+struct Ambiguity {
+  std::string text, by_digits;
+  std::vector<std::string> others;
+};
+
+std::vector<Ambiguity> ambiguities() {
+  return {{"1212", "1,2,1,2", {"12,12"}},
+          {"2212", "2,2,1,2", {"2,2,12", "2,21,2"}},
+          {"2222", "2,2,2,2", {"2,2,22", "2,22,2", "22,2,2", "22,22"}},
+          {"2233", "2,2,3,3", {"2,2,33"}},
+          {"2332", "2,3,3,2", {"2,33,2"}},
+          {"3322", "3,3,2,2", {"33,2,2"}},
+          {"4747", "4,7,4,7", {"47,47"}},
+          {"123123", "1,2,3,1,2,3", {"123,123"}},
+          {"22100", "2,2,100", {}},
+          {"*2212", "*2,2,1,2", {"*2,2,12", "*2,21,2"}},
+          {"*1212", "*1,2,1,2", {"*12,12"}},
+          {"*2222", "*2,2,2,2", {"*2,2,22", "*2,22,2", "*22,2,2", "*22,22"}},
+          {"22*", "2,2*", {"22,*"}},
+          {"33*", "3,3*", {"33,*"}},
+          {"2*22", "2*2,2", {"2*22,"}},
+          {"22x", "2,2x", {"22,x"}},
+          {"33x", "3,3x", {"33,x"}}};
+}
+
+TEST(Signature, AmbiguousTextsAreRefusedWithAllReadingsNamed) {
+  for (const Ambiguity& expected : ambiguities()) {
+    if (expected.others.empty()) {  // a zero that can end no other order
+      EXPECT_EQ(parse_orbifold(expected.text).signature, expected.by_digits);
+      continue;
+    }
+    std::string named;
+    for (const std::string& other : expected.others) named += " or as " + other;
+    EXPECT_EQ(refusal(expected.text), "'" + expected.text + "' could be read as " + expected.by_digits + named +
+                                          "; separate the orders by commas, as in '" + expected.others[0] + "'");
+  }
+}
+
+TEST(Signature, EveryReadingThatIsNamedCanBeTypedAsItStands) {
+  for (const Ambiguity& ambiguity : ambiguities()) {
+    EXPECT_THAT(refusal(ambiguity.by_digits), Not(HasSubstr("could be read")));
+    for (const std::string& reading : ambiguity.others) {
+      const std::string answer = refusal(reading);
+      EXPECT_TRUE(answer.empty() || answer == "'" + reading + "'" + not_yet) << answer;
+    }
+  }
+}
+
+// --------------------------------------------------------------------------------------- any text at all
+
+/// What holds for every text: it is refused in one sentence, or |G| is 2 over the Euler characteristic.
+void check_any(const std::string& text) {
+  try {
+    const Orbifold orbifold = parse_orbifold(text);
+    const double quotient = 2 / euler_characteristic(orbifold.symbol);
+    RC_ASSERT(std::abs(quotient - orbifold.group_order) <= 1e-9 * quotient);
+    RC_ASSERT(spherical(orders(orbifold)));
+    RC_ASSERT((orbifold.topology == Topology::disk) == (text.find('*') != std::string::npos));
+    RC_ASSERT(parse_orbifold(orbifold.signature).signature == orbifold.signature);
+  } catch (const ArgumentError& error) {
+    const std::string sentence = error.what();
+    RC_ASSERT(!sentence.empty());
+    RC_ASSERT(sentence.find('\n') == std::string::npos);
+    RC_ASSERT(text.empty() || sentence.rfind("'" + text + "' ", 0) == 0);
+  }
+}
+
+RC_GTEST_PROP(Signature, AnyTextIsAnOrbifoldOrRefusedInOneSentence, ()) {
+  check_any(*rc::gen::container<std::string>(
+      rc::gen::elementOf(std::string("0123456789,*x"))));
+}
+
+RC_GTEST_PROP(Signature, AnyTextOfFewSignsIsAnOrbifoldOrRefusedInOneSentence, ()) {
+  check_any(*rc::gen::container<std::string>(rc::gen::elementOf(std::string("122235,*"))));
+}
+
+RC_GTEST_PROP(Signature, OrdersBetweenCommasAreReadAsTheyStand, ()) {
+  const auto order = rc::gen::element(1, 2, 2, 2, 3, 3, 4, 5, 6, 12, 12);
+  const std::vector<int> wanted = *rc::gen::resize(4, rc::gen::nonEmpty(rc::gen::container<std::vector<int>>(order)));
+  RC_PRE(wanted.size() >= 2u);
+  const bool star = *rc::gen::arbitrary<bool>();
+  const std::string text = test::symbol(star, wanted, true);
+  RC_ASSERT(refusal(text).empty() == spherical(wanted));
+  if (spherical(wanted)) RC_ASSERT(orders(parse_orbifold(text)) == wanted);
+}
+
+TEST(Signature, DigitsWithoutCommasAreOneOrderEach) {
+  for (const bool star : {false, true}) {
+    for (int number = 22; number < 10000; ++number) {
+      const std::string digits = std::to_string(number);
+      if (digits.find_first_of("01") != std::string::npos) continue;
+      std::vector<int> expected;
+      for (const char digit : digits) expected.push_back(digit - '0');
+      const std::string text = (star ? "*" : "") + digits;
+      ASSERT_EQ(refusal(text).empty(), spherical(expected)) << text;
+      if (spherical(expected)) ASSERT_EQ(orders(parse_orbifold(text)), expected);
+    }
+  }
+}
+
+TEST(Signature, LongTextsAreJudgedAtOnce) {
+  EXPECT_THAT(refusal("111111111111*111111111111"), HasSubstr("order of 1"));
+  EXPECT_THAT(refusal("222222222222*222222222222"), HasSubstr("hyperbolic"));
+  std::string many = "2";
+  for (int k = 0; k < 10000; ++k) many += ",2";
+  EXPECT_THAT(refusal(many), HasSubstr("hyperbolic"));
+}
+
+}  // namespace
+}  // namespace orbitutte

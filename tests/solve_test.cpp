@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: MIT
+// The steps between the cut mesh and the minimum: gluing, energy, linear systems, start, optimiser.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+#include "orbitutte/solve/ears.h"
+#include "orbitutte/solve/lbfgs.h"
+#include "solve_cases.h"
+
+namespace orbitutte {
+namespace {
+
+using test::random_feasible;
+using test::solve_case;
+using test::SolveCase;
+
+class EveryFamily : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Solve, EveryFamily, testing::ValuesIn(test::signatures()), [](const auto& info) {
+  std::string name = info.param;
+  if (name[0] == '*') name = "star" + name.substr(1);
+  return name;
+});
+
+Points feasible_positions(const SolveCase& c, std::uint32_t seed) {
+  const LaplacianSolver laplacian(c.cut, c.glued, c.weights, c.boundary);
+  const Points start = initial_embedding(c.mesh, c.cut, c.tile, c.boundary, laplacian);
+  return (start + 0.02 * random_feasible(c, seed)).rowwise().normalized();
+}
+
+// --- boundary conditions
+
+TEST_P(EveryFamily, SeamsTakeFeasiblePositionsOfOneBankToTheOther) {
+  const auto c = solve_case(GetParam());
+  const Points all = c->boundary.spread(feasible_positions(*c, 1), c->cut.source_vertex);
+  for (const Seam& seam : c->boundary.seams) {
+    for (std::size_t k = 0; k < seam.left.size(); ++k) {
+      const Vector3 left = all.row(seam.left[k]), right = all.row(seam.right[k]);
+      EXPECT_LT((left - seam.transform * right).norm(), 1e-14);
+    }
+  }
+}
+
+TEST_P(EveryFamily, EveryBoundaryEdgeLiesInOneBank) {
+  const auto c = solve_case(GetParam());
+  std::size_t edges = 0;
+  for (const Seam& seam : c->boundary.seams)
+    edges += (seam.left.size() - 1) * (seam.left == seam.right ? 1 : 2);
+  EXPECT_EQ(edges, c->cut.boundary.size());
+}
+
+TEST_P(EveryFamily, ConesAreHeldAtTheTilesCornersAndNothingElseIs) {
+  const auto c = solve_case(GetParam());
+  for (int v = 0; v < test::vertex_count(c->mesh); ++v) {
+    const bool marked = std::count(c->marks.begin(), c->marks.end(), v) > 0;
+    EXPECT_EQ(c->boundary.basis(v).cols() == 0, marked) << v;
+    EXPECT_NEAR(c->boundary.held.row(v).norm(), marked ? 1 : 0, 1e-15);
+  }
+}
+
+// --- energy
+
+TEST_P(EveryFamily, GradientAgreesWithDifferencesOfTheEnergy) {
+  const auto c = solve_case(GetParam());
+  const SphericalEnergy energy(c->glued, c->weights, c->boundary);
+  const Points x = feasible_positions(*c, 2), direction = random_feasible(*c, 3);
+  const double h = 1e-5;
+  const double difference =
+      (energy.evaluate(x + h * direction).energy - energy.evaluate(x - h * direction).energy) / (2 * h);
+  const double slope = energy.evaluate(x).gradient.cwiseProduct(direction).sum();
+  EXPECT_NEAR(slope, difference, 1e-7 * (1 + std::abs(slope)));
+}
+
+TEST_P(EveryFamily, EnergyDoesNotChangeWithTheLengthOfItsVectors) {
+  const auto c = solve_case(GetParam());
+  const SphericalEnergy energy(c->glued, c->weights, c->boundary);
+  const Points x = feasible_positions(*c, 4);
+  Points scaled = x;
+  for (Eigen::Index v = 0; v < x.rows(); ++v) scaled.row(v) *= 1 + 0.5 * std::sin(static_cast<double>(v));
+  EXPECT_NEAR(energy.evaluate(scaled).energy, energy.evaluate(x).energy, 1e-13 * energy.evaluate(x).energy);
+}
+
+TEST_P(EveryFamily, GradientIsTangentialAndFeasible) {
+  const auto c = solve_case(GetParam());
+  const SphericalEnergy energy(c->glued, c->weights, c->boundary);
+  const Points x = feasible_positions(*c, 5), g = energy.evaluate(x).gradient;
+  for (Eigen::Index v = 0; v < x.rows(); ++v) {
+    const Basis& room = c->boundary.basis(static_cast<int>(v));
+    const Vector3 here = g.row(v);
+    EXPECT_LT((here - room * (room.transpose() * here)).norm(), 1e-13);
+    EXPECT_LT(std::abs(here.dot(Vector3(x.row(v)))), 1e-13);
+  }
+}
+
+TEST_P(EveryFamily, EnergyDoesNotKnowWhereTheCutRuns) {
+  const auto first = solve_case(GetParam());
+  const LaplacianSolver laplacian(first->cut, first->glued, first->weights, first->boundary);
+  const SphericalEnergy energy(first->glued, first->weights, first->boundary);
+  const Minimum one = minimize(
+      energy, laplacian, initial_embedding(first->mesh, first->cut, first->tile, first->boundary, laplacian));
+  const auto second = solve_case(GetParam(), {5});
+  const LaplacianSolver other(second->cut, second->glued, second->weights, second->boundary);
+  const SphericalEnergy other_energy(second->glued, second->weights, second->boundary);
+  const Minimum two =
+      minimize(other_energy, other,
+               initial_embedding(second->mesh, second->cut, second->tile, second->boundary, other));
+  EXPECT_NEAR(one.energy, two.energy, 1e-12 * one.energy);
+}
+
+// --- linear systems
+
+TEST_P(EveryFamily, PreconditionerInvertsTwiceTheGluedLaplacian) {
+  const auto c = solve_case(GetParam());
+  const LaplacianSolver laplacian(c->cut, c->glued, c->weights, c->boundary);
+  const Points x = random_feasible(*c, 6);
+  // 2 L x in the room of every vertex, edge by edge.
+  Points Lx = Points::Zero(x.rows(), 3);
+  for (std::size_t e = 0; e < c->glued.edges.size(); ++e) {
+    const auto [i, j, t] = c->glued.edges[e];
+    const Matrix3& g = c->glued.transforms[t];
+    const Vector3 difference = Vector3(x.row(i)) - g * Vector3(x.row(j));
+    Lx.row(i) += 2 * c->weights.w[e] * difference;
+    Lx.row(j) -= 2 * c->weights.w[e] * g.transpose() * difference;
+  }
+  for (Eigen::Index v = 0; v < x.rows(); ++v) {
+    const Basis& room = c->boundary.basis(static_cast<int>(v));
+    Lx.row(v) = room * (room.transpose() * Vector3(Lx.row(v)));
+  }
+  EXPECT_LT((laplacian.precondition(Lx) - x).cwiseAbs().maxCoeff(), 1e-10);
+}
+
+TEST_P(EveryFamily, HarmonicExtensionGivesEveryInnerVertexTheMeanOfItsNeighbours) {
+  const auto c = solve_case(GetParam());
+  const LaplacianSolver laplacian(c->cut, c->glued, c->weights, c->boundary);
+  Eigen::MatrixXd given = Eigen::MatrixXd::Zero(c->cut.vertex_count(), 2);
+  for (std::size_t k = 0; k < c->cut.boundary.size(); ++k) {
+    const double angle =
+        2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(c->cut.boundary.size());
+    given.row(c->cut.boundary[k]) << std::cos(angle), std::sin(angle);
+  }
+  const Eigen::MatrixXd x = laplacian.extend_harmonically(given);
+  Eigen::MatrixXd pull = Eigen::MatrixXd::Zero(x.rows(), 2);
+  for (int h = 0; h < static_cast<int>(c->cut.F.size()); ++h) {
+    const int a = origin(c->cut.F, h), b = target(c->cut.F, h);
+    pull.row(a) += 0.5 * c->weights.w[c->connectivity.edge_of[h]] * (x.row(b) - x.row(a));
+    pull.row(b) += 0.5 * c->weights.w[c->connectivity.edge_of[h]] * (x.row(a) - x.row(b));
+  }
+  for (const int v : c->cut.boundary) {
+    EXPECT_EQ(x.row(v), given.row(v));
+    pull.row(v).setZero();
+  }
+  EXPECT_LT(pull.cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(SparseFactor, BackendsAgreeAndSolve) {
+  const int n = 200;
+  std::vector<Eigen::Triplet<double, long>> entries;
+  for (int i = 0; i < n; ++i) {
+    entries.emplace_back(i, i, 4.0 + i % 3);
+    if (i + 1 < n) entries.emplace_back(i + 1, i, -1.0);
+    if (i + 17 < n) entries.emplace_back(i + 17, i, -0.5);
+  }
+  SparseMatrix lower(n, n);
+  lower.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::MatrixXd B = Eigen::MatrixXd::Random(n, 3);
+  for (const Backend backend : available_backends()) {
+    const Eigen::MatrixXd X = factorize(lower, backend)->solve(B);
+    EXPECT_LT((lower.selfadjointView<Eigen::Lower>() * X - B).cwiseAbs().maxCoeff(), 1e-13) << name(backend);
+  }
+}
+
+TEST(SparseFactor, RefusesIndefiniteMatrices) {
+  SparseMatrix lower(2, 2);
+  lower.insert(0, 0) = 1;
+  lower.insert(1, 1) = -1;
+  lower.makeCompressed();
+  for (const Backend backend : available_backends())
+    EXPECT_THROW(factorize(lower, backend), NotPositiveDefinite);
+}
+
+TEST(LaplacianSolver, NamesAVertexThatNoPositiveWeightHolds) {
+  const auto c = solve_case("432");
+  int loose = 0;
+  while (std::count(c->marks.begin(), c->marks.end(), loose) ||
+         std::count(c->cut.boundary.begin(), c->cut.boundary.end(), loose))
+    ++loose;
+  for (std::size_t e = 0; e < c->glued.edges.size(); ++e)
+    if (c->glued.edges[e].i == loose || c->glued.edges[e].j == loose)
+      c->weights.w[static_cast<Eigen::Index>(e)] = 0;
+  try {
+    const LaplacianSolver laplacian(c->cut, c->glued, c->weights, c->boundary,
+                                    {available_backends().front()});
+    FAIL();
+  } catch (const MeshError& error) {
+    EXPECT_NE(std::string(error.what()).find("no positive weights tie"), std::string::npos) << error.what();
+  }
+}
+
+// --- start and optimiser
+
+TEST_P(EveryFamily, StartIsOnTheUnitSphereAndFeasible) {
+  const auto c = solve_case(GetParam());
+  const LaplacianSolver laplacian(c->cut, c->glued, c->weights, c->boundary);
+  const Points start = initial_embedding(c->mesh, c->cut, c->tile, c->boundary, laplacian);
+  for (Eigen::Index v = 0; v < start.rows(); ++v) {
+    EXPECT_NEAR(start.row(v).norm(), 1, 1e-15);
+    const Basis& room = c->boundary.basis(static_cast<int>(v));
+    const Vector3 here = start.row(v), expected = room.cols() ? Vector3(room * (room.transpose() * here))
+                                                              : c->boundary.held.row(v);
+    EXPECT_LT((here - expected).norm(), 1e-15);
+  }
+}
+
+TEST_P(EveryFamily, OptimiserConvergesWithEnergyThatNeverRises) {
+  const auto c = solve_case(GetParam());
+  const LaplacianSolver laplacian(c->cut, c->glued, c->weights, c->boundary);
+  const SphericalEnergy energy(c->glued, c->weights, c->boundary);
+  const Minimum minimum =
+      minimize(energy, laplacian, initial_embedding(c->mesh, c->cut, c->tile, c->boundary, laplacian));
+  EXPECT_EQ(minimum.termination, Termination::converged);
+  EXPECT_LE(minimum.gradient_norm, 1e-9);
+  EXPECT_LE(minimum.iterations, 60);
+  ASSERT_EQ(static_cast<int>(minimum.history.size()), minimum.iterations + 1);
+  for (std::size_t k = 1; k < minimum.history.size(); ++k)
+    EXPECT_LE(minimum.history[k].energy, minimum.history[k - 1].energy * (1 + 1e-13));
+  // No point nearby has less energy.
+  for (std::uint32_t seed = 10; seed < 14; ++seed) {
+    const Points nearby = (minimum.positions + 1e-3 * random_feasible(*c, seed)).rowwise().normalized();
+    EXPECT_GT(energy.evaluate(nearby).energy, minimum.energy);
+  }
+}
+
+TEST_P(EveryFamily, MinimumDoesNotDependOnTheStart) {
+  const auto c = solve_case(GetParam());
+  const LaplacianSolver laplacian(c->cut, c->glued, c->weights, c->boundary);
+  const SphericalEnergy energy(c->glued, c->weights, c->boundary);
+  const Minimum one =
+      minimize(energy, laplacian, initial_embedding(c->mesh, c->cut, c->tile, c->boundary, laplacian));
+  const Minimum two = minimize(energy, laplacian, feasible_positions(*c, 20));
+  EXPECT_NEAR(one.energy, two.energy, 1e-12 * one.energy);
+}
+
+TEST(Lbfgs, OptionsOutOfRangeAreRefused) {
+  const auto c = solve_case("432");
+  const LaplacianSolver laplacian(c->cut, c->glued, c->weights, c->boundary);
+  const SphericalEnergy energy(c->glued, c->weights, c->boundary);
+  const Points start = initial_embedding(c->mesh, c->cut, c->tile, c->boundary, laplacian);
+  LbfgsOptions tolerance, iterations, memory;
+  tolerance.tolerance = 0;
+  iterations.max_iterations = -1;
+  memory.memory = 0;
+  for (const LbfgsOptions& options : {tolerance, iterations, memory})
+    EXPECT_THROW(minimize(energy, laplacian, start, options), ArgumentError);
+}
+
+TEST(Lbfgs, EndsAtTheLastIterationAllowedAndSaysSo) {
+  const auto c = solve_case("432");
+  const LaplacianSolver laplacian(c->cut, c->glued, c->weights, c->boundary);
+  const SphericalEnergy energy(c->glued, c->weights, c->boundary);
+  LbfgsOptions options;
+  options.max_iterations = 2;
+  const Minimum minimum = minimize(
+      energy, laplacian, initial_embedding(c->mesh, c->cut, c->tile, c->boundary, laplacian), options);
+  EXPECT_EQ(minimum.iterations, 2);
+  EXPECT_EQ(minimum.termination, Termination::max_iterations);
+}
+
+// --- ears
+
+TEST(Ears, TriangleWithTwoEdgesOnAMirrorIsFoundAndRoundedOutward) {
+  Mesh mesh = test::grid_disk(
+      6, 6);  // its corners 6 and 42 are tips of ears, 0 and 48 are not, whichever way diagonals run
+  const Orbifold orbifold = parse_orbifold("*22");
+  const std::vector<int> marks = {3, 45};
+  const Connectivity connectivity = connect(mesh.F, test::vertex_count(mesh));
+  const CutMesh cut = cut_to_disk(mesh, connectivity, marks);
+  const Tile tile = basic_tile(orbifold, cut.arrangement);
+  const BoundaryConditions boundary = glue(cut, tile, orbifold, marks);
+  const std::vector<Ear> ears = find_ears(cut, tile, boundary);
+  ASSERT_EQ(ears.size(), 2u);
+  const EmbedResult result = embed(mesh, orbifold, marks);
+  EXPECT_TRUE(result.certificate.bijective);
+  ASSERT_EQ(result.warnings.size(), 1u);
+  EXPECT_NE(result.warnings[0].find("2 triangles"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace orbitutte
