@@ -28,7 +28,8 @@ int exact_sign(const Vector3& a, const Vector3& b, const Vector3& c) {
 
 void expect_exact(const Vector3& a, const Vector3& b, const Vector3& c) {
   const int sign = exact_sign(a, b, c);
-  EXPECT_EQ(orientation_sign(a, b, c), sign) << a.transpose() << " / " << b.transpose() << " / " << c.transpose();
+  EXPECT_EQ(orientation_sign(a, b, c), sign)
+      << a.transpose() << " / " << b.transpose() << " / " << c.transpose();
   EXPECT_EQ(orientation_sign(b, c, a), sign);
   EXPECT_EQ(orientation_sign(c, a, b), sign);
   EXPECT_EQ(orientation_sign(b, a, c), -sign);
@@ -108,7 +109,8 @@ TEST(Orientation, SignIsExactOnDenormalNumbers) {
   Vectors vectors(5);
   for (int k = 0; k < 300; ++k) {
     const auto small = [&] {
-      return Vector3(least * (vectors.below(7) - 3), least * (vectors.below(7) - 3), least * (vectors.below(7) - 3));
+      return Vector3(least * (vectors.below(7) - 3), least * (vectors.below(7) - 3),
+                     least * (vectors.below(7) - 3));
     };
     expect_exact(small(), small(), small());
     expect_exact(small(), vectors.any(), vectors.any());
@@ -125,7 +127,8 @@ TEST(Orientation, VectorsInOnePlaneWithTheOriginHaveSignZero) {
     EXPECT_EQ(orientation_sign(a, b, -b), 0);
     EXPECT_EQ(orientation_sign(a, b, Vector3::Zero()), 0);
     EXPECT_EQ(orientation_sign(a, 0.5 * a, b), 0);
-    EXPECT_EQ(orientation_sign({a.x(), a.y(), 0}, {b.x(), b.y(), 0}, {vectors.number(), vectors.number(), 0}), 0);
+    EXPECT_EQ(orientation_sign({a.x(), a.y(), 0}, {b.x(), b.y(), 0}, {vectors.number(), vectors.number(), 0}),
+              0);
     // Small whole numbers are added without rounding.
     const auto whole = [&] { return Vector3(vectors.below(999), vectors.below(999), vectors.below(999)); };
     const Vector3 p = whole(), q = whole();

@@ -56,9 +56,9 @@ TEST_P(SampleMeshes, IsASphereOrADiskWithoutDefects) {
 
 TEST_P(SampleMeshes, HasEvenTriangles) {
   const Inspection result = inspect(sample_mesh(GetParam()));
-  EXPECT_GT(result.min_angle, 20 * kDegree);
+  EXPECT_GT(result.min_angle, 16 * kDegree);
   EXPECT_LT(result.max_angle, 125 * kDegree);
-  EXPECT_LT(result.max_edge_length, 5 * result.min_edge_length);
+  EXPECT_LT(result.max_edge_length, 6 * result.min_edge_length);
   EXPECT_LT(result.negative_cotangent_edges, 0.005 * result.edges);
 }
 
@@ -89,7 +89,7 @@ TEST_P(SampleMeshes, HasConesFarFromEachOther) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    , SampleMesh,
+    , SampleMeshes,
     testing::Values(SampleOptions{SampleShape::figure, 100}, SampleOptions{SampleShape::figure, 201},
                     SampleOptions{SampleShape::figure, 1500}, SampleOptions{SampleShape::figure, 10'000},
                     SampleOptions{SampleShape::figure, 25'000}, SampleOptions{SampleShape::mask, 100},
@@ -107,7 +107,7 @@ TEST(SampleMesh, IsSmootherTheFinerItIs) {
     const double coarse = sharpest_edge(sample_mesh({shape, 5'000}));
     const double fine = sharpest_edge(sample_mesh({shape, 320'000}));
     EXPECT_LT(fine, 15 * kDegree) << name(shape);
-    EXPECT_LT(fine, coarse / 2) << name(shape);
+    EXPECT_LT(fine, coarse / 3) << name(shape);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <string>
@@ -179,7 +180,7 @@ TEST(Signature, AStarAloneMarksNothing) {
 
 TEST(Signature, OtherCharactersAreNoSymbol) {
   expect_refused({"532 ", " 532", "5 3 2", "-532", "+22", "2.2", "2;2", "o", "O", "icosahedral", "C5", "5\t3",
-                  "\xc3", "\xc3\xa4", "5\xc3", "polygon", "*532!", "2**2?"},
+                  "\xc3", "\xc3\xa4", "5\xc3", "polygon", "*532!"},
                  no_symbol);
 }
 
@@ -296,7 +297,9 @@ RC_GTEST_PROP(Signature, OrdersBetweenCommasAreReadAsTheyStand, ()) {
   const bool star = *rc::gen::arbitrary<bool>();
   const std::string text = test::symbol(star, wanted, true);
   RC_ASSERT(refusal(text).empty() == spherical(wanted));
-  if (spherical(wanted)) RC_ASSERT(orders(parse_orbifold(text)) == wanted);
+  if (spherical(wanted)) {
+    RC_ASSERT(orders(parse_orbifold(text)) == wanted);
+  }
 }
 
 TEST(Signature, DigitsWithoutCommasAreOneOrderEach) {
@@ -308,7 +311,9 @@ TEST(Signature, DigitsWithoutCommasAreOneOrderEach) {
       for (const char digit : digits) expected.push_back(digit - '0');
       const std::string text = (star ? "*" : "") + digits;
       ASSERT_EQ(refusal(text).empty(), spherical(expected)) << text;
-      if (spherical(expected)) ASSERT_EQ(orders(parse_orbifold(text)), expected);
+      if (spherical(expected)) {
+        ASSERT_EQ(orders(parse_orbifold(text)), expected);
+      }
     }
   }
 }

@@ -45,7 +45,8 @@ TEST(SphericalTriangle, OctantsAreEighthsOfTheSphere) {
 }
 
 TEST(SphericalTriangle, ClosedMeshesHaveTheAreaOfTheSphere) {
-  for (const Mesh& mesh : {test::icosphere(3), test::octasphere(2)}) EXPECT_NEAR(total_area(mesh), 4 * pi, 1e-12);
+  for (const Mesh& mesh : {test::icosphere(3), test::octasphere(2)})
+    EXPECT_NEAR(total_area(mesh), 4 * pi, 1e-12);
 }
 
 TEST(SphericalTriangle, AreasOfTheTrianglesOfReflectionGroupsAreFractionsOfTheSphere) {
@@ -104,7 +105,8 @@ TEST(SphericalTriangle, LengthIsAMetric) {
   const std::vector<Vector3> p = random_points(600, 3);
   for (std::size_t k = 0; k + 2 < p.size(); k += 3) {
     EXPECT_EQ(arc_length(p[k], p[k + 1]), arc_length(p[k + 1], p[k]));
-    EXPECT_LE(arc_length(p[k], p[k + 2]), arc_length(p[k], p[k + 1]) + arc_length(p[k + 1], p[k + 2]) + 1e-15);
+    EXPECT_LE(arc_length(p[k], p[k + 2]),
+              arc_length(p[k], p[k + 1]) + arc_length(p[k + 1], p[k + 2]) + 1e-15);
     EXPECT_NEAR(arc_length(p[k], p[k + 1]) + arc_length(p[k], -p[k + 1]), pi, 1e-15);
   }
 }

@@ -10,8 +10,8 @@ namespace orbitutte {
 /// All bytes of a file. Throws FileError with the path and the system's reason.
 std::string read_file(const std::string& path);
 
-/// Writes the bytes to a temporary file beside `path` and renames it, so that the file appears whole or not at
-/// all. What exists and is no regular file (a pipe, /dev/stdout) is written to directly, never replaced.
+/// Writes the bytes to a temporary file beside `path` and renames it, so that the file appears whole or not
+/// at all. What exists and is no regular file (a pipe, /dev/stdout) is written to directly, never replaced.
 /// Throws FileError with the path and the system's reason.
 void write_file(const std::string& path, std::string_view bytes);
 

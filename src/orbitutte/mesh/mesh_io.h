@@ -16,9 +16,9 @@ MeshFormat mesh_format(const std::string& path);
 
 /// The polygons in the text or bytes of a mesh file.
 /// OBJ: `v`, `f` with v, v/vt, v//vn, v/vt/vn, negative indices; `l`, `p` and all else are passed over.
-/// OFF: the keyword (OFF, behind any of ST, C, N) may be missing, and behind it the count of edges; normals, colours
-/// and comments are passed over; binary files and other dimensions than three are refused.
-/// PLY: ASCII, binary of both byte orders, `face` (vertex_indices or vertex_index) and `tristrips`; other elements
+/// OFF: the keyword (OFF, behind any of ST, C, N) may be missing, and behind it the count of edges; normals,
+/// colours and comments are passed over; binary files and other dimensions than three are refused. PLY:
+/// ASCII, binary of both byte orders, `face` (vertex_indices or vertex_index) and `tristrips`; other elements
 /// and properties are passed over.
 /// STL: ASCII with any number of solids, and binary; corners with the same three coordinates are one vertex,
 /// numbered in order of first use.
@@ -30,8 +30,8 @@ PolygonMesh parse_mesh(std::string_view bytes, MeshFormat format);
 /// Throws FileError when it cannot be read, ArgumentError and MeshError.
 PolygonMesh read_mesh(const std::string& path);
 
-/// The text or bytes of a mesh file. Positions read back as the same doubles (STL: rounded to single precision).
-/// Throws MeshError where the format is STL and a face names a vertex that is not there.
+/// The text or bytes of a mesh file. Positions read back as the same doubles (STL: rounded to single
+/// precision). Throws MeshError where the format is STL and a face names a vertex that is not there.
 std::string serialize_mesh(const Mesh& mesh, MeshFormat format);
 
 /// serialize_mesh to a file in the format that the path's ending names. The file appears whole or not at all.

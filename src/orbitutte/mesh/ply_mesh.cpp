@@ -24,7 +24,7 @@ Points to_points(const PlyElement& vertex) {
       throw MeshError(
           fmt::format("the element 'vertex' has no coordinate '{}'; export the file again", axes[k]));
     }
-    V.col(k) = Eigen::Map<const Eigen::VectorXd>(axis->values.data(), V.rows());
+    for (Eigen::Index v = 0; v < V.rows(); ++v) V(v, k) = axis->values[v];
   }
   return V;
 }
@@ -96,7 +96,8 @@ PolygonMesh to_mesh(const PlyFile& file) {
 PlyProperty column(std::string name, const Points& V, int k) {
   PlyProperty property;
   property.name = std::move(name);
-  property.values.assign(V.col(k).begin(), V.col(k).end());
+  property.values.reserve(V.rows());
+  for (Eigen::Index v = 0; v < V.rows(); ++v) property.values.push_back(V(v, k));
   return property;
 }
 

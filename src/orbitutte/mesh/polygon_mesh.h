@@ -11,8 +11,8 @@ namespace orbitutte {
 /// A mesh of polygons as it stands in a file. Nothing is promised about it: indices may be out of range and
 /// coordinates not finite until `inspect` has looked at it.
 struct PolygonMesh {
-  Points V;                          ///< n x 3 positions
-  std::vector<int> corners;          ///< the vertices of all faces, one face after the other
+  Points V;                           ///< n x 3 positions
+  std::vector<int> corners;           ///< the vertices of all faces, one face after the other
   std::vector<int> face_start = {0};  ///< face f is corners[face_start[f]] .. corners[face_start[f + 1] - 1]
 
   int vertex_count() const { return static_cast<int>(V.rows()); }

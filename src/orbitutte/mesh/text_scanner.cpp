@@ -42,7 +42,7 @@ std::string shown(std::string_view word) {
   return text;
 }
 
-std::string quoted(std::string_view word) { return "'" + shown(word) + "'"; }
+std::string quoted(std::string_view word) { return fmt::format("'{}'", shown(word)); }
 
 std::string shown(const TextItem& item) { return fmt::format("{} {}", shown(item.element), item.number); }
 

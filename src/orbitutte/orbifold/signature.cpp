@@ -15,11 +15,13 @@ namespace {
 
 using Orders = std::vector<int>;
 
-// A rational number, exact while orders stay below 30,000.
+// A rational number that counts down: exact to the first value below zero, where it stays. With orders of at
+// most 20,000 the values from zero up have small denominators, so nothing overflows.
 struct Fraction {
   long long numerator = 0, denominator = 1;
 
   Fraction minus(long long n, long long d) const {
+    if (numerator < 0) return *this;
     const long long top = numerator * d - n * denominator, bottom = denominator * d,
                     common = std::gcd(top, bottom);
     return {top / common, bottom / common};
@@ -29,11 +31,9 @@ struct Fraction {
 // The orbifold's Euler characteristic: 2 - sum (1 - 1/n) - [star] - sum (1 - 1/m)/2 - [cross]; |G| is 2 over
 // it.
 Fraction euler_characteristic(const ConwaySymbol& symbol) {
-  Fraction chi = {2, 1};
+  Fraction chi = {2 - symbol.star - symbol.cross, 1};  // first, so that few orders bring it below zero
   for (const long long n : symbol.rotations) chi = chi.minus(n - 1, n);
   for (const long long m : symbol.corners) chi = chi.minus(m - 1, 2 * m);
-  if (symbol.star) chi = chi.minus(1, 1);
-  if (symbol.cross) chi = chi.minus(1, 1);
   return chi;
 }
 
@@ -46,19 +46,30 @@ bool any_below_two(const Orders& orders) {
   return std::any_of(orders.begin(), orders.end(), [](int n) { return n < 2; });
 }
 
-// An order of one marks nothing; only the cross may stand behind it (1x).
+// An order of one marks nothing; only alone before the cross is it part of a name (1x).
 bool trivial_order(const ConwaySymbol& symbol) {
-  return (!symbol.cross && any_below_two(symbol.rotations)) || any_below_two(symbol.corners);
+  const bool alone_before_cross = symbol.cross && symbol.rotations.size() == 1;
+  return (!alone_before_cross && any_below_two(symbol.rotations)) || any_below_two(symbol.corners);
 }
 
 constexpr int largest_order = 20000;
+
+bool any_above_largest(const Orders& orders) {
+  return std::any_of(orders.begin(), orders.end(), [](int n) { return n > largest_order; });
+}
+
+std::string above_largest() {
+  return fmt::format("has an order above {}, the largest that is supported", largest_order);
+}
 
 [[noreturn]] void refuse(const std::string& text, const std::string& reason) {
   throw ArgumentError(fmt::format("'{}' {}", text, reason));
 }
 
-// All ways to read a string of digits without commas as orders: one digit each, or longer numbers.
+// The ways to read a string of digits without commas as orders: one digit each, then those with longer numbers
+// and at most three orders, since no spherical orbifold has more.
 void readings(const std::string& digits, std::size_t from, Orders& prefix, std::vector<Orders>& all) {
+  if (!all.empty() && prefix.size() > 3) return;
   if (from == digits.size()) {
     all.push_back(prefix);
     return;
@@ -79,7 +90,7 @@ int parse_order(const std::string& text, const std::string& number) {
   if (number.empty()) refuse(text, "has an empty place between commas; give every order once");
   if (order < 1) refuse(text, "has an order of 0; orders are 2 or more");
   if (order > largest_order)
-    refuse(text, fmt::format("has an order above {}, the largest that is supported", largest_order));
+    refuse(text, above_largest());
   return order;
 }
 
@@ -159,11 +170,13 @@ std::string commas(const ConwaySymbol& symbol) {
 
 // The families of spherical orbifolds that the table does not hold yet, in the notation of Conway's list.
 bool is_mixed_spherical(const ConwaySymbol& symbol) {
-  return (symbol.star || symbol.cross) && !is_bad(symbol) && euler_characteristic(symbol).numerator > 0;
+  return (symbol.star || symbol.cross) && !is_bad(symbol) && !trivial_order(symbol) &&
+         euler_characteristic(symbol).numerator > 0;
 }
 
 // Why a reading cannot be embedded; empty where it can.
 std::string objection(const ConwaySymbol& symbol) {
+  if (any_above_largest(symbol.rotations) || any_above_largest(symbol.corners)) return above_largest();
   if (find_family(symbol)) return {};
   if (trivial_order(symbol)) return "has an order of 1, which marks nothing; orders are 2 or more";
   if (symbol.rotations.empty() && symbol.corners.empty() && !symbol.cross)

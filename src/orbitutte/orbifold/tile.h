@@ -2,6 +2,7 @@
 // The basic tile of a spherical orbifold and its gluing (appendix A).
 #pragma once
 
+#include <Eigen/Geometry>
 #include <vector>
 
 #include "orbitutte/orbifold/signature.h"

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 #include <openssl/evp.h>
 
-#include <algorithm>
+#include <cstdint>
+#include <initializer_list>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "orbitutte/mesh/file.h"
@@ -96,49 +98,116 @@ Json list(const Values& values, const Convert& convert) {
   return rows;
 }
 
-ConeKind cone_kind(const std::string& text) {
-  for (const ConeKind kind : {ConeKind::rotation, ConeKind::corner, ConeKind::fixed})
-    if (name(kind) == text) return kind;
-  throw MeshError(fmt::format("'{}' is no kind of cone", text));
+// Reading: every value is asked for by its key, which the sentence names where it is missing or of the wrong
+// type.
+const Json& member(const Json& object, const char* key) {
+  const auto at = object.find(key);
+  if (at == object.end()) throw MeshError(fmt::format("the key '{}' is missing", key));
+  return *at;
 }
 
-WeightKind weight_kind(const std::string& text) {
-  for (const WeightKind kind : {WeightKind::cotan, WeightKind::uniform, WeightKind::file})
-    if (name(kind) == text) return kind;
-  throw MeshError(fmt::format("'{}' is no kind of weights", text));
+const Json& typed(const Json& value, const char* key, bool is_right, const char* type) {
+  if (!is_right) throw MeshError(fmt::format("the value of '{}' is not {}", key, type));
+  return value;
+}
+
+const Json& object(const Json& json, const char* key) {
+  const Json& value = member(json, key);
+  return typed(value, key, value.is_object(), "an object");
+}
+
+const Json& array(const Json& json, const char* key) {
+  const Json& value = member(json, key);
+  return typed(value, key, value.is_array(), "a list");
+}
+
+std::string text(const Json& json, const char* key) {
+  const Json& value = member(json, key);
+  return typed(value, key, value.is_string(), "a text").get<std::string>();
+}
+
+bool boolean(const Json& json, const char* key) {
+  const Json& value = member(json, key);
+  return typed(value, key, value.is_boolean(), "true or false").get<bool>();
+}
+
+double to_number(const Json& value, const char* key) {
+  return typed(value, key, value.is_number(), "a number").get<double>();
+}
+
+int to_integer(const Json& value, const char* key) {
+  typed(value, key, value.is_number_integer(), "a whole number");
+  const auto number = value.get<std::int64_t>();
+  constexpr int largest = std::numeric_limits<int>::max();
+  const bool wrapped = value.is_number_unsigned() && number < 0;
+  typed(value, key, !wrapped && number >= -largest && number <= largest, "a whole number of 32 bits");
+  return static_cast<int>(number);
+}
+
+double number(const Json& json, const char* key) { return to_number(member(json, key), key); }
+
+int integer(const Json& json, const char* key) { return to_integer(member(json, key), key); }
+
+std::vector<int> integers(const Json& json, const char* key) {
+  std::vector<int> values;
+  for (const Json& value : array(json, key)) values.push_back(to_integer(value, key));
+  return values;
+}
+
+Matrix3 matrix(const Json& json, const char* key) {
+  const char* const type = "a 3 x 3 matrix";
+  const Json& rows = array(json, key);
+  typed(rows, key, rows.size() == 3, type);
+  Matrix3 M;
+  for (int i = 0; i < 3; ++i) {
+    typed(rows[i], key, rows[i].is_array() && rows[i].size() == 3, type);
+    for (int k = 0; k < 3; ++k) M(i, k) = to_number(rows[i][k], key);
+  }
+  return M;
+}
+
+template <typename Kind>
+Kind one_of(std::initializer_list<Kind> kinds, const std::string& word, const char* what) {
+  for (const Kind kind : kinds)
+    if (name(kind) == word) return kind;
+  throw MeshError(fmt::format("the 'kind' of {} is '{}', which means nothing", what, word));
 }
 
 Seam to_seam(const Json& json) {
-  Seam seam;
-  seam.left = json.at("left").get<std::vector<int>>();
-  seam.right = json.at("right").get<std::vector<int>>();
-  for (int i = 0; i < 3; ++i)
-    for (int k = 0; k < 3; ++k) seam.transform(i, k) = json.at("transform").at(i).at(k).get<double>();
-  if (seam.left.size() != seam.right.size()) throw MeshError("a seam has banks of different lengths");
+  Seam seam = {integers(json, "left"), integers(json, "right"), matrix(json, "transform")};
+  if (seam.left.size() != seam.right.size())
+    throw MeshError("the banks 'left' and 'right' of a seam have different lengths");
   return seam;
 }
 
 ConeCopies to_cone(const Json& json) {
-  return {json.at("vertex").get<int>(), json.at("order").get<int>(),
-          cone_kind(json.at("kind").get<std::string>()), json.at("copies").get<std::vector<int>>()};
+  const ConeKind kind =
+      one_of({ConeKind::rotation, ConeKind::corner, ConeKind::fixed}, text(json, "kind"), "a cone");
+  return {integer(json, "vertex"), integer(json, "order"), kind, integers(json, "copies")};
+}
+
+WeightOptions to_weights(const Json& json) {
+  const WeightKind kind =
+      one_of({WeightKind::cotan, WeightKind::uniform, WeightKind::file}, text(json, "kind"), "the weights");
+  return {kind, number(json, "clamp")};
 }
 
 Report to_report(const Json& json) {
-  if (json.at("schema").get<std::string>() != "orbitutte.report/1")
-    throw MeshError(
-        fmt::format("the schema is '{}', not 'orbitutte.report/1'", json.at("schema").get<std::string>()));
+  if (text(json, "schema") != "orbitutte.report/1")
+    throw MeshError(fmt::format("the 'schema' is '{}', not 'orbitutte.report/1'", text(json, "schema")));
   Report report;
-  report.signature = json.at("orbifold").at("signature").get<std::string>();
-  report.group_order = json.at("orbifold").at("group_order").get<int>();
-  if (report.group_order < 1) throw MeshError("the group order is not positive");
-  for (const Json& seam : json.at("seams")) report.seams.push_back(to_seam(seam));
-  for (const Json& cone : json.at("cones")) report.cones.push_back(to_cone(cone));
-  report.weights.kind = weight_kind(json.at("weights").at("kind").get<std::string>());
-  report.weights.clamp = json.at("weights").at("clamp").get<double>();
-  report.energy = json.at("energy").get<double>();
-  report.converged = json.at("termination").get<std::string>() == name(Termination::converged);
-  report.bijective = json.at("certificate").at("bijective").get<bool>();
-  report.nonpositive_faces = json.at("certificate").at("nonpositive_faces").get<std::vector<int>>();
+  const Json& orbifold = object(json, "orbifold");
+  report.signature = text(orbifold, "signature");
+  report.group_order = integer(orbifold, "group_order");
+  if (report.group_order < 1) throw MeshError("the value of 'group_order' is not positive");
+  for (const Json& seam : array(json, "seams")) report.seams.push_back(to_seam(seam));
+  for (const Json& cone : array(json, "cones")) report.cones.push_back(to_cone(cone));
+  report.weights = to_weights(object(json, "weights"));
+  report.energy = number(json, "energy");
+  report.converged = text(json, "termination") == name(Termination::converged);
+  const Json& certificate = object(json, "certificate");
+  report.bijective = boolean(certificate, "bijective");
+  report.nonpositive_faces = integers(certificate, "nonpositive_faces");
   return report;
 }
 
@@ -180,8 +249,8 @@ Report read_report(const std::string& path) {
   const std::string text = read_file(path);
   try {
     return to_report(Json::parse(text));
-  } catch (const nlohmann::json::exception& error) {
-    throw MeshError(fmt::format("{}: this is no report of orbitutte: {}", path, error.what()));
+  } catch (const nlohmann::json::parse_error& error) {
+    throw MeshError(fmt::format("{}: this is no JSON, from byte {} on", path, error.byte));
   } catch (const MeshError& error) {
     throw MeshError(fmt::format("{}: {}", path, error.what()));
   }

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/verify/distortion.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "hand_made.h"
+#include "sample_embeddings.h"
+
+namespace orbitutte {
+namespace {
+
+// A map to the sphere is all that distortion asks for: seams and cones stay empty.
+Embedding onto(const Points& positions, const Faces& faces) {
+  Embedding embedding;
+  embedding.positions = positions;
+  embedding.faces = faces;
+  embedding.source_vertex.resize(positions.rows());
+  std::iota(embedding.source_vertex.begin(), embedding.source_vertex.end(), 0);
+  return embedding;
+}
+
+// A round disk so small that the sphere is flat under it, around the north pole, and its source: the same
+// disk, flat, with its coordinates multiplied.
+struct FlatDisk {
+  Mesh source = test::round_disk(6);
+  Embedding embedding;
+
+  FlatDisk(double x, double y) {
+    Points positions = 1e-4 * source.V;
+    positions.col(2).setOnes();
+    positions.rowwise().normalize();
+    embedding = onto(positions, source.F);
+    source.V.col(0) *= x;
+    source.V.col(1) *= y;
+  }
+  Distortion distortion() const { return measure_distortion(source, embedding); }
+};
+
+void expect_same(const Distortion& a, const Distortion& b, double tolerance) {
+  EXPECT_NEAR(a.area.mean, b.area.mean, tolerance);
+  EXPECT_NEAR(a.area.std, b.area.std, tolerance);
+  EXPECT_NEAR(a.area.median, b.area.median, tolerance);
+  EXPECT_NEAR(a.area.max, b.area.max, tolerance * b.area.max);
+  EXPECT_NEAR(a.angle.mean, b.angle.mean, tolerance);
+  EXPECT_NEAR(a.angle.max, b.angle.max, tolerance * b.angle.max);
+  EXPECT_EQ(a.measured_faces, b.measured_faces);
+}
+
+long long sum(const std::vector<long long>& counts) {
+  return std::accumulate(counts.begin(), counts.end(), 0LL);
+}
+
+TEST(Distortion, IdentityOfAFineSphereHasNone) {
+  const Mesh sphere = test::icosphere(4);
+  const Distortion distortion = measure_distortion(sphere, onto(sphere.V, sphere.F));
+  EXPECT_EQ(distortion.measured_faces, test::face_count(sphere));
+  EXPECT_NEAR(distortion.area.mean, 1, 1e-3);
+  EXPECT_NEAR(distortion.area.max, 1, 3e-3);
+  EXPECT_NEAR(distortion.area.median, 1, 1e-3);
+  EXPECT_NEAR(distortion.angle.mean, 1, 3e-3);
+  EXPECT_NEAR(distortion.angle.max, 1, 3e-3);
+}
+
+// The finer the mesh, the flatter its triangles.
+TEST(Distortion, IdentityOfASphereConverges) {
+  double before = 1;
+  for (const int levels : {1, 2, 3, 4}) {
+    const Mesh sphere = test::octasphere(levels);
+    const Distortion distortion = measure_distortion(sphere, onto(sphere.V, sphere.F));
+    EXPECT_LT(distortion.angle.max - 1, 0.6 * before) << levels;
+    before = distortion.angle.max - 1;
+  }
+}
+
+TEST(Distortion, SourceThatIsTheEmbeddedTileItselfHasNone) {
+  for (const char* signature : {"532", "*532", "12,12"}) {
+    const test::SampleEmbedding& sample = test::sample_embedding(signature);
+    // Cut open: the tile's vertices are a mesh of their own.
+    const Mesh tile = {sample.embedding().positions, sample.embedding().faces};
+    const Distortion distortion = measure_distortion(tile, sample.embedding());
+    EXPECT_EQ(distortion.measured_faces, test::face_count(tile)) << signature;
+    EXPECT_NEAR(distortion.area.median, 1, 0.03) << signature;
+    EXPECT_NEAR(distortion.angle.mean, 1, 0.05) << signature;
+    EXPECT_GE(distortion.area.mean, 1);
+    EXPECT_GE(distortion.angle.mean, 1);
+  }
+}
+
+TEST(Distortion, SimilarFlatSourceHasNone) {
+  for (const double scale : {1e-6, 1.0, 1e6}) {
+    const Distortion distortion = FlatDisk(scale, scale).distortion();
+    EXPECT_NEAR(distortion.area.mean, 1, 1e-7);
+    EXPECT_NEAR(distortion.area.std, 0, 1e-7);
+    EXPECT_NEAR(distortion.area.max, 1, 1e-7);
+    EXPECT_NEAR(distortion.angle.mean, 1, 1e-7);
+    EXPECT_NEAR(distortion.angle.max, 1, 1e-7);
+  }
+}
+
+TEST(Distortion, StretchOfTheSourceIsTheRatioOfSingularValues) {
+  for (const double stretch : {0.1, 0.5, 2.0, 3.0, 100.0}) {
+    const double ratio = std::max(stretch, 1 / stretch);
+    for (const Distortion& distortion : {FlatDisk(stretch, 1).distortion(), FlatDisk(1, stretch).distortion(),
+                                         FlatDisk(7, 7 * stretch).distortion()}) {
+      EXPECT_NEAR(distortion.angle.mean, ratio, 1e-6 * ratio);
+      EXPECT_NEAR(distortion.angle.max, ratio, 1e-6 * ratio);
+      EXPECT_NEAR(distortion.area.max, 1, 1e-6);  // of all triangles alike
+    }
+  }
+}
+
+TEST(Distortion, ShearOfTheSourceIsTheRatioOfSingularValues) {
+  FlatDisk disk(1, 1);
+  disk.source.V.col(0) += 1.5 * disk.source.V.col(1);
+  Eigen::Matrix2d shear;
+  shear << 1, 1.5, 0, 1;
+  const Eigen::Vector2d sigma = shear.jacobiSvd().singularValues();
+  const Distortion distortion = disk.distortion();
+  EXPECT_NEAR(distortion.angle.mean, sigma[0] / sigma[1], 1e-6);
+  EXPECT_NEAR(distortion.angle.max, sigma[0] / sigma[1], 1e-6);
+}
+
+TEST(Distortion, MovingTheSourceRigidlyAndScalingItChangesNothing) {
+  for (const char* signature : {"532", "*22"}) {
+    const test::SampleEmbedding& sample = test::sample_embedding(signature);
+    const Distortion before = measure_distortion(sample.mesh, sample.embedding());
+    Mesh moved = sample.mesh;
+    moved.V = 37 * moved.V * hand_made::rotation({1, 2, 3}, 0.4);
+    moved.V.rowwise() += Eigen::RowVector3d(5, -2, 8);
+    expect_same(measure_distortion(moved, sample.embedding()), before, 1e-10);
+    moved.V = moved.V * hand_made::reflection({1, 0, 2});  // the inside of a surface measures as its outside
+    expect_same(measure_distortion(moved, sample.embedding()), before, 1e-10);
+  }
+}
+
+TEST(Distortion, RotatingTheSphereChangesNothing) {
+  const test::SampleEmbedding& sample = test::sample_embedding("33");
+  Embedding turned = sample.embedding();
+  turned.positions = turned.positions * hand_made::rotation({1, -1, 3}, 2);
+  expect_same(measure_distortion(sample.mesh, turned), sample.result.distortion, 1e-10);
+}
+
+// Two triangles whose shares of the sources' area are 1/4 and 3/4, and of the tile's 1/2 each.
+TEST(Distortion, AreaDistortionIsTheRatioOfSharesOrItsInverse) {
+  const Mesh source = test::mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-3, 0, 0}}, {{0, 1, 2}, {0, 2, 3}});
+  const Embedding embedding = onto(test::mesh({{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}}, {}).V, source.F);
+  const Distortion::Area area = measure_distortion(source, embedding).area;
+  EXPECT_NEAR(area.max, 2, 1e-12);
+  EXPECT_NEAR(area.mean, (2 + 1.5) / 2, 1e-12);
+  EXPECT_NEAR(area.median, (2 + 1.5) / 2, 1e-12);
+  EXPECT_NEAR(area.std, 0.25, 1e-12);
+}
+
+TEST(Distortion, MedianOfAnOddNumberIsTheMiddleOne) {
+  // Octants of equal area from triangles of the areas 1/2, 1, 3/2: the ratios 2, 1, 2/3.
+  const Mesh source = test::mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-2, 0, 0}, {0, -1.5, 0}},
+                                 {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}});
+  const Embedding embedding =
+      onto(test::mesh({{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}}, {}).V, source.F);
+  const Distortion distortion = measure_distortion(source, embedding);
+  EXPECT_EQ(distortion.measured_faces, 3);
+  EXPECT_NEAR(distortion.area.median, 1.5, 1e-12);
+  EXPECT_NEAR(distortion.area.max, 2, 1e-12);
+  EXPECT_NEAR(distortion.area.mean, 1.5, 1e-12);
+}
+
+TEST(Distortion, FacesWithoutAreaAreLeftOut) {
+  Mesh source = test::mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-3, 0, 0}, {-4, 0, 0}},
+                           {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}});
+  Embedding embedding =
+      onto(test::mesh({{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}}, {}).V, source.F);
+  Distortion distortion = measure_distortion(source, embedding);  // the source's last face is a line
+  EXPECT_EQ(distortion.measured_faces, 2);
+  EXPECT_EQ(sum(distortion.histogram.counts), 2);
+  EXPECT_TRUE(std::isfinite(distortion.area.max));
+  EXPECT_TRUE(std::isfinite(distortion.angle.max));
+
+  source.V.row(4) << -4, -3, 0;
+  embedding.positions.row(4) = embedding.positions.row(0);  // now the image has no area
+  distortion = measure_distortion(source, embedding);
+  EXPECT_EQ(distortion.measured_faces, 2);
+  EXPECT_TRUE(std::isfinite(distortion.area.max));
+
+  embedding.positions.row(4) << 0, 1, 0;  // and now it is turned over
+  EXPECT_EQ(measure_distortion(source, embedding).measured_faces, 2);
+}
+
+TEST(Distortion, NothingToMeasureIsNoError) {
+  const Distortion distortion = measure_distortion(Mesh(), Embedding());
+  EXPECT_EQ(distortion.measured_faces, 0);
+  EXPECT_EQ(sum(distortion.histogram.counts), 0);
+  EXPECT_EQ(distortion.area.mean, 0);
+  EXPECT_EQ(distortion.angle.mean, 0);
+  const Mesh flat = {Points::Zero(3, 3), test::mesh({}, {{0, 1, 2}}).F};
+  EXPECT_EQ(measure_distortion(flat, onto(Points::Identity(3, 3), flat.F)).measured_faces, 0);
+}
+
+TEST(Distortion, HistogramCountsEveryMeasuredFaceOnce) {
+  for (const char* signature : {"532", "2,2,12", "*12,12"}) {
+    const Distortion& distortion = test::sample_embedding(signature).result.distortion;
+    const Distortion::Histogram& histogram = distortion.histogram;
+    EXPECT_EQ(histogram.edges.size(), histogram.counts.size() + 1);
+    EXPECT_TRUE(std::is_sorted(histogram.edges.begin(), histogram.edges.end()));
+    EXPECT_EQ(sum(histogram.counts), distortion.measured_faces);
+    for (const long long count : histogram.counts) EXPECT_GE(count, 0);
+  }
+}
+
+TEST(Distortion, HistogramHoldsTheLogarithmOfTheAreaRatio) {
+  const Mesh source = test::mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-3, 0, 0}}, {{0, 1, 2}, {0, 2, 3}});
+  const Embedding embedding = onto(test::mesh({{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}}, {}).V, source.F);
+  const Distortion::Histogram histogram = measure_distortion(source, embedding).histogram;
+  for (const double value : {std::log2(2.0) + 1e-9, std::log2(2.0 / 3)}) {
+    const auto above = std::upper_bound(histogram.edges.begin(), histogram.edges.end(), value);
+    const auto bin = above - histogram.edges.begin() - 1;
+    EXPECT_EQ(histogram.counts[bin] + histogram.counts[bin - 1], 1) << value;
+  }
+}
+
+// Ratios beyond the last bounds fall into the first and the last bin.
+TEST(Distortion, HistogramIsOpenAtBothEnds) {
+  const double tiny = 1e-9;
+  const Mesh source = test::mesh({{0, 0, 0}, {tiny, 0, 0}, {0, tiny, 0}, {-1, 0, 0}, {0, -1, 0}},
+                                 {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}});
+  const Embedding embedding =
+      onto(test::mesh({{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}}, {}).V, source.F);
+  const Distortion distortion = measure_distortion(source, embedding);
+  EXPECT_EQ(distortion.measured_faces, 3);
+  EXPECT_EQ(distortion.histogram.counts.back(), 2);
+  EXPECT_EQ(sum(distortion.histogram.counts), 3);
+}
+
+TEST(Distortion, IsNeverBelowOne) {
+  for (const std::string& signature : test::sample_signatures()) {
+    const Distortion& distortion = test::sample_embedding(signature).result.distortion;
+    EXPECT_GE(distortion.area.mean, 1);
+    EXPECT_GE(distortion.area.median, 1);
+    EXPECT_GE(distortion.area.max, distortion.area.mean);
+    EXPECT_GE(distortion.area.max, distortion.area.median);
+    EXPECT_GE(distortion.angle.mean, 1);
+    EXPECT_GE(distortion.angle.max, distortion.angle.mean);
+    EXPECT_GE(distortion.area.std, 0);
+  }
+}
+
+}  // namespace
+}  // namespace orbitutte

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/mesh/paths.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "orbitutte/mesh/cut.h"
+#include "random_spheres.h"
+
+namespace orbitutte {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+struct Graph {
+  std::vector<std::array<int, 2>> edges;
+  EdgeGraph graph;
+
+  int size() const { return graph.vertex_count(); }
+
+  /// Of the edge between two vertices; infinite where there is none.
+  double length(int v, int w) const {
+    const auto at = std::find(edges.begin(), edges.end(), std::array<int, 2>{std::min(v, w), std::max(v, w)});
+    return at == edges.end() ? infinity : graph.length[at - edges.begin()];
+  }
+  double length(const Path& path) const {
+    double sum = 0;
+    for (std::size_t k = 1; k < path.size(); ++k) sum += length(path[k - 1], path[k]);
+    return sum;
+  }
+};
+
+/// Up to `largest` vertices, each pair joined with the given odds out of 4. The lengths are small whole numbers, so
+/// that sums are exact and ties frequent.
+Graph random_graph(int smallest, int largest, int odds) {
+  Graph result;
+  const int n = *rc::gen::inRange(smallest, largest + 1);
+  for (int i = 0; i < n; ++i) {
+    for (int j = i + 1; j < n; ++j) {
+      if (*rc::gen::inRange(0, 4) >= odds) continue;
+      result.edges.push_back({i, j});
+      result.graph.length.push_back(*rc::gen::inRange(0, 6));
+    }
+  }
+  result.graph.neighbors = neighbors(result.edges, n);
+  return result;
+}
+
+/// Floyd and Warshall.
+std::vector<std::vector<double>> all_distances(const Graph& graph) {
+  const int n = graph.size();
+  std::vector<std::vector<double>> d(n, std::vector<double>(n));
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) d[i][j] = i == j ? 0 : graph.length(i, j);
+  for (int k = 0; k < n; ++k)
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) d[i][j] = std::min(d[i][j], d[i][k] + d[k][j]);
+  return d;
+}
+
+/// All paths without repeated vertices that begin like `path`, end at `to` and avoid `avoided`.
+void extend(const Graph& graph, int to, const std::set<int>& avoided, Path& path, std::vector<Path>& all) {
+  if (path.back() == to) {
+    all.push_back(path);
+    return;
+  }
+  for (int v = 0; v < graph.size(); ++v) {
+    if (avoided.count(v) || std::count(path.begin(), path.end(), v) || graph.length(path.back(), v) == infinity)
+      continue;
+    path.push_back(v);
+    extend(graph, to, avoided, path, all);
+    path.pop_back();
+  }
+}
+
+std::vector<Path> all_paths(const Graph& graph, int from, int to, const std::set<int>& avoided) {
+  std::vector<Path> all;
+  Path path = {from};
+  extend(graph, to, avoided, path, all);
+  return all;
+}
+
+/// The least total length of two paths that share their first vertex only; infinite where there are none.
+double least_disjoint_length(const Graph& graph, int from, const std::array<int, 2>& to) {
+  double least = infinity;
+  for (const Path& first : all_paths(graph, from, to[0], {to[1]})) {
+    const std::set<int> taken(first.begin() + 1, first.end());
+    for (const Path& second : all_paths(graph, from, to[1], taken))
+      least = std::min(least, graph.length(first) + graph.length(second));
+  }
+  return least;
+}
+
+/// Goes from one vertex to the other along edges, and meets no vertex twice.
+bool is_path(const Graph& graph, const Path& path, int from, int to) {
+  return !path.empty() && path.front() == from && path.back() == to && graph.length(path) < infinity &&
+         std::set<int>(path.begin(), path.end()).size() == path.size();
+}
+
+bool share_only_the_first(const std::array<Path, 2>& paths) {
+  const std::set<int> first(paths[0].begin() + 1, paths[0].end());
+  return std::none_of(paths[1].begin() + 1, paths[1].end(), [&](int v) { return first.count(v) > 0; });
+}
+
+Graph graph_of(const Mesh& mesh) {
+  const Connectivity connectivity = connect(mesh.F, test::vertex_count(mesh));
+  return {connectivity.edges, edge_length_graph(mesh, connectivity)};
+}
+
+/// The first of the vertices from which no two disjoint paths go to two others, or nothing.
+std::optional<int> without_disjoint_paths(const Mesh& mesh) {
+  const Graph graph = graph_of(mesh);
+  for (int from = 0; from < graph.size(); ++from) {
+    for (int a = 0; a < graph.size(); ++a) {
+      for (int b = 0; b < a; ++b) {
+        if (a == from || b == from) continue;
+        const std::array<Path, 2> paths = disjoint_paths(graph.graph, from, {a, b});
+        if (!is_path(graph, paths[0], from, a) || !is_path(graph, paths[1], from, b) ||
+            !share_only_the_first(paths))
+          return from;
+      }
+    }
+  }
+  return {};
+}
+
+// ------------------------------------------------------------------------------------------ shortest paths
+
+RC_GTEST_PROP(Paths, DistancesAreThoseOfFloydAndWarshall, ()) {
+  const Graph graph = random_graph(1, 9, *rc::gen::inRange(1, 4));
+  const auto expected = all_distances(graph);
+  for (int v = 0; v < graph.size(); ++v) RC_ASSERT(distances(graph.graph, {v}) == expected[v]);
+}
+
+RC_GTEST_PROP(Paths, DistancesFromManySourcesAreThoseFromTheNearest, ()) {
+  const Graph graph = random_graph(2, 9, 2);
+  const auto expected = all_distances(graph);
+  const int a = *rc::gen::inRange(0, graph.size()), b = *rc::gen::inRange(0, graph.size());
+  const std::vector<double> d = distances(graph.graph, {a, b});
+  for (int v = 0; v < graph.size(); ++v) RC_ASSERT(d[v] == std::min(expected[a][v], expected[b][v]));
+}
+
+RC_GTEST_PROP(Paths, ShortestPathsHaveTheLengthOfTheDistance, ()) {
+  const Graph graph = random_graph(2, 9, *rc::gen::inRange(1, 4));
+  const auto expected = all_distances(graph);
+  for (int a = 0; a < graph.size(); ++a) {
+    for (int b = 0; b < graph.size(); ++b) {
+      const Path path = shortest_path(graph.graph, a, b);
+      RC_ASSERT(path.empty() == (expected[a][b] == infinity));
+      if (path.empty()) continue;
+      RC_ASSERT(is_path(graph, path, a, b));
+      RC_ASSERT(graph.length(path) == expected[a][b]);
+    }
+  }
+}
+
+TEST(Paths, TheShortestPathToItselfIsTheVertex) {
+  EXPECT_EQ(shortest_path(graph_of(test::octahedron()).graph, 3, 3), Path{3});
+}
+
+// ------------------------------------------------------------------------------------------ disjoint paths
+
+RC_GTEST_PROP(Paths, DisjointPathsAreTheShortestOfAllPairs, ()) {
+  const Graph graph = random_graph(3, 7, *rc::gen::inRange(1, 5));
+  const std::array<Path, 2> paths = disjoint_paths(graph.graph, 0, {1, 2});
+  const double expected = least_disjoint_length(graph, 0, {1, 2});
+  RC_ASSERT(paths[0].empty() == (expected == infinity));
+  RC_ASSERT(paths[1].empty() == paths[0].empty());
+  if (paths[0].empty()) return;
+  RC_ASSERT(is_path(graph, paths[0], 0, 1));
+  RC_ASSERT(is_path(graph, paths[1], 0, 2));
+  RC_ASSERT(share_only_the_first(paths));
+  RC_ASSERT(graph.length(paths[0]) + graph.length(paths[1]) == expected);
+}
+
+TEST(Paths, AFirstPathThatBlocksTheSecondGivesWay) {
+  // The short way from 0 to 1 runs over 3 and 4, and 2 hangs on 4 alone: 0-3-1 and 0-5-4-2 remain.
+  Graph graph;
+  graph.edges = {{0, 3}, {0, 5}, {1, 3}, {1, 4}, {2, 4}, {3, 4}, {4, 5}};
+  graph.graph = {neighbors(graph.edges, 6), {1, 4, 9, 1, 5, 1, 4}};
+  const std::array<Path, 2> paths = disjoint_paths(graph.graph, 0, {1, 2});
+  EXPECT_EQ(paths[0], (Path{0, 3, 1}));
+  EXPECT_EQ(paths[1], (Path{0, 5, 4, 2}));
+}
+
+TEST(Paths, DisjointPathsExistBetweenAllVerticesOfSmallSolids) {
+  for (const Mesh& mesh : {test::tetrahedron(), test::octahedron(), test::icosahedron()})
+    EXPECT_EQ(without_disjoint_paths(mesh), std::nullopt);
+}
+
+TEST(Paths, DisjointPathsExistWhereAllFacesAreSplit) {
+  const Mesh once = test::with_all_faces_split(test::tetrahedron());
+  EXPECT_EQ(without_disjoint_paths(once), std::nullopt);
+  EXPECT_EQ(without_disjoint_paths(test::with_all_faces_split(once)), std::nullopt);
+  EXPECT_EQ(without_disjoint_paths(test::with_all_faces_split(test::octahedron())), std::nullopt);
+}
+
+RC_GTEST_PROP(Paths, DisjointPathsExistOnEveryTriangulatedSphere, (std::uint32_t seed)) {
+  RC_ASSERT(!without_disjoint_paths(test::random_sphere(seed, static_cast<int>(seed % 9))).has_value());
+}
+
+TEST(Paths, DisjointPathsDoNotExistThroughOneVertex) {
+  // Two fans that share vertex 0 only.
+  const std::vector<std::array<int, 2>> edges = {{0, 1}, {0, 2}, {0, 3}, {0, 4}, {1, 2}, {3, 4}};
+  const EdgeGraph graph = {neighbors(edges, 5), std::vector<double>(edges.size(), 1.0)};
+  const std::array<Path, 2> paths = disjoint_paths(graph, 1, {3, 4});
+  EXPECT_TRUE(paths[0].empty());
+  EXPECT_TRUE(paths[1].empty());
+}
+
+TEST(Paths, DisjointPathsAreTheSameEveryTime) {
+  const Graph graph = graph_of(test::icosphere(2));
+  EXPECT_EQ(disjoint_paths(graph.graph, 0, {5, 11}), disjoint_paths(graph.graph, 0, {5, 11}));
+}
+
+}  // namespace
+}  // namespace orbitutte

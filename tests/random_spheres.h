@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// Triangulated spheres as irregular as can be: small solids, their faces split and their edges flipped.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "orbitutte/mesh/connectivity.h"
+#include "test_meshes.h"
+
+namespace orbitutte::test {
+
+/// Face f in three, by a new vertex of degree three at its centroid: the last one.
+inline Mesh with_face_split(Mesh mesh, int f) {
+  const int a = mesh.F(f, 0), b = mesh.F(f, 1), c = mesh.F(f, 2), v = vertex_count(mesh);
+  mesh.V.conservativeResize(v + 1, 3);
+  mesh.V.row(v) = (mesh.V.row(a) + mesh.V.row(b) + mesh.V.row(c)) / 3;
+  mesh.F.row(f) << a, b, v;
+  return with_face(with_face(mesh, b, c, v), c, a, v);
+}
+
+inline Mesh with_all_faces_split(Mesh mesh) {
+  const int faces = face_count(mesh);
+  for (int f = 0; f < faces; ++f) mesh = with_face_split(mesh, f);
+  return mesh;
+}
+
+/// The edge of half-edge h flipped, or the mesh as it was where the flipped edge exists already.
+inline Mesh with_edge_flipped(Mesh mesh, int h) {
+  const Connectivity connectivity = connect(mesh.F, vertex_count(mesh));
+  const int o = connectivity.opposite[h];
+  const int a = origin(mesh.F, h), b = target(mesh.F, h), c = origin(mesh.F, previous_halfedge(h)),
+            d = origin(mesh.F, previous_halfedge(o));
+  const std::array<int, 2> flipped = {std::min(c, d), std::max(c, d)};
+  if (std::binary_search(connectivity.edges.begin(), connectivity.edges.end(), flipped)) return mesh;
+  mesh.F.row(h / 3) << a, d, c;
+  mesh.F.row(o / 3) << d, b, c;
+  return mesh;
+}
+
+/// A tetrahedron, octahedron or icosahedron with some faces split and some edges flipped, as the seed alone decides.
+inline Mesh random_sphere(std::uint32_t seed, int changes) {
+  std::mt19937 random(seed);
+  const std::array<Mesh, 3> solids = {tetrahedron(), octahedron(), icosahedron()};
+  Mesh mesh = solids[random() % 3];
+  for (int k = 0; k < changes; ++k) {
+    const bool split = random() % 2 == 0;
+    mesh = split ? with_face_split(mesh, static_cast<int>(random() % mesh.F.rows()))
+                 : with_edge_flipped(mesh, static_cast<int>(random() % mesh.F.size()));
+  }
+  return mesh;
+}
+
+}  // namespace orbitutte::test

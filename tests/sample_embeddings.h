@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// Small meshes with marked vertices for every family, and their embeddings.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "orbitutte/embed.h"
+#include "orbitutte/verify/spherical_triangle.h"
+#include "test_meshes.h"
+
+namespace orbitutte::test {
+
+/// All families that are embedded, with the free order N in {2, 3, 5, 12}.
+inline std::vector<std::string> sample_signatures() {
+  return {"532",  "432",  "332",  "222",  "223",  "225",  "2,2,12",  "22",  "33",  "55",  "12,12",
+          "*532", "*432", "*332", "*222", "*223", "*225", "*2,2,12", "*22", "*33", "*55", "*12,12"};
+}
+
+/// An irregular sphere of 320 faces, or a bent disk of 384, whichever the orbifold needs.
+inline Mesh sample_mesh_for(const Orbifold& orbifold) {
+  if (orbifold.topology == Topology::sphere) return perturbed(icosphere(2), 0.03, 7);
+  Mesh mesh = round_disk(8);
+  mesh.V.col(2) = 0.4 * mesh.V.col(0).array().square() - 0.2 * mesh.V.col(1).array();
+  return perturbed(mesh, 0.015, 7);
+}
+
+struct SampleEmbedding {
+  Mesh mesh;
+  std::vector<int> marks;
+  EmbedResult result;
+
+  const Embedding& embedding() const { return result.embedding; }
+};
+
+inline SampleEmbedding make_sample(const std::string& signature, const EmbedOptions& options) {
+  const Orbifold orbifold = parse_orbifold(signature);
+  const Mesh mesh = sample_mesh_for(orbifold);
+  const std::vector<int> marks = choose_marked_vertices(mesh, orbifold);
+  return {mesh, marks, embed(mesh, orbifold, marks, options)};
+}
+
+/// With default options, computed once.
+inline const SampleEmbedding& sample_embedding(const std::string& signature) {
+  static std::map<std::string, SampleEmbedding> samples;
+  const auto at = samples.find(signature);
+  if (at != samples.end()) return at->second;
+  EmbedOptions options;
+  options.threads = 1;
+  return samples.emplace(signature, make_sample(signature, options)).first->second;
+}
+
+/// The arc length of every undirected edge of the uncut mesh, in the order of its Connectivity: what does not
+/// depend on the cut, nor on a rotation of the sphere.
+inline Eigen::VectorXd edge_lengths(const Mesh& mesh, const Embedding& embedding) {
+  const Connectivity connectivity = connect(mesh.F, vertex_count(mesh));
+  Eigen::VectorXd lengths(static_cast<Eigen::Index>(connectivity.edges.size()));
+  for (int h = 0; h < static_cast<int>(embedding.faces.size()); ++h)
+    lengths[connectivity.edge_of[h]] = arc_length(embedding.positions.row(origin(embedding.faces, h)),
+                                                  embedding.positions.row(target(embedding.faces, h)));
+  return lengths;
+}
+
+}  // namespace orbitutte::test

@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/orbifold/tile.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "orbitutte/orbifold/symmetry_group.h"
+#include "spherical_families.h"
+
+namespace orbitutte {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double rounding = 1e-12;
+
+struct Case {
+  Orbifold orbifold;
+  std::vector<int> arrangement;
+  Tile tile;
+};
+
+/// The tiles of all families, of all arrangements of the orders, and of all orders in which a boundary may meet
+/// the marks.
+const std::vector<Case>& cases() {
+  static const std::vector<Case> all = [] {
+    std::vector<Case> result;
+    for (const test::SphericalOrbifold& spherical : test::arranged_orbifolds()) {
+      const Orbifold orbifold = parse_orbifold(test::symbol(spherical));
+      std::vector<int> arrangement(orbifold.marks.size());
+      std::iota(arrangement.begin(), arrangement.end(), 0);
+      do {
+        result.push_back({orbifold, arrangement, basic_tile(orbifold, arrangement)});
+      } while (std::next_permutation(arrangement.begin(), arrangement.end()));
+    }
+    return result;
+  }();
+  return all;
+}
+
+std::string trace(const Case& c) {
+  std::string text = c.orbifold.signature + ", arrangement";
+  for (const int mark : c.arrangement) text += " " + std::to_string(mark);
+  return text;
+}
+
+template <typename Check>
+void for_every_tile(const Check& check) {
+  for (const Case& c : cases()) {
+    SCOPED_TRACE(trace(c));
+    check(c);
+    if (testing::Test::HasFailure()) return;  // the first is enough
+  }
+}
+
+int size(const Tile& tile) { return static_cast<int>(tile.sides.size()); }
+
+/// The side before side k around the tile.
+const TileSide& before(const Tile& tile, int k) { return tile.sides[(k + size(tile) - 1) % size(tile)]; }
+
+/// The unit tangent with which a side arrives at its end.
+Vector3 arrival(const TileSide& side) {
+  return -std::sin(side.length) * side.start + std::cos(side.length) * side.direction;
+}
+
+/// From the side that leaves the corner counterclockwise to the side that arrives, through the tile, in (0, 2 pi).
+double interior_angle(const Tile& tile, int k) {
+  const Vector3 leaving = tile.sides[k].direction, back = -arrival(before(tile, k));
+  const double angle = std::atan2(tile.sides[k].start.dot(leaving.cross(back)), leaving.dot(back));
+  return angle > 0 ? angle : angle + 2 * pi;
+}
+
+/// Sums over the sides of a fan around a point inside, in polar coordinates about it: the area, and the integral of
+/// the position.
+struct Integral {
+  double area = 0;
+  Vector3 position = Vector3::Zero();
+};
+
+Integral integrate(const Tile& tile, int steps) {
+  const TileSide& first = tile.sides.front();
+  const Vector3 apex = (first.point(first.length / 2) + 0.005 * first.pole()).normalized();
+  const Vector3 e1 = apex.unitOrthogonal(), e2 = apex.cross(e1);
+  const auto angle = [&](const Vector3& p) { return std::atan2(p.dot(e2), p.dot(e1)); };
+  Integral result;
+  for (const TileSide& side : tile.sides) {
+    for (int i = 0; i < steps; ++i) {
+      const Vector3 here = side.point(side.length * i / steps), next = side.point(side.length * (i + 1) / steps);
+      const Vector3 middle = side.point(side.length * (i + 0.5) / steps);
+      const double sector = std::remainder(angle(next) - angle(here), 2 * pi);
+      const Vector3 along = (middle - middle.dot(apex) * apex).normalized();
+      const double R = std::atan2(middle.cross(apex).norm(), middle.dot(apex));
+      result.area += sector * (1 - std::cos(R));
+      result.position += sector * (0.5 * std::pow(std::sin(R), 2) * apex + (R / 2 - std::sin(2 * R) / 4) * along);
+    }
+  }
+  return result;
+}
+
+// --------------------------------------------------------------------------------------------- the polygon
+
+TEST(Tile, SidesAreUnitSpeedGreatArcs) {
+  for_every_tile([](const Case& c) {
+    for (const TileSide& side : c.tile.sides) {
+      EXPECT_NEAR(side.start.norm(), 1, rounding);
+      EXPECT_NEAR(side.direction.norm(), 1, rounding);
+      EXPECT_NEAR(side.start.dot(side.direction), 0, rounding);
+      EXPECT_GT(side.length, 0);
+      EXPECT_LE(side.length, pi);
+      EXPECT_NEAR(side.point(side.length / 3).norm(), 1, rounding);
+      EXPECT_NEAR((side.point(0) - side.start).norm(), 0, rounding);
+      EXPECT_NEAR(side.pole().dot(side.point(side.length / 3)), 0, rounding);
+    }
+  });
+}
+
+TEST(Tile, EverySideBeginsWhereTheOneBeforeEnds) {
+  for_every_tile([](const Case& c) {
+    for (int k = 0; k < size(c.tile); ++k) {
+      const TileSide& previous = before(c.tile, k);
+      EXPECT_NEAR((previous.point(previous.length) - c.tile.sides[k].start).norm(), 0, rounding);
+    }
+  });
+}
+
+TEST(Tile, LiesOnTheLeftOfEverySide) {
+  for_every_tile([](const Case& c) {
+    const Vector3 centroid = c.tile.centroid();
+    for (int k = 0; k < size(c.tile); ++k) {
+      const TileSide& side = c.tile.sides[k];
+      EXPECT_LE(interior_angle(c.tile, k), pi + rounding) << "the tile is not convex";
+      EXPECT_GT(side.pole().dot(centroid), 0);
+      for (const TileSide& other : c.tile.sides)
+        EXPECT_GE(side.pole().dot(other.point(0.4 * other.length)), -rounding);
+    }
+  });
+}
+
+TEST(Tile, CornersMeetTheMarksInTheOrderOfTheArrangement) {
+  for_every_tile([](const Case& c) {
+    std::vector<int> met;
+    for (const TileSide& side : c.tile.sides)
+      if (std::find(met.begin(), met.end(), side.mark) == met.end()) met.push_back(side.mark);
+    EXPECT_EQ(met, c.arrangement);
+  });
+}
+
+TEST(Tile, AnglesAroundAMarkAddUpToItsOrdersShare) {
+  for_every_tile([](const Case& c) {
+    std::vector<double> angle(c.orbifold.marks.size(), 0.0);
+    for (int k = 0; k < size(c.tile); ++k) angle[c.tile.sides[k].mark] += interior_angle(c.tile, k);
+    for (std::size_t m = 0; m < angle.size(); ++m) {
+      const Mark& mark = c.orbifold.marks[m];
+      EXPECT_NEAR(angle[m], (mark.kind == ConeKind::rotation ? 2 : 1) * pi / mark.order, rounding) << "mark " << m;
+    }
+  });
+}
+
+TEST(Tile, CopiesOfAMarkShareItsAngleEqually) {
+  for_every_tile([](const Case& c) {
+    for (int k = 0; k < size(c.tile); ++k) {
+      for (int l = 0; l < k; ++l) {
+        if (c.tile.sides[k].mark == c.tile.sides[l].mark)
+          EXPECT_NEAR(interior_angle(c.tile, k), interior_angle(c.tile, l), rounding);
+      }
+    }
+  });
+}
+
+TEST(Tile, AreaIsTheSpheresOverTheGroupOrder) {
+  for_every_tile([](const Case& c) {
+    double excess = 2 * pi;  // Gauss-Bonnet: the area is 2 pi less the exterior angles
+    for (int k = 0; k < size(c.tile); ++k) excess -= pi - interior_angle(c.tile, k);
+    EXPECT_NEAR(excess, 4 * pi / c.orbifold.group_order, rounding);
+  });
+}
+
+TEST(Tile, CentroidIsTheDirectionOfTheIntegralOfThePosition) {
+  for_every_tile([](const Case& c) {
+    if (!std::is_sorted(c.arrangement.begin(), c.arrangement.end())) return;
+    const Integral integral = integrate(c.tile, 2000);
+    const double area = 4 * pi / c.orbifold.group_order;
+    EXPECT_NEAR(integral.area, area, 1e-3 * area);
+    EXPECT_NEAR((integral.position.normalized() - c.tile.centroid()).norm(), 0, 1e-4);
+    EXPECT_NEAR(c.tile.centroid().norm(), 1, rounding);
+  });
+}
+
+// ---------------------------------------------------------------------------------------------- the gluing
+
+TEST(Tile, TransformsCarryThePartnerSidePointByPoint) {
+  for_every_tile([](const Case& c) {
+    for (const TileSide& side : c.tile.sides) {
+      const TileSide& partner = c.tile.sides[side.partner];
+      EXPECT_NEAR(side.length, partner.length, rounding);
+      const bool mirror = &side == &partner;
+      for (int i = 0; i <= 8; ++i) {
+        const double s = side.length * i / 8;
+        const Vector3 image = side.transform * partner.point(mirror ? s : side.length - s);
+        EXPECT_NEAR((side.point(s) - image).norm(), 0, rounding);
+      }
+    }
+  });
+}
+
+TEST(Tile, GluedSidesJoinTheSameMarks) {
+  for_every_tile([](const Case& c) {
+    const auto end_mark = [&](int k) { return c.tile.sides[(k + 1) % size(c.tile)].mark; };
+    for (int k = 0; k < size(c.tile); ++k) {
+      const int partner = c.tile.sides[k].partner;
+      if (partner == k) continue;
+      EXPECT_EQ(c.tile.sides[k].mark, end_mark(partner));
+      EXPECT_EQ(end_mark(k), c.tile.sides[partner].mark);
+    }
+  });
+}
+
+TEST(Tile, PartnerOfThePartnerIsTheSideWithTheInverseTransform) {
+  for_every_tile([](const Case& c) {
+    for (int k = 0; k < size(c.tile); ++k) {
+      const TileSide& side = c.tile.sides[k];
+      ASSERT_GE(side.partner, 0);
+      ASSERT_LT(side.partner, size(c.tile));
+      const TileSide& partner = c.tile.sides[side.partner];
+      EXPECT_EQ(partner.partner, k);
+      EXPECT_NEAR((side.transform * partner.transform - Matrix3::Identity()).norm(), 0, rounding);
+    }
+  });
+}
+
+TEST(Tile, TransformsAreRotationsOnASphereAndMirrorsOnADisk) {
+  for_every_tile([](const Case& c) {
+    for (int k = 0; k < size(c.tile); ++k) {
+      const TileSide& side = c.tile.sides[k];
+      const bool mirror = c.orbifold.topology == Topology::disk;
+      EXPECT_EQ(side.partner == k, mirror);
+      EXPECT_NEAR((side.transform.transpose() * side.transform - Matrix3::Identity()).norm(), 0, rounding);
+      EXPECT_NEAR(side.transform.determinant(), mirror ? -1 : 1, rounding);
+      if (mirror) {
+        EXPECT_NEAR((side.transform * side.pole() + side.pole()).norm(), 0, rounding);
+      }
+    }
+  });
+}
+
+TEST(Tile, TransformsTakeTheTileOffItself) {
+  for_every_tile([](const Case& c) {
+    const Vector3 centroid = c.tile.centroid();
+    for (const TileSide& side : c.tile.sides) {
+      // The neighbour across a side lies on its other side.
+      EXPECT_LT(side.pole().dot(side.transform * centroid), 0);
+    }
+  });
+}
+
+TEST(Tile, TransformsGenerateTheGroup) {
+  for_every_tile([](const Case& c) {
+    if (!std::is_sorted(c.arrangement.begin(), c.arrangement.end())) return;
+    std::vector<Matrix3> generators;
+    for (const TileSide& side : c.tile.sides) generators.push_back(side.transform);
+    EXPECT_EQ(SymmetryGroup(generators, 2 * c.orbifold.group_order).order(), c.orbifold.group_order);
+  });
+}
+
+TEST(Tile, OnlyTwoConesOnASphereLeaveARotationFree) {
+  for_every_tile([](const Case& c) {
+    Vector3 axis;
+    const bool expected = c.orbifold.topology == Topology::sphere && c.orbifold.marks.size() == 2;
+    EXPECT_EQ(free_rotation_axis(c.tile, axis), expected);
+    if (!expected) return;
+    EXPECT_NEAR(axis.norm(), 1, rounding);
+    for (const TileSide& side : c.tile.sides) {
+      EXPECT_NEAR(std::abs(axis.dot(side.start)), 1, rounding);
+      EXPECT_NEAR((side.transform * axis - axis).norm(), 0, rounding);
+    }
+  });
+}
+
+TEST(Tile, LargestOrdersStillCloseUp) {
+  for (const std::string text : {"2,2,20000", "2,20000,2", "20000,20000", "*2,2,20000", "*20000,20000"}) {
+    SCOPED_TRACE(text);
+    const Orbifold orbifold = parse_orbifold(text);
+    std::vector<int> arrangement(orbifold.marks.size());
+    std::iota(arrangement.begin(), arrangement.end(), 0);
+    const Tile tile = basic_tile(orbifold, arrangement);
+    for (int k = 0; k < size(tile); ++k) {
+      const TileSide& side = tile.sides[k];
+      const TileSide& previous = before(tile, k);
+      const TileSide& partner = tile.sides[side.partner];
+      const double s = side.length / 3, t = side.partner == k ? s : side.length - s;
+      EXPECT_NEAR((previous.point(previous.length) - side.start).norm(), 0, 1e-10);
+      EXPECT_NEAR((side.point(s) - side.transform * partner.point(t)).norm(), 0, 1e-10);
+      EXPECT_GT(side.pole().dot(tile.centroid()), 0);
+    }
+  }
+}
+
+// ------------------------------------------------------------------------------------------------- refusals
+
+TEST(Tile, ArrangementsThatAreNoPermutationsAreRefused) {
+  const auto refusal = [](const std::string& signature, const std::vector<int>& arrangement) -> std::string {
+    try {
+      basic_tile(parse_orbifold(signature), arrangement);
+      return {};
+    } catch (const ArgumentError& error) {
+      return error.what();
+    }
+  };
+  const std::string no_permutation = "the arrangement of the marks is no permutation of them";
+  EXPECT_EQ(refusal("532", {0, 1, 1}), no_permutation);
+  EXPECT_EQ(refusal("532", {0, 1, 3}), no_permutation);
+  EXPECT_EQ(refusal("532", {0, -1, 1}), no_permutation);
+  EXPECT_EQ(refusal("22", {0, 1, 2}), no_permutation);
+  EXPECT_EQ(refusal("532", {0, 1}), "the arrangement leaves marks out");
+  EXPECT_EQ(refusal("532", {}), "the arrangement leaves marks out");
+}
+
+}  // namespace
+}  // namespace orbitutte
