@@ -6,6 +6,8 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <set>
 #include <utility>
 #include <vector>
@@ -40,7 +42,7 @@ std::vector<Example> examples() {
           {test::united(test::octahedron(), test::round_disk(2)), 3, false, true}};
 }
 
-Connectivity connect(const Mesh& mesh) { return connect(mesh.F, vertex_count(mesh)); }
+Connectivity connectivity_of(const Mesh& mesh) { return connect(mesh.F, vertex_count(mesh)); }
 
 int edge_count(const Connectivity& connectivity) { return static_cast<int>(connectivity.edges.size()); }
 
@@ -57,7 +59,7 @@ TEST(Connectivity, NextAndPreviousGoAroundTheFace) {
 
 TEST(Connectivity, OppositeOfTheOppositeIsTheHalfEdgeItself) {
   for (const Example& example : examples()) {
-    const Connectivity connectivity = connect(example.mesh);
+    const Connectivity connectivity = connectivity_of(example.mesh);
     const Faces& F = example.mesh.F;
     for (int h = 0; h < F.size(); ++h) {
       const int o = connectivity.opposite[h];
@@ -75,7 +77,7 @@ TEST(Connectivity, OppositeOfTheOppositeIsTheHalfEdgeItself) {
 
 TEST(Connectivity, OnlyBoundaryHalfEdgesHaveNoOpposite) {
   for (const Example& example : examples()) {
-    const Connectivity connectivity = connect(example.mesh);
+    const Connectivity connectivity = connectivity_of(example.mesh);
     std::vector<int> uses(connectivity.edges.size(), 0);
     for (const int e : connectivity.edge_of) ++uses[e];
     int boundary = 0;
@@ -90,14 +92,15 @@ TEST(Connectivity, OnlyBoundaryHalfEdgesHaveNoOpposite) {
 
 TEST(Connectivity, VerticesLessEdgesPlusFacesIsTheEulerCharacteristic) {
   for (const Example& example : examples()) {
-    EXPECT_EQ(vertex_count(example.mesh) - edge_count(connect(example.mesh)) + face_count(example.mesh),
-              example.euler_characteristic);
+    EXPECT_EQ(
+        vertex_count(example.mesh) - edge_count(connectivity_of(example.mesh)) + face_count(example.mesh),
+        example.euler_characteristic);
   }
 }
 
 TEST(Connectivity, EdgesAreThePairsThatFacesJoinInLexicographicOrder) {
   for (const Example& example : examples()) {
-    const Connectivity connectivity = connect(example.mesh);
+    const Connectivity connectivity = connectivity_of(example.mesh);
     std::set<std::array<int, 2>> expected;
     for (int h = 0; h < example.mesh.F.size(); ++h) {
       const auto [i, j] = std::minmax({origin(example.mesh.F, h), target(example.mesh.F, h)});
@@ -110,7 +113,7 @@ TEST(Connectivity, EdgesAreThePairsThatFacesJoinInLexicographicOrder) {
 
 TEST(Connectivity, NeighborsAreBothEndsOfEveryEdge) {
   for (const Example& example : examples()) {
-    const Connectivity connectivity = connect(example.mesh);
+    const Connectivity connectivity = connectivity_of(example.mesh);
     const int n = vertex_count(example.mesh);
     const Neighbors around = neighbors(connectivity.edges, n);
     ASSERT_EQ(static_cast<int>(around.start.size()), n + 1);
@@ -148,8 +151,8 @@ RC_GTEST_PROP(Connectivity, DoesNotDependOnTheNumbersOfVerticesAndFaces, (std::u
   const Mesh mesh = test::grid_disk(3, 3);
   const std::vector<int> number = test::permutation(vertex_count(mesh), seed);
   const std::vector<int> old_face = test::permutation(face_count(mesh), seed + 1);
-  const Connectivity before = connect(mesh);
-  const Connectivity after = connect(test::reordered(test::relabelled(mesh, number), old_face));
+  const Connectivity before = connectivity_of(mesh);
+  const Connectivity after = connectivity_of(test::reordered(test::relabelled(mesh, number), old_face));
   std::set<std::array<int, 2>> expected;
   for (const auto& [i, j] : before.edges)
     expected.insert({std::min(number[i], number[j]), std::max(number[i], number[j])});

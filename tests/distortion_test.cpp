@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
+#include <limits>
 #include <numeric>
 
 #include "hand_made.h"
@@ -188,6 +188,31 @@ TEST(Distortion, FacesWithoutAreaAreLeftOut) {
 
   embedding.positions.row(4) << 0, 1, 0;  // and now it is turned over
   EXPECT_EQ(measure_distortion(source, embedding).measured_faces, 2);
+}
+
+TEST(Distortion, MapsThatAreTurnedOverOrCollapsedAreMeasuredWithoutACrash) {
+  const test::SampleEmbedding& sample = test::sample_embedding("33");
+  Embedding embedding = sample.embedding();
+  embedding.positions = -embedding.positions;
+  EXPECT_EQ(measure_distortion(sample.mesh, embedding).measured_faces, 0);
+  embedding.positions.rowwise() = Eigen::RowVector3d(0, 0, 1);
+  EXPECT_EQ(measure_distortion(sample.mesh, embedding).measured_faces, 0);
+  embedding.positions.setConstant(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_EQ(measure_distortion(sample.mesh, embedding).measured_faces, 0);
+  embedding = sample.embedding();
+  embedding.faces.topRows(200).col(1).swap(embedding.faces.topRows(200).col(2));  // more than half of it
+  const Distortion distortion = measure_distortion(sample.mesh, embedding);
+  EXPECT_EQ(distortion.measured_faces, test::face_count(sample.mesh) - 200);
+  EXPECT_GE(distortion.area.mean, 1);
+}
+
+TEST(Distortion, HugeAndTinySourcesAreMeasuredAlike) {
+  const test::SampleEmbedding& sample = test::sample_embedding("532");
+  for (const double scale : {1e-200, 1e-100, 1e100, 1e200, 1e307}) {
+    Mesh mesh = sample.mesh;
+    mesh.V *= scale;
+    expect_same(measure_distortion(mesh, sample.embedding()), sample.result.distortion, 1e-9);
+  }
 }
 
 TEST(Distortion, NothingToMeasureIsNoError) {

@@ -6,6 +6,8 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <cstdlib>
 #include <limits>
 #include <set>
 #include <string>
@@ -19,7 +21,7 @@ namespace {
 
 using test::vertex_count;
 
-std::vector<int> extremities(const Mesh& mesh, int count) {
+std::vector<int> extremities_of(const Mesh& mesh, int count) {
   return extremities(mesh, connect(mesh.F, vertex_count(mesh)), count);
 }
 
@@ -61,7 +63,7 @@ double best_separation_of_three(const EdgeGraph& graph, const std::vector<int>& 
 TEST(Extremities, EachIsFarthestFromThoseBefore) {
   for (const Mesh& mesh : {test::icosphere(2), test::perturbed(test::octasphere(2), 0.05, 1)}) {
     const EdgeGraph graph = graph_of(mesh);
-    const std::vector<int> chosen = extremities(mesh, 6);
+    const std::vector<int> chosen = extremities_of(mesh, 6);
     for (std::size_t k = 1; k < chosen.size(); ++k) {
       const std::vector<double> d = distances(graph, {chosen.begin(), chosen.begin() + k});
       EXPECT_EQ(d[chosen[k]], *std::max_element(d.begin(), d.end()));
@@ -72,11 +74,12 @@ TEST(Extremities, EachIsFarthestFromThoseBefore) {
 TEST(Extremities, AreAtLeastHalfAsSeparatedAsAnyVertices) {
   for (const Mesh& mesh : {test::icosphere(1), test::perturbed(test::octasphere(1), 0.2, 2)}) {
     const EdgeGraph graph = graph_of(mesh);
-    EXPECT_GE(2 * separation(graph, extremities(mesh, 3)), best_separation_of_three(graph, all_vertices(mesh)));
+    EXPECT_GE(2 * separation(graph, extremities_of(mesh, 3)),
+              best_separation_of_three(graph, all_vertices(mesh)));
   }
   for (const Mesh& mesh : {test::grid_disk(7, 3), test::round_disk(4)}) {
     const EdgeGraph graph = graph_of(mesh);
-    EXPECT_GE(2 * separation(graph, extremities(mesh, 3)),
+    EXPECT_GE(2 * separation(graph, extremities_of(mesh, 3)),
               best_separation_of_three(graph, boundary_vertices(mesh)));
   }
 }
@@ -85,32 +88,32 @@ TEST(Extremities, OfADiskAreOnItsBoundary) {
   for (const Mesh& mesh : {test::grid_disk(6, 4), test::round_disk(5)}) {
     const std::vector<int> boundary = boundary_vertices(mesh);
     for (const int count : {1, 2, 3, 8}) {
-      for (const int v : extremities(mesh, count))
+      for (const int v : extremities_of(mesh, count))
         EXPECT_TRUE(std::binary_search(boundary.begin(), boundary.end(), v)) << v;
     }
   }
 }
 
 TEST(Extremities, OfALongStripAreAtItsEnds) {
-  const std::vector<int> chosen = extremities(test::grid_disk(20, 1), 2);
+  const std::vector<int> chosen = extremities_of(test::grid_disk(20, 1), 2);
   EXPECT_EQ(std::abs(chosen[0] % 21 - chosen[1] % 21), 20);
 }
 
 TEST(Extremities, FewerAreTheFirstOfMore) {
   const Mesh mesh = test::icosphere(2);
-  const std::vector<int> many = extremities(mesh, 10);
+  const std::vector<int> many = extremities_of(mesh, 10);
   for (int count = 1; count < 10; ++count)
-    EXPECT_EQ(extremities(mesh, count), std::vector<int>(many.begin(), many.begin() + count));
+    EXPECT_EQ(extremities_of(mesh, count), std::vector<int>(many.begin(), many.begin() + count));
 }
 
 TEST(Extremities, AreTheSameEveryTime) {
   const Mesh mesh = test::round_disk(6);
-  EXPECT_EQ(extremities(mesh, 5), extremities(mesh, 5));
+  EXPECT_EQ(extremities_of(mesh, 5), extremities_of(mesh, 5));
 }
 
 RC_GTEST_PROP(Extremities, AreDifferentVerticesThatCanBeMarked, (std::uint32_t seed)) {
   const Mesh mesh = test::random_sphere(seed, static_cast<int>(seed % 11));
-  const std::vector<int> chosen = extremities(mesh, 3);
+  const std::vector<int> chosen = extremities_of(mesh, 3);
   RC_ASSERT(std::set<int>(chosen.begin(), chosen.end()).size() == 3u);
   cut_to_disk(mesh, connect(mesh.F, vertex_count(mesh)), chosen);  // throws where they cannot
 }
@@ -118,7 +121,7 @@ RC_GTEST_PROP(Extremities, AreDifferentVerticesThatCanBeMarked, (std::uint32_t s
 TEST(Extremities, ExistWhereAllPositionsAreTheSame) {
   Mesh mesh = test::icosahedron();
   mesh.V.setConstant(7);
-  const std::vector<int> chosen = extremities(mesh, 12);
+  const std::vector<int> chosen = extremities_of(mesh, 12);
   EXPECT_EQ(std::set<int>(chosen.begin(), chosen.end()).size(), 12u);
 }
 
@@ -126,13 +129,13 @@ TEST(Extremities, AreNoVerticesWithoutFaces) {
   Mesh mesh = test::octahedron();
   mesh.V.conservativeResize(8, 3);
   mesh.V.bottomRows(2).setConstant(1000);
-  for (const int v : extremities(mesh, 6)) EXPECT_LT(v, 6);
+  for (const int v : extremities_of(mesh, 6)) EXPECT_LT(v, 6);
 }
 
 TEST(Extremities, TooFewVerticesAreRefused) {
   const auto refusal = [](const Mesh& mesh, int count) -> std::string {
     try {
-      extremities(mesh, count);
+      extremities_of(mesh, count);
       return {};
     } catch (const MeshError& error) {
       return error.what();

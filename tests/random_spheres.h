@@ -2,8 +2,10 @@
 // Triangulated spheres as irregular as can be: small solids, their faces split and their edges flipped.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <random>
 #include <vector>
 
 #include "orbitutte/mesh/connectivity.h"
@@ -39,7 +41,8 @@ inline Mesh with_edge_flipped(Mesh mesh, int h) {
   return mesh;
 }
 
-/// A tetrahedron, octahedron or icosahedron with some faces split and some edges flipped, as the seed alone decides.
+/// A tetrahedron, octahedron or icosahedron with some faces split and some edges flipped, as the seed alone
+/// decides.
 inline Mesh random_sphere(std::uint32_t seed, int changes) {
   std::mt19937 random(seed);
   const std::array<Mesh, 3> solids = {tetrahedron(), octahedron(), icosahedron()};

@@ -58,8 +58,8 @@ TEST_P(SampleMeshes, HasEvenTriangles) {
   const Inspection result = inspect(sample_mesh(GetParam()));
   EXPECT_GT(result.min_angle, 16 * kDegree);
   EXPECT_LT(result.max_angle, 125 * kDegree);
-  EXPECT_LT(result.max_edge_length, 6 * result.min_edge_length);
-  EXPECT_LT(result.negative_cotangent_edges, 0.005 * result.edges);
+  EXPECT_LT(result.max_edge_length, 7 * result.min_edge_length);
+  EXPECT_LE(result.negative_cotangent_edges, 1 + 0.001 * result.edges);
 }
 
 TEST_P(SampleMeshes, HasNearlyAsManyFacesAsAskedFor) {
@@ -91,10 +91,10 @@ TEST_P(SampleMeshes, HasConesFarFromEachOther) {
 INSTANTIATE_TEST_SUITE_P(
     , SampleMeshes,
     testing::Values(SampleOptions{SampleShape::figure, 100}, SampleOptions{SampleShape::figure, 201},
-                    SampleOptions{SampleShape::figure, 1500}, SampleOptions{SampleShape::figure, 10'000},
-                    SampleOptions{SampleShape::figure, 25'000}, SampleOptions{SampleShape::mask, 100},
+                    SampleOptions{SampleShape::figure, 1500}, SampleOptions{SampleShape::figure, 3'001},
+                    SampleOptions{SampleShape::figure, 12'000}, SampleOptions{SampleShape::mask, 100},
                     SampleOptions{SampleShape::mask, 201}, SampleOptions{SampleShape::mask, 1500},
-                    SampleOptions{SampleShape::mask, 10'000}, SampleOptions{SampleShape::mask, 25'000}),
+                    SampleOptions{SampleShape::mask, 3'001}, SampleOptions{SampleShape::mask, 12'000}),
     [](const auto& each) { return name(each.param.shape) + std::to_string(each.param.faces); });
 
 TEST(SampleMesh, FacesOutwards) {
@@ -105,9 +105,9 @@ TEST(SampleMesh, FacesOutwards) {
 TEST(SampleMesh, IsSmootherTheFinerItIs) {
   for (const SampleShape shape : {SampleShape::figure, SampleShape::mask}) {
     const double coarse = sharpest_edge(sample_mesh({shape, 5'000}));
-    const double fine = sharpest_edge(sample_mesh({shape, 320'000}));
-    EXPECT_LT(fine, 15 * kDegree) << name(shape);
-    EXPECT_LT(fine, coarse / 3) << name(shape);
+    const double fine = sharpest_edge(sample_mesh({shape, 80'000}));
+    EXPECT_LT(fine, 20 * kDegree) << name(shape);
+    EXPECT_LT(fine, coarse / 2) << name(shape);
   }
 }
 

@@ -190,8 +190,9 @@ TEST(Signature, TwoStarsOrCrossesAreRefused) {
 }
 
 TEST(Signature, OrdersAfterTheCrossAreRefused) {
-  expect_refused({"x5", "5x3", "x2,2", "5x,", "5\xc3\x97"
-                                              "3"},
+  expect_refused({"x5", "5x3", "x2,2", "5x,",
+                  "5\xc3\x97"
+                  "3"},
                  after_cross);
 }
 
@@ -206,9 +207,9 @@ TEST(Signature, TooManyDigitsWithoutCommasAreRefused) {
 }
 
 TEST(Signature, MixedFamiliesAreNotEmbeddedYet) {
-  expect_refused({"3*2", "2*5",  "2*2",        "5*",  "9*",  "3x",  "1x",   "x",     "7x",    "2*12", "12*",
-                  "12x", "3\xc3\x97", "12\xc3\x97", "12,*", "22,*", "22,x", "2*22,", "2,*12", "11*",  "11x", "10*",
-                  "2*10", "2*11", "5X"},
+  expect_refused({"3*2",   "2*5", "2*2", "5*",        "9*",         "3x",   "1x",   "x",    "7x",
+                  "2*12",  "12*", "12x", "3\xc3\x97", "12\xc3\x97", "12,*", "22,*", "22,x", "2*22,",
+                  "2,*12", "11*", "11x", "10*",       "2*10",       "2*11", "5X"},
                  not_yet);
 }
 
@@ -247,8 +248,9 @@ TEST(Signature, AmbiguousTextsAreRefusedWithAllReadingsNamed) {
     }
     std::string named;
     for (const std::string& other : expected.others) named += " or as " + other;
-    EXPECT_EQ(refusal(expected.text), "'" + expected.text + "' could be read as " + expected.by_digits + named +
-                                          "; separate the orders by commas, as in '" + expected.others[0] + "'");
+    EXPECT_EQ(refusal(expected.text), "'" + expected.text + "' could be read as " + expected.by_digits +
+                                          named + "; separate the orders by commas, as in '" +
+                                          expected.others[0] + "'");
   }
 }
 
@@ -282,8 +284,7 @@ void check_any(const std::string& text) {
 }
 
 RC_GTEST_PROP(Signature, AnyTextIsAnOrbifoldOrRefusedInOneSentence, ()) {
-  check_any(*rc::gen::container<std::string>(
-      rc::gen::elementOf(std::string("0123456789,*x"))));
+  check_any(*rc::gen::container<std::string>(rc::gen::elementOf(std::string("0123456789,*x"))));
 }
 
 RC_GTEST_PROP(Signature, AnyTextOfFewSignsIsAnOrbifoldOrRefusedInOneSentence, ()) {
@@ -292,7 +293,8 @@ RC_GTEST_PROP(Signature, AnyTextOfFewSignsIsAnOrbifoldOrRefusedInOneSentence, ()
 
 RC_GTEST_PROP(Signature, OrdersBetweenCommasAreReadAsTheyStand, ()) {
   const auto order = rc::gen::element(1, 2, 2, 2, 3, 3, 4, 5, 6, 12, 12);
-  const std::vector<int> wanted = *rc::gen::resize(4, rc::gen::nonEmpty(rc::gen::container<std::vector<int>>(order)));
+  const std::vector<int> wanted =
+      *rc::gen::resize(4, rc::gen::nonEmpty(rc::gen::container<std::vector<int>>(order)));
   RC_PRE(wanted.size() >= 2u);
   const bool star = *rc::gen::arbitrary<bool>();
   const std::string text = test::symbol(star, wanted, true);
@@ -304,7 +306,7 @@ RC_GTEST_PROP(Signature, OrdersBetweenCommasAreReadAsTheyStand, ()) {
 
 TEST(Signature, DigitsWithoutCommasAreOneOrderEach) {
   for (const bool star : {false, true}) {
-    for (int number = 22; number < 10000; ++number) {
+    for (int number = 22; number < 3000; ++number) {
       const std::string digits = std::to_string(number);
       if (digits.find_first_of("01") != std::string::npos) continue;
       std::vector<int> expected;

@@ -27,8 +27,8 @@ struct Case {
   Tile tile;
 };
 
-/// The tiles of all families, of all arrangements of the orders, and of all orders in which a boundary may meet
-/// the marks.
+/// The tiles of all families, of all arrangements of the orders, and of all orders in which a boundary may
+/// meet the marks.
 const std::vector<Case>& cases() {
   static const std::vector<Case> all = [] {
     std::vector<Case> result;
@@ -70,35 +70,38 @@ Vector3 arrival(const TileSide& side) {
   return -std::sin(side.length) * side.start + std::cos(side.length) * side.direction;
 }
 
-/// From the side that leaves the corner counterclockwise to the side that arrives, through the tile, in (0, 2 pi).
+/// From the side that leaves the corner counterclockwise to the side that arrives, through the tile, in (0, 2
+/// pi).
 double interior_angle(const Tile& tile, int k) {
   const Vector3 leaving = tile.sides[k].direction, back = -arrival(before(tile, k));
   const double angle = std::atan2(tile.sides[k].start.dot(leaving.cross(back)), leaving.dot(back));
   return angle > 0 ? angle : angle + 2 * pi;
 }
 
-/// Sums over the sides of a fan around a point inside, in polar coordinates about it: the area, and the integral of
-/// the position.
+/// Sums over the sides of a fan around a point inside, in polar coordinates about it: the area, and the
+/// integral of the position.
 struct Integral {
   double area = 0;
   Vector3 position = Vector3::Zero();
 };
 
-Integral integrate(const Tile& tile, int steps) {
+Integral integrate(const Tile& tile, double offset, int steps) {
   const TileSide& first = tile.sides.front();
-  const Vector3 apex = (first.point(first.length / 2) + 0.005 * first.pole()).normalized();
+  const Vector3 apex = (first.point(first.length / 2) + offset * first.pole()).normalized();
   const Vector3 e1 = apex.unitOrthogonal(), e2 = apex.cross(e1);
   const auto angle = [&](const Vector3& p) { return std::atan2(p.dot(e2), p.dot(e1)); };
   Integral result;
   for (const TileSide& side : tile.sides) {
     for (int i = 0; i < steps; ++i) {
-      const Vector3 here = side.point(side.length * i / steps), next = side.point(side.length * (i + 1) / steps);
+      const Vector3 here = side.point(side.length * i / steps),
+                    next = side.point(side.length * (i + 1) / steps);
       const Vector3 middle = side.point(side.length * (i + 0.5) / steps);
       const double sector = std::remainder(angle(next) - angle(here), 2 * pi);
       const Vector3 along = (middle - middle.dot(apex) * apex).normalized();
       const double R = std::atan2(middle.cross(apex).norm(), middle.dot(apex));
       result.area += sector * (1 - std::cos(R));
-      result.position += sector * (0.5 * std::pow(std::sin(R), 2) * apex + (R / 2 - std::sin(2 * R) / 4) * along);
+      result.position +=
+          sector * (0.5 * std::pow(std::sin(R), 2) * apex + (R / 2 - std::sin(2 * R) / 4) * along);
     }
   }
   return result;
@@ -158,7 +161,8 @@ TEST(Tile, AnglesAroundAMarkAddUpToItsOrdersShare) {
     for (int k = 0; k < size(c.tile); ++k) angle[c.tile.sides[k].mark] += interior_angle(c.tile, k);
     for (std::size_t m = 0; m < angle.size(); ++m) {
       const Mark& mark = c.orbifold.marks[m];
-      EXPECT_NEAR(angle[m], (mark.kind == ConeKind::rotation ? 2 : 1) * pi / mark.order, rounding) << "mark " << m;
+      EXPECT_NEAR(angle[m], (mark.kind == ConeKind::rotation ? 2 : 1) * pi / mark.order, rounding)
+          << "mark " << m;
     }
   });
 }
@@ -167,8 +171,8 @@ TEST(Tile, CopiesOfAMarkShareItsAngleEqually) {
   for_every_tile([](const Case& c) {
     for (int k = 0; k < size(c.tile); ++k) {
       for (int l = 0; l < k; ++l) {
-        if (c.tile.sides[k].mark == c.tile.sides[l].mark)
-          EXPECT_NEAR(interior_angle(c.tile, k), interior_angle(c.tile, l), rounding);
+        if (c.tile.sides[k].mark != c.tile.sides[l].mark) continue;
+        EXPECT_NEAR(interior_angle(c.tile, k), interior_angle(c.tile, l), rounding);
       }
     }
   });
@@ -185,8 +189,8 @@ TEST(Tile, AreaIsTheSpheresOverTheGroupOrder) {
 TEST(Tile, CentroidIsTheDirectionOfTheIntegralOfThePosition) {
   for_every_tile([](const Case& c) {
     if (!std::is_sorted(c.arrangement.begin(), c.arrangement.end())) return;
-    const Integral integral = integrate(c.tile, 2000);
     const double area = 4 * pi / c.orbifold.group_order;
+    const Integral integral = integrate(c.tile, area / 20, 500);
     EXPECT_NEAR(integral.area, area, 1e-3 * area);
     EXPECT_NEAR((integral.position.normalized() - c.tile.centroid()).norm(), 0, 1e-4);
     EXPECT_NEAR(c.tile.centroid().norm(), 1, rounding);

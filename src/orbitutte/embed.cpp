@@ -70,6 +70,21 @@ void require_topology(const Inspection& inspection, const Orbifold& orbifold) {
                   name(inspection.topology), orbifold.signature, name(orbifold.topology)));
 }
 
+// Cones that lie opposite to each other need more than one edge between them: every arc of length pi is as
+// short as any other.
+void require_apart(const GluedEdges& glued, const BoundaryConditions& boundary, const Orbifold& orbifold) {
+  for (const auto& [i, j, t] : glued.edges) {
+    if (boundary.basis(i).cols() > 0 || boundary.basis(j).cols() > 0) continue;
+    const Vector3 p = boundary.held.row(i), q = glued.transforms[t] * boundary.held.row(j).transpose();
+    if ((p + q).norm() < 1e-9)
+      throw MeshError(
+          fmt::format("the marked vertices {} and {} are joined by an edge, but {} puts them at opposite "
+                      "points of the sphere; mark "
+                      "vertices that are further apart, or split the edge",
+                      i, j, orbifold.signature));
+  }
+}
+
 // Where a rotation about the axis changes nothing, turns the map so that the vertex nearest to the equator
 // has longitude 0.
 void fix_gauge(const Tile& tile, Points& positions) {
@@ -129,6 +144,7 @@ EmbedResult embed(const Mesh& mesh, const Orbifold& orbifold, const std::vector<
   const Tile tile = basic_tile(orbifold, cut.arrangement);                         // appendix A
   const BoundaryConditions boundary = glue(cut, tile, orbifold, marked_vertices);  // (3), (4), (7)
   const GluedEdges glued = glued_edges(cut, connectivity, boundary);
+  require_apart(glued, boundary, orbifold);
   const SphericalEnergy energy(glued, result.weights, boundary);  // (2)
   const LaplacianSolver laplacian = stage(
       "factorize", [&] { return LaplacianSolver(cut, glued, result.weights, boundary, options.laplacian); });

@@ -184,6 +184,7 @@ CutMesh cut_to_disk(const Mesh& mesh, const Connectivity& connectivity, const st
     for (const int h : halfedges) split_vertex(h, opened, opposite, cut);
     cut.boundary = boundary_loop(halfedges.front(), cut.F, opened);
   } else {
+    if (marks.empty()) throw MeshError("no vertex is marked on the boundary of the disk; mark one or more");
     for (const int v : marks) {
       if (opposite[outgoing[v]] >= 0)
         throw MeshError(

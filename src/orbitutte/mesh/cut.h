@@ -29,7 +29,7 @@ struct CutOptions {
 /// Cuts so that every marked vertex lies on the boundary of a disk.
 /// A sphere with two marks is cut along the shortest edge path between them; with three, along two disjoint
 /// paths from one of them to the other two. A disk whose marks are on its boundary is left as it is. Throws
-/// MeshError for marks that are not vertices of a face, repeated, too few for a sphere, or inside a disk.
+/// MeshError for marks that are not vertices of a face, repeated, too few or too many, or inside a disk.
 CutMesh cut_to_disk(const Mesh& mesh, const Connectivity& connectivity, const std::vector<int>& marks,
                     const CutOptions& options = {});
 

@@ -15,13 +15,15 @@ enum class MeshFormat { obj, off, ply, stl };
 MeshFormat mesh_format(const std::string& path);
 
 /// The polygons in the text or bytes of a mesh file.
-/// OBJ: `v`, `f` with v, v/vt, v//vn, v/vt/vn, negative indices; `l`, `p` and all else are passed over.
-/// OFF: the keyword (OFF, behind any of ST, C, N) may be missing, and behind it the count of edges; normals,
-/// colours and comments are passed over; binary files and other dimensions than three are refused. PLY:
-/// ASCII, binary of both byte orders, `face` (vertex_indices or vertex_index) and `tristrips`; other elements
-/// and properties are passed over.
-/// STL: ASCII with any number of solids, and binary; corners with the same three coordinates are one vertex,
-/// numbered in order of first use.
+///
+/// - OBJ: `v`, `f` with v, v/vt, v//vn, v/vt/vn, negative indices; `l`, `p` and all else are passed over.
+/// - OFF: the keyword (OFF, behind any of ST, C, N) may be missing, and behind it the count of edges; other
+///   columns and comments are passed over; binary files and other dimensions than three are refused.
+/// - PLY: ASCII, binary of both byte orders, `face` (vertex_indices or vertex_index) and `tristrips`; other
+///   elements and properties are passed over.
+/// - STL: ASCII with any number of solids, and binary; corners with the same three coordinates are one
+///   vertex, numbered in order of first use.
+///
 /// Indices are not compared with the number of vertices, nor coordinates with infinity: `inspect` does both.
 /// Throws MeshError naming the line, element or byte where the data are empty, cut short or make no sense.
 PolygonMesh parse_mesh(std::string_view bytes, MeshFormat format);

@@ -39,12 +39,12 @@ struct Limb {
 
 const std::array<Limb, 12>& limbs() {
   static const std::array<Limb, 12> result = {{
-      {{0, -0.08, 0}, {0, 0.34, 0}, 0.28, 0.20},              // trunk
+      {{0, -0.12, 0}, {0, 0.34, 0}, 0.27, 0.19},              // trunk
       {{0, 0.45, 0}, {0, 0.70, 0}, 0.10, 0.12},               // neck
       {{0, 0.80, 0.02}, {0, 0.86, 0.02}, 0.27, 0.255},        // head
-      {{0, 0.75, 0.30}, {0, 0.76, 0.31}, 0.045, 0.045},       // nose
-      {{-0.20, 0.36, 0}, {-0.54, 0.17, 0.03}, 0.105, 0.095},  // right arm, hanging
-      {{-0.54, 0.17, 0.03}, {-0.70, -0.07, 0.12}, 0.09, 0.11},
+      {{0, 0.76, 0.31}, {0, 0.77, 0.32}, 0.06, 0.06},         // nose
+      {{-0.20, 0.36, 0}, {-0.55, 0.22, 0.03}, 0.105, 0.095},  // right arm, hanging
+      {{-0.55, 0.22, 0.03}, {-0.73, 0.00, 0.12}, 0.09, 0.11},
       {{0.20, 0.36, 0}, {0.52, 0.44, 0.02}, 0.105, 0.095},  // left arm, raised
       {{0.52, 0.44, 0.02}, {0.68, 0.72, 0.08}, 0.09, 0.11},
       {{-0.17, -0.22, 0}, {-0.25, -0.82, 0}, 0.15, 0.105},  // right leg and foot
@@ -69,7 +69,7 @@ FieldSample limb_distance(const Limb& limb, const Vector3& p) {
 
 // -log(sum_i exp(-k d_i)) / k: the limbs' distances, smoothly joined over lengths of 1 / k.
 FieldSample figure_field(const Vector3& p) {
-  constexpr double kSharpness = 15;
+  constexpr double kSharpness = 14;
   constexpr double kNegligible = 1.5;  // exp(-k d) is 2e-10: no step that shows
   std::array<FieldSample, 12> distance;
   double least = std::numeric_limits<double>::infinity();
@@ -166,8 +166,8 @@ Boxes trunk() {
 // The trunk with head, arms and legs pulled out: 62 quadrilaterals.
 Mesh coarse_figure() {
   Boxes boxes = trunk();
-  boxes.pull(0, {-0.54, 0.17, 0.03}, {-1, -1, 0.1}, 0.13);
-  boxes.pull(0, {-0.75, -0.15, 0.14}, {-0.5, -1, 0.3}, 0.13);
+  boxes.pull(0, {-0.55, 0.22, 0.03}, {-1, -1, 0.1}, 0.13);
+  boxes.pull(0, {-0.78, -0.08, 0.14}, {-0.5, -1, 0.3}, 0.13);
   boxes.pull(1, {0.52, 0.44, 0.02}, {1, 0.8, 0.1}, 0.13);
   boxes.pull(1, {0.73, 0.80, 0.10}, {0.5, 1, 0.3}, 0.13);
   boxes.pull(2, {-0.21, -0.60, 0}, {0, -1, 0}, 0.14);

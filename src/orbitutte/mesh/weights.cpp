@@ -7,18 +7,26 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include "orbitutte/mesh/file.h"
 
 namespace orbitutte {
 namespace {
 
-// Half the cotangent of the angle at vertex o of a triangle (i, j, o); zero where the triangle has no area.
+// Half the cotangent of the angle at vertex o of a triangle (i, j, o); zero where the triangle has no area
+// but rounding errors, as `inspect` counts them: their cotangents, 1e15 or so, would be rounding errors too.
 double half_cotangent(const Points& V, int i, int j, int o) {
-  const Vector3 a = V.row(i) - V.row(o), b = V.row(j) - V.row(o);
+  Vector3 a = V.row(i) - V.row(o), b = V.row(j) - V.row(o);
+  const double longest =
+      std::max({a.lpNorm<Eigen::Infinity>(), b.lpNorm<Eigen::Infinity>(), (b - a).lpNorm<Eigen::Infinity>()});
+  if (!(longest > 0)) return 0;
+  // A power of two near 1/longest: nothing overflows, and right angles stay exact.
+  const double scale = std::exp2(-std::clamp(std::ilogb(longest), -1000, 1000));
+  a *= scale;
+  b *= scale;
   const double twice_area = a.cross(b).norm();
-  const double cotangent = 0.5 * a.dot(b) / twice_area;
-  return std::isfinite(cotangent) ? cotangent : 0.0;
+  return twice_area > 8 * std::numeric_limits<double>::epsilon() ? 0.5 * a.dot(b) / twice_area : 0.0;
 }
 
 EdgeWeights cotangent_weights(const Mesh& mesh, const Connectivity& connectivity, double clamp) {

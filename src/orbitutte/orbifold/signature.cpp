@@ -66,8 +66,8 @@ std::string above_largest() {
   throw ArgumentError(fmt::format("'{}' {}", text, reason));
 }
 
-// The ways to read a string of digits without commas as orders: one digit each, then those with longer numbers
-// and at most three orders, since no spherical orbifold has more.
+// The ways to read a string of digits without commas as orders: one digit each, then those with longer
+// numbers and at most three orders, since no spherical orbifold has more.
 void readings(const std::string& digits, std::size_t from, Orders& prefix, std::vector<Orders>& all) {
   if (!all.empty() && prefix.size() > 3) return;
   if (from == digits.size()) {
@@ -89,8 +89,7 @@ int parse_order(const std::string& text, const std::string& number) {
   for (const char digit : number) order = std::min(10 * order + (digit - '0'), largest_order + 1);
   if (number.empty()) refuse(text, "has an empty place between commas; give every order once");
   if (order < 1) refuse(text, "has an order of 0; orders are 2 or more");
-  if (order > largest_order)
-    refuse(text, above_largest());
+  if (order > largest_order) refuse(text, above_largest());
   return order;
 }
 

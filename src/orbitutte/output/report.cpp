@@ -251,6 +251,8 @@ Report read_report(const std::string& path) {
     return to_report(Json::parse(text));
   } catch (const nlohmann::json::parse_error& error) {
     throw MeshError(fmt::format("{}: this is no JSON, from byte {} on", path, error.byte));
+  } catch (const nlohmann::json::out_of_range&) {
+    throw MeshError(fmt::format("{}: a number is too large to be one", path));
   } catch (const MeshError& error) {
     throw MeshError(fmt::format("{}: {}", path, error.what()));
   }

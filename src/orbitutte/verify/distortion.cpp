@@ -17,6 +17,7 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr double position_rounding = 16 * std::numeric_limits<double>::epsilon();
+constexpr double area_rounding = 4 * std::numeric_limits<double>::epsilon();
 
 double triangle_area(const Vector3& a, const Vector3& b, const Vector3& c) {
   return 0.5 * (b - a).cross(c - a).norm();
@@ -68,19 +69,32 @@ void count_in(Distortion::Histogram& histogram, double log2_ratio) {
   ++histogram.counts[bin];
 }
 
+// The largest coordinate of an edge: areas in its square overflow nowhere.
+double length_unit(const Mesh& mesh) {
+  double unit = 0;
+  for (int f = 0; f < mesh.F.rows(); ++f)
+    for (int k = 0; k < 3; ++k)
+      unit = std::max(unit,
+                      (mesh.V.row(mesh.F(f, (k + 1) % 3)) - mesh.V.row(mesh.F(f, k))).cwiseAbs().maxCoeff());
+  return unit > 0 ? unit : 1;
+}
+
 }  // namespace
 
 Distortion measure_distortion(const Mesh& mesh, const Embedding& embedding) {
   const int m = static_cast<int>(mesh.F.rows());
+  const double unit = length_unit(mesh);
   std::vector<double> source(m), image(m);
   for (int f = 0; f < m; ++f) {
     const auto v = mesh.F.row(f), w = embedding.faces.row(f);
-    source[f] = triangle_area(mesh.V.row(v[0]), mesh.V.row(v[1]), mesh.V.row(v[2]));
+    source[f] = triangle_area(mesh.V.row(v[0]) / unit, mesh.V.row(v[1]) / unit, mesh.V.row(v[2]) / unit);
     image[f] = signed_area(embedding.positions.row(w[0]), embedding.positions.row(w[1]),
                            embedding.positions.row(w[2]));
   }
   const double source_total = std::accumulate(source.begin(), source.end(), 0.0);
-  const double image_total = std::accumulate(image.begin(), image.end(), 0.0);
+  const double image_total = std::accumulate(image.begin(), image.end(), 0.0, [](double sum, double area) {
+    return area > 0 ? sum + area : sum;  // a map that is turned over in places still has shares
+  });
 
   Distortion result;
   result.histogram = empty_histogram();
@@ -89,13 +103,18 @@ Distortion measure_distortion(const Mesh& mesh, const Embedding& embedding) {
   int angles = 0;
   for (int f = 0; f < m; ++f) {
     const auto v = mesh.F.row(f), w = embedding.faces.row(f);
-    const auto length = [&](int i, int j) { return (mesh.V.row(v[i]) - mesh.V.row(v[j])).norm(); };
+    const auto length = [&](int i, int j) {
+      return (mesh.V.row(v[i]) / unit - mesh.V.row(v[j]) / unit).norm();
+    };
     const auto arc = [&](int i, int j) {
       return arc_length(embedding.positions.row(w[i]), embedding.positions.row(w[j]));
     };
-    const double longest = std::max({arc(0, 1), arc(1, 2), arc(2, 0)});
-    if (!(source[f] > 0) || !(image[f] > position_rounding * longest)) continue;
+    const double longest = std::max({length(0, 1), length(1, 2), length(2, 0)});
+    const double longest_arc = std::max({arc(0, 1), arc(1, 2), arc(2, 0)});
+    if (!(source[f] > area_rounding * longest * longest) || !(image[f] > position_rounding * longest_arc))
+      continue;
     const double ratio = (image[f] / image_total) / (source[f] / source_total);
+    if (!(ratio > 0) || !std::isfinite(ratio)) continue;
     areas.push_back(std::max(ratio, 1 / ratio));
     count_in(result.histogram, std::log2(ratio));
 

@@ -1,0 +1,402 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/mesh/cut.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <numeric>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "random_spheres.h"
+
+namespace orbitutte {
+namespace {
+
+using test::face_count;
+using test::vertex_count;
+
+CutMesh cut_open(const Mesh& mesh, const std::vector<int>& marks, std::uint64_t seed = 0) {
+  return cut_to_disk(mesh, connect(mesh.F, vertex_count(mesh)), marks, {seed});
+}
+
+bool same(const CutMesh& a, const CutMesh& b) {
+  return a.F == b.F && a.source_vertex == b.source_vertex && a.boundary == b.boundary &&
+         a.arrangement == b.arrangement;
+}
+
+// Each check names the fault that it finds; empty where there is none.
+
+/// The faces of the input, on vertices that come from theirs; the first n vertices are the input's own.
+std::string fault_in_faces(const Mesh& mesh, const CutMesh& cut) {
+  const int n = vertex_count(mesh);
+  if (cut.vertex_count() < n || cut.F.rows() != mesh.F.rows()) return "vertices or faces are missing";
+  for (int v = 0; v < n; ++v)
+    if (cut.source_vertex[v] != v) return "the first vertices are not the input's";
+  for (int k = 0; k < mesh.F.size(); ++k) {
+    const int v = cut.F.data()[k];
+    if (v < 0 || v >= cut.vertex_count()) return "a face has no such vertex";
+    if (cut.source_vertex[v] != mesh.F.data()[k]) return "a face is not the input's";
+  }
+  const std::set<int> used(cut.F.data(), cut.F.data() + cut.F.size());
+  for (int v = n; v < cut.vertex_count(); ++v)
+    if (!used.count(v)) return "a copy belongs to no face";
+  return {};
+}
+
+/// The half-edges of the boundary, in its order; fewer where consecutive vertices are joined by none.
+std::vector<int> boundary_halfedges(const CutMesh& cut) {
+  std::map<std::pair<int, int>, int> halfedge;
+  for (int h = 0; h < cut.F.size(); ++h) halfedge[{origin(cut.F, h), target(cut.F, h)}] = h;
+  std::vector<int> result;
+  for (std::size_t k = 0; k < cut.boundary.size(); ++k) {
+    const auto at = halfedge.find({cut.boundary[k], cut.boundary[(k + 1) % cut.boundary.size()]});
+    if (at != halfedge.end()) result.push_back(at->second);
+  }
+  return result;
+}
+
+int component_count(int faces, const std::vector<std::pair<int, int>>& glued) {
+  std::vector<int> parent(faces);
+  std::iota(parent.begin(), parent.end(), 0);
+  const std::function<int(int)> root = [&](int f) {
+    return parent[f] == f ? f : parent[f] = root(parent[f]);
+  };
+  for (const auto& [f, g] : glued) parent[root(f)] = root(g);
+  int roots = 0;
+  for (int f = 0; f < faces; ++f) roots += parent[f] == f;
+  return roots;
+}
+
+/// Connected, of Euler characteristic 1, with one boundary curve that meets no vertex twice, and glued like
+/// the input everywhere else.
+std::string fault_in_disk(const Mesh& mesh, const CutMesh& cut) {
+  const std::vector<int> opposite = connect(mesh.F, vertex_count(mesh)).opposite;
+  const std::vector<int> around = boundary_halfedges(cut);
+  const std::set<int> outer(around.begin(), around.end());
+  const int b = static_cast<int>(cut.boundary.size()), halfedges = static_cast<int>(cut.F.size());
+  if (static_cast<int>(outer.size()) != b) return "the boundary does not run along half-edges";
+  if (std::set<int>(cut.boundary.begin(), cut.boundary.end()).size() != outer.size())
+    return "the boundary touches itself";
+  std::vector<std::pair<int, int>> glued;
+  for (int h = 0; h < halfedges; ++h) {
+    const int o = opposite[h];
+    if (outer.count(h)) {
+      if (o >= 0 && !outer.count(o)) return "a cut has one side";
+      continue;
+    }
+    if (o < 0 || outer.count(o)) return "there is a boundary beside the boundary";
+    if (origin(cut.F, o) != target(cut.F, h) || target(cut.F, o) != origin(cut.F, h)) return "a gap is open";
+    glued.emplace_back(h / 3, o / 3);
+  }
+  if (component_count(face_count(mesh), glued) != 1) return "the mesh falls apart";
+  const std::set<int> used(cut.F.data(), cut.F.data() + cut.F.size());
+  const int vertices = static_cast<int>(used.size()), edges = b + (halfedges - b) / 2;
+  return vertices - edges + halfedges / 3 == 1 ? "" : "the Euler characteristic is not 1";
+}
+
+/// All marks on the boundary, which begins at the first of the arrangement and meets them in its order.
+std::string fault_in_arrangement(const CutMesh& cut, const std::vector<int>& marks) {
+  std::vector<int> met;
+  for (const int v : cut.boundary) {
+    const auto mark = std::find(marks.begin(), marks.end(), cut.source_vertex[v]) - marks.begin();
+    const int k = static_cast<int>(mark);
+    if (k < static_cast<int>(marks.size()) && !std::count(met.begin(), met.end(), k)) met.push_back(k);
+  }
+  if (met.size() != marks.size()) return "a mark is not on the boundary";
+  if (met != cut.arrangement) return "the boundary meets the marks in another order";
+  if (cut.source_vertex[cut.boundary.front()] != marks[met.front()]) return "the boundary begins at no mark";
+  return {};
+}
+
+/// The boundary of a sphere runs along the cut and comes back the same way; the ends of the cut are the first
+/// and the last mark of the arrangement, and the one between has two copies.
+std::string fault_in_seam(const CutMesh& cut, const std::vector<int>& marks) {
+  const std::size_t b = cut.boundary.size();
+  const auto source = [&](std::size_t k) { return cut.source_vertex[cut.boundary[k % b]]; };
+  for (std::size_t k = 0; k < b; ++k)
+    if (source(k) != source(b - k)) return "the boundary does not come back the way it went";
+  if (b % 2 != 0 || source(b / 2) != marks[cut.arrangement.back()])
+    return "the cut does not end at the last mark";
+  for (std::size_t k = 0; k < marks.size(); ++k) {
+    const bool inner = marks.size() == 3 && cut.arrangement[1] == static_cast<int>(k);
+    int copies = 0;
+    for (std::size_t i = 0; i < b; ++i) copies += source(i) == marks[k];
+    if (copies != (inner ? 2 : 1)) return "a mark has another number of copies";
+  }
+  return {};
+}
+
+std::string fault_in_sphere(const Mesh& mesh, const std::vector<int>& marks, std::uint64_t seed) {
+  const CutMesh cut = cut_open(mesh, marks, seed);
+  std::string fault = fault_in_faces(mesh, cut);
+  if (fault.empty()) fault = fault_in_disk(mesh, cut);
+  if (fault.empty()) fault = fault_in_arrangement(cut, marks);
+  if (fault.empty()) fault = fault_in_seam(cut, marks);
+  if (fault.empty() && !same(cut, cut_open(mesh, marks, seed))) fault = "a second cut is different";
+  return fault;
+}
+
+/// Cuts through all pairs and all triples of vertices, in every order.
+std::string fault_in_any_sphere(const Mesh& mesh, std::uint64_t seed) {
+  const int n = vertex_count(mesh);
+  for (int a = 0; a < n; ++a) {
+    for (int b = 0; b < n; ++b) {
+      if (a == b) continue;
+      if (const std::string fault = fault_in_sphere(mesh, {a, b}, seed); !fault.empty()) return fault;
+      for (int c = 0; c < n; ++c) {
+        if (c == a || c == b) continue;
+        if (const std::string fault = fault_in_sphere(mesh, {a, b, c}, seed); !fault.empty()) return fault;
+      }
+    }
+  }
+  return {};
+}
+
+// ------------------------------------------------------------------------------------------------- spheres
+
+TEST(Cut, ThroughAnyVerticesOfATetrahedronGivesADisk) {
+  for (const std::uint64_t seed : {0, 1, 2, 3}) EXPECT_EQ(fault_in_any_sphere(test::tetrahedron(), seed), "");
+}
+
+TEST(Cut, ThroughAnyVerticesOfAnOctahedronGivesADisk) {
+  for (const std::uint64_t seed : {0, 1, 2, 3}) EXPECT_EQ(fault_in_any_sphere(test::octahedron(), seed), "");
+}
+
+TEST(Cut, ThroughAnyVerticesWhereAllFacesAreSplitGivesADisk) {
+  // Every face of the tetrahedron has a vertex of degree three, whose neighbours are the corners: marks
+  // there, and marks all on one face or next to each other, block the obvious second path.
+  const Mesh once = test::with_all_faces_split(test::tetrahedron());
+  for (const std::uint64_t seed : {0, 1, 2}) EXPECT_EQ(fault_in_any_sphere(once, seed), "");
+  EXPECT_EQ(fault_in_any_sphere(test::with_face_split(test::with_face_split(once, 0), 12), 0), "");
+}
+
+TEST(Cut, ThroughThreeMarksOfDegreeThreeGivesADisk) {
+  const Mesh mesh = test::with_all_faces_split(test::octahedron());  // the new vertices are 6 .. 13
+  for (int a = 6; a < 14; ++a)
+    for (int b = 6; b < 14; ++b)
+      for (int c = 6; c < 14; ++c)
+        EXPECT_EQ(a != b && b != c && c != a ? fault_in_sphere(mesh, {a, b, c}, 0) : "", "");
+}
+
+TEST(Cut, ThroughAllCornersOfAFaceGivesADisk) {
+  const Mesh mesh = test::perturbed(test::icosphere(1), 0.1, 3);
+  for (int f = 0; f < face_count(mesh); ++f) {
+    const int a = mesh.F(f, 0), b = mesh.F(f, 1), c = mesh.F(f, 2);
+    for (const std::uint64_t seed : {0, 5}) {
+      EXPECT_EQ(fault_in_sphere(mesh, {a, b, c}, seed), "");
+      EXPECT_EQ(fault_in_sphere(mesh, {c, b, a}, seed), "");
+    }
+  }
+}
+
+TEST(Cut, BetweenNeighborsIsOneEdge) {
+  const Mesh mesh = test::icosahedron();
+  const CutMesh cut = cut_open(mesh, {0, 1});
+  EXPECT_EQ(cut.boundary, (std::vector<int>{0, 1}));
+  EXPECT_EQ(cut.F, mesh.F);
+  EXPECT_EQ(cut.vertex_count(), 12);
+}
+
+TEST(Cut, AddsOneCopyForEveryInnerVertexOfThePath) {
+  const Mesh mesh = test::icosphere(2);
+  for (const auto& marks : {std::vector<int>{0, 11}, std::vector<int>{0, 11, 5}}) {
+    const CutMesh cut = cut_open(mesh, marks);
+    EXPECT_EQ(cut.vertex_count() - vertex_count(mesh), static_cast<int>(cut.boundary.size()) / 2 - 1);
+  }
+}
+
+TEST(Cut, BetweenTwoMarksIsAShortestPath) {
+  const Mesh mesh = test::perturbed(test::icosphere(2), 0.03, 4);
+  const Connectivity connectivity = connect(mesh.F, vertex_count(mesh));
+  const EdgeGraph graph = edge_length_graph(mesh, connectivity);
+  const CutMesh cut = cut_open(mesh, {0, 11});
+  double length = 0;
+  for (std::size_t k = 0; k < cut.boundary.size() / 2; ++k) {
+    const int v = cut.source_vertex[cut.boundary[k]], w = cut.source_vertex[cut.boundary[k + 1]];
+    const std::array<int, 2> edge = {std::min(v, w), std::max(v, w)};
+    const auto at = std::lower_bound(connectivity.edges.begin(), connectivity.edges.end(), edge);
+    length += graph.length[at - connectivity.edges.begin()];
+  }
+  EXPECT_NEAR(length, distances(graph, {0})[11], 1e-12);
+}
+
+TEST(Cut, SeedsGiveOtherCutsThroughTheSameMarks) {
+  const Mesh mesh = test::icosphere(2);
+  for (const auto& marks : {std::vector<int>{0, 11}, std::vector<int>{0, 11, 5}}) {
+    std::set<std::vector<int>> boundaries;
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+      EXPECT_EQ(fault_in_sphere(mesh, marks, seed), "") << "seed " << seed;
+      boundaries.insert(cut_open(mesh, marks, seed).boundary);
+    }
+    EXPECT_GT(boundaries.size(), 10u);
+  }
+}
+
+TEST(Cut, SeedsTakeEveryMarkAsTheMiddleOne) {
+  std::set<int> middles;
+  for (std::uint64_t seed = 1; seed <= 30; ++seed)
+    middles.insert(cut_open(test::icosphere(1), {0, 11, 5}, seed).arrangement[1]);
+  EXPECT_EQ(middles.size(), 3u);
+}
+
+TEST(Cut, LeavesVerticesWithoutFacesAlone) {
+  Mesh mesh = test::octahedron();
+  mesh.V.conservativeResize(8, 3);
+  mesh.V.bottomRows(2).setZero();
+  EXPECT_EQ(fault_in_sphere(mesh, {0, 1, 2}, 0), "");
+}
+
+TEST(Cut, NeedsNoPositions) {
+  Mesh mesh = test::icosphere(1);
+  mesh.V.setZero();
+  EXPECT_EQ(fault_in_sphere(mesh, {0, 11}, 0), "");
+  EXPECT_EQ(fault_in_sphere(mesh, {0, 11, 5}, 0), "");
+}
+
+RC_GTEST_PROP(Cut, OfAnyTriangulatedSphereThroughAnyMarksIsADisk,
+              (std::uint32_t seed, std::uint64_t cut_seed)) {
+  const Mesh mesh = test::random_sphere(seed, static_cast<int>(seed % 25));
+  std::vector<int> marks = test::permutation(vertex_count(mesh), seed + 1);
+  marks.resize(2 + seed % 2);
+  RC_ASSERT(fault_in_sphere(mesh, marks, 0) == "");
+  RC_ASSERT(fault_in_sphere(mesh, marks, cut_seed) == "");
+}
+
+// --------------------------------------------------------------------------------------------------- disks
+
+/// The boundary vertices of a grid from vertex 0, counterclockwise.
+std::vector<int> grid_boundary(int columns, int rows) {
+  std::vector<int> result;
+  for (int x = 0; x < columns; ++x) result.push_back(x);
+  for (int y = 0; y < rows; ++y) result.push_back(y * (columns + 1) + columns);
+  for (int x = columns; x > 0; --x) result.push_back(rows * (columns + 1) + x);
+  for (int y = rows; y > 0; --y) result.push_back(y * (columns + 1));
+  return result;
+}
+
+TEST(Cut, LeavesDisksUncut) {
+  const Mesh mesh = test::grid_disk(4, 3);
+  for (const std::uint64_t seed : {0, 1, 2}) {
+    const CutMesh cut = cut_open(mesh, {0, 4, 19}, seed);
+    EXPECT_EQ(cut.F, mesh.F);
+    EXPECT_EQ(cut.vertex_count(), vertex_count(mesh));
+    EXPECT_EQ(fault_in_faces(mesh, cut), "");
+    EXPECT_EQ(fault_in_disk(mesh, cut), "");
+    EXPECT_EQ(cut.boundary, grid_boundary(4, 3));
+  }
+}
+
+TEST(Cut, BoundaryOfADiskRunsCounterclockwiseFromTheFirstMark) {
+  const Mesh mesh = test::grid_disk(4, 3);
+  const std::vector<int> boundary = grid_boundary(4, 3);
+  for (std::size_t k = 0; k < boundary.size(); ++k) {
+    std::vector<int> expected = boundary;
+    std::rotate(expected.begin(), expected.begin() + k, expected.end());
+    EXPECT_EQ(cut_open(mesh, {boundary[k]}).boundary, expected);
+  }
+}
+
+TEST(Cut, ArrangementFollowsTheBoundaryOfADisk) {
+  const Mesh mesh = test::round_disk(3);  // its boundary is 19, 20, ..., 36
+  EXPECT_EQ(cut_open(mesh, {19, 25, 30}).arrangement, (std::vector<int>{0, 1, 2}));
+  EXPECT_EQ(cut_open(mesh, {25, 30, 19}).arrangement, (std::vector<int>{0, 1, 2}));
+  EXPECT_EQ(cut_open(mesh, {19, 30, 25}).arrangement, (std::vector<int>{0, 2, 1}));
+  EXPECT_EQ(cut_open(mesh, {30, 25, 19}).arrangement, (std::vector<int>{0, 2, 1}));
+  EXPECT_EQ(cut_open(mesh, {36, 19}).arrangement, (std::vector<int>{0, 1}));
+  EXPECT_EQ(cut_open(mesh, {20, 36, 28, 24}).arrangement, (std::vector<int>{0, 3, 2, 1}));
+}
+
+RC_GTEST_PROP(Cut, OfADiskArrangesAnyMarksAlongTheBoundary, (std::uint32_t seed)) {
+  const Mesh mesh = test::grid_disk(4, 3);
+  const std::vector<int> boundary = grid_boundary(4, 3);
+  std::vector<int> marks;
+  for (const int k : test::permutation(static_cast<int>(boundary.size()), seed)) marks.push_back(boundary[k]);
+  marks.resize(1 + seed % boundary.size());
+  const CutMesh cut = cut_open(mesh, marks);
+  RC_ASSERT(fault_in_arrangement(cut, marks) == "");
+  RC_ASSERT(cut.arrangement.front() == 0);
+}
+
+// ------------------------------------------------------------------------------------------------- lengths
+
+TEST(Cut, EdgeLengthsArePositiveAndAlmostThoseInSpace) {
+  Mesh mesh = test::icosphere(1);
+  mesh.V.row(0) = mesh.V.row(mesh.F(0, 1));  // an edge of length zero
+  const Connectivity connectivity = connect(mesh.F, vertex_count(mesh));
+  const EdgeGraph graph = edge_length_graph(mesh, connectivity);
+  ASSERT_EQ(graph.length.size(), connectivity.edges.size());
+  EXPECT_EQ(graph.vertex_count(), vertex_count(mesh));
+  for (std::size_t e = 0; e < graph.length.size(); ++e) {
+    const auto [i, j] = connectivity.edges[e];
+    EXPECT_GT(graph.length[e], 0);
+    EXPECT_NEAR(graph.length[e], (mesh.V.row(i) - mesh.V.row(j)).norm(), 1e-5);
+  }
+}
+
+// ------------------------------------------------------------------------------------------------ refusals
+
+std::string refusal(const Mesh& mesh, const std::vector<int>& marks) {
+  try {
+    cut_open(mesh, marks);
+    return {};
+  } catch (const MeshError& error) {
+    return error.what();
+  }
+}
+
+TEST(Cut, MarksOutOfRangeAreRefused) {
+  const std::string range = " is out of range; the mesh has the vertices 0 to ";
+  EXPECT_EQ(refusal(test::octahedron(), {0, 6}), "the marked vertex 6" + range + "5");
+  EXPECT_EQ(refusal(test::octahedron(), {-1, 2, 3}), "the marked vertex -1" + range + "5");
+  EXPECT_EQ(refusal(test::grid_disk(1, 1), {0, 4}), "the marked vertex 4" + range + "3");
+}
+
+TEST(Cut, RepeatedMarksAreRefused) {
+  const std::string twice = " is marked twice; mark different vertices";
+  EXPECT_EQ(refusal(test::octahedron(), {3, 3}), "the vertex 3" + twice);
+  EXPECT_EQ(refusal(test::octahedron(), {3, 1, 3}), "the vertex 3" + twice);
+  EXPECT_EQ(refusal(test::grid_disk(1, 1), {0, 1, 1}), "the vertex 1" + twice);
+}
+
+TEST(Cut, MarksWithoutFacesAreRefused) {
+  Mesh mesh = test::octahedron();
+  mesh.V.conservativeResize(7, 3);
+  mesh.V.row(6).setZero();
+  EXPECT_EQ(refusal(mesh, {0, 6}), "the marked vertex 6 belongs to no face; mark a vertex of the surface");
+}
+
+TEST(Cut, MarksInsideADiskAreRefused) {
+  const std::string inside = "the marked vertex 0 is inside the disk; mark a vertex on its boundary";
+  EXPECT_EQ(refusal(test::round_disk(2), {0}), inside);
+  EXPECT_EQ(refusal(test::round_disk(2), {7, 0, 9}), inside);
+}
+
+TEST(Cut, OneMarkOrFourOnASphereAreRefused) {
+  const std::string on_a_sphere = " marked vertices on a sphere; mark two or three";
+  EXPECT_EQ(refusal(test::octahedron(), {}), "0" + on_a_sphere);
+  EXPECT_EQ(refusal(test::octahedron(), {0}), "1" + on_a_sphere);
+  EXPECT_EQ(refusal(test::octahedron(), {0, 1, 2, 3}), "4" + on_a_sphere);
+}
+
+TEST(Cut, ADiskWithoutMarksIsRefused) {
+  EXPECT_EQ(refusal(test::round_disk(1), {}),
+            "no vertex is marked on the boundary of the disk; mark one or more");
+}
+
+TEST(Cut, MarksOnSeparateSpheresAreRefused) {
+  const Mesh two = test::united(test::octahedron(), test::tetrahedron());
+  EXPECT_EQ(refusal(two, {0, 7}), "no edge path joins the marked vertices 0 and 7; mark others");
+  EXPECT_NE(refusal(two, {0, 1, 7}), "");
+}
+
+}  // namespace
+}  // namespace orbitutte

@@ -1,0 +1,425 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/output/report.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "orbitutte/mesh/file.h"
+#include "orbitutte/output/embedding_file.h"
+#include "sample_embeddings.h"
+
+namespace orbitutte {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using Json = nlohmann::json;
+
+// A file that lives as long as the test.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const std::string& bytes, const std::string& ending = ".json") {
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    path_ = (std::filesystem::temp_directory_path() /
+             (std::string("orbitutte_") + test->test_suite_name() + "_" + test->name() + ending))
+                .string();
+    write_file(path_, bytes);
+  }
+  ~TemporaryFile() { std::filesystem::remove(path_); }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+const RunRecord run = {"mesh.ply", std::string(64, 'a'), 0.25, 0.5, 2, 123456};
+
+Json sample_report(const std::string& signature = "532") {
+  return Json::parse(report_json(test::sample_embedding(signature).result, run));
+}
+
+Report read(const std::string& text) { return read_report(TemporaryFile(text).path()); }
+
+// The sentence with which a report is refused.
+std::string refusal(const std::string& text) {
+  try {
+    read(text);
+  } catch (const MeshError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+std::string refusal(const std::function<void(Json&)>& plant) {
+  Json json = sample_report();
+  plant(json);
+  return refusal(json.dump());
+}
+
+void expect_same(const std::vector<Seam>& a, const std::vector<Seam>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t s = 0; s < a.size(); ++s) {
+    EXPECT_EQ(a[s].left, b[s].left);
+    EXPECT_EQ(a[s].right, b[s].right);
+    EXPECT_EQ(a[s].transform, b[s].transform);
+  }
+}
+
+void expect_same(const std::vector<ConeCopies>& a, const std::vector<ConeCopies>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    EXPECT_EQ(a[k].vertex, b[k].vertex);
+    EXPECT_EQ(a[k].order, b[k].order);
+    EXPECT_EQ(a[k].kind, b[k].kind);
+    EXPECT_EQ(a[k].copies, b[k].copies);
+  }
+}
+
+// The report
+
+TEST(Report, HoldsEveryKeyWithItsType) {
+  const auto all = [](const Json& list, const std::function<bool(const Json&)>& is) {
+    return list.is_array() && std::all_of(list.begin(), list.end(), is);
+  };
+  const auto is_integer = [](const Json& value) { return value.is_number_integer(); };
+  const auto is_number = [](const Json& value) { return value.is_number(); };
+  for (const std::string& signature : test::sample_signatures()) {
+    const Json json = sample_report(signature);
+    EXPECT_EQ(json.at("schema"), "orbitutte.report/1");
+    EXPECT_EQ(json.at("mesh").at("path"), "mesh.ply");
+    EXPECT_EQ(json.at("mesh").at("vertices"), test::vertex_count(test::sample_embedding(signature).mesh));
+    EXPECT_EQ(json.at("mesh").at("faces"), test::face_count(test::sample_embedding(signature).mesh));
+    EXPECT_EQ(json.at("mesh").at("topology"), signature[0] == '*' ? "disk" : "sphere");
+    EXPECT_EQ(json.at("orbifold").at("signature"), signature);
+    EXPECT_TRUE(json.at("orbifold").at("group_order").is_number_integer());
+
+    ASSERT_TRUE(json.at("cones").is_array());
+    for (const Json& cone : json.at("cones")) {
+      EXPECT_TRUE(cone.at("vertex").is_number_integer());
+      EXPECT_TRUE(cone.at("order").is_number_integer());
+      EXPECT_EQ(cone.at("kind"), signature[0] == '*' ? "corner" : "rotation");
+      EXPECT_TRUE(all(cone.at("copies"), is_integer));
+    }
+    ASSERT_TRUE(json.at("seams").is_array());
+    EXPECT_FALSE(json.at("seams").empty());
+    for (const Json& seam : json.at("seams")) {
+      EXPECT_EQ(seam.at("kind"), signature[0] == '*' ? "reflection" : "rotation");
+      EXPECT_TRUE(all(seam.at("left"), is_integer));
+      EXPECT_TRUE(all(seam.at("right"), is_integer));
+      EXPECT_EQ(seam.at("left") == seam.at("right"), seam.at("kind") == "reflection");
+      EXPECT_EQ(seam.at("transform").size(), 3u);
+      EXPECT_TRUE(
+          all(seam.at("transform"), [&](const Json& row) { return row.size() == 3 && all(row, is_number); }));
+    }
+    EXPECT_EQ(json.at("weights").at("kind"), "cotan");
+    EXPECT_TRUE(json.at("weights").at("clamp").is_number());
+    EXPECT_TRUE(json.at("weights").at("clamped_edges").is_number_integer());
+    for (const char* key : {"energy", "gradient_norm"}) EXPECT_TRUE(json.at(key).is_number_float()) << key;
+    for (const char* key : {"iterations", "evaluations", "peak_memory_bytes"})
+      EXPECT_TRUE(json.at(key).is_number_integer()) << key;
+    EXPECT_EQ(json.at("termination"), "converged");
+    EXPECT_EQ(json.at("history").size(), json.at("iterations").get<std::size_t>() + 1);
+    for (const Json& row : json.at("history"))
+      for (const char* key : {"energy", "gradient_norm", "step"}) EXPECT_TRUE(row.at(key).is_number()) << key;
+
+    const Json& certificate = json.at("certificate");
+    EXPECT_EQ(certificate.at("bijective"), true);
+    EXPECT_TRUE(all(certificate.at("nonpositive_faces"), is_integer));
+    for (const char* key : {"signed_area", "expected_area", "max_edge_length", "max_seam_residual"})
+      EXPECT_TRUE(certificate.at(key).is_number()) << key;
+    EXPECT_FALSE(certificate.at("checks").empty());
+    for (const Json& check : certificate.at("checks")) {
+      EXPECT_TRUE(check.at("name").is_string());
+      EXPECT_TRUE(check.at("passed").is_boolean());
+      EXPECT_TRUE(check.at("value").is_number());
+      EXPECT_TRUE(check.at("bound").is_number());
+    }
+    for (const char* key : {"mean", "std", "median", "max"})
+      EXPECT_TRUE(json.at("distortion").at("area").at(key).is_number()) << key;
+    for (const char* key : {"mean", "max"})
+      EXPECT_TRUE(json.at("distortion").at("angle").at(key).is_number()) << key;
+    EXPECT_TRUE(json.at("distortion").at("histogram").is_object());
+    for (const char* key : {"read", "validate", "weights", "cut", "factorize", "initialize", "optimize",
+                            "certify", "write", "total"})
+      EXPECT_TRUE(json.at("timings").at(key).is_number()) << key;
+    for (const char* key : {"version", "commit", "backend", "blas"})
+      EXPECT_TRUE(json.at("environment").at(key).is_string()) << key;
+    EXPECT_TRUE(json.at("environment").at("threads").is_number_integer());
+    EXPECT_EQ(json.at("environment").at("input_sha256"), run.input_sha256);
+  }
+}
+
+TEST(Report, EndsWithALineBreak) {
+  EXPECT_EQ(report_json(test::sample_embedding("33").result, run).back(), '\n');
+}
+
+TEST(Report, ReadBackSaysTheSame) {
+  for (const std::string& signature : test::sample_signatures()) {
+    const EmbedResult& result = test::sample_embedding(signature).result;
+    const Report report = read(report_json(result, run));
+    EXPECT_EQ(report.signature, signature);
+    EXPECT_EQ(report.group_order, result.embedding.group_order);
+    expect_same(report.seams, result.embedding.seams);
+    expect_same(report.cones, result.embedding.cones);
+    EXPECT_EQ(report.energy, result.minimum.energy);
+    EXPECT_EQ(report.weights.kind, WeightKind::cotan);
+    EXPECT_EQ(report.weights.clamp, 0.01);
+    EXPECT_TRUE(report.converged);
+    EXPECT_TRUE(report.bijective);
+    EXPECT_TRUE(report.nonpositive_faces.empty());
+  }
+}
+
+TEST(Report, SaysWhatFailed) {
+  EmbedResult result = test::sample_embedding("33").result;
+  result.embedding.positions.row(40) = -result.embedding.positions.row(40);
+  result.certificate = certify(test::sample_embedding("33").mesh, result.embedding);
+  result.minimum.termination = Termination::max_iterations;
+  const Report report = read(report_json(result, run));
+  EXPECT_FALSE(report.bijective);
+  EXPECT_FALSE(report.converged);
+  EXPECT_FALSE(report.nonpositive_faces.empty());
+  EXPECT_EQ(report.nonpositive_faces, result.certificate.nonpositive_faces);
+}
+
+TEST(Report, AnyPathIsWrittenAsJson) {
+  RunRecord odd = run;
+  odd.mesh_path = "a \"quoted\"\n\\ \xff\xc3\x28 name";
+  EXPECT_NO_THROW(read(report_json(test::sample_embedding("33").result, odd)));
+}
+
+TEST(Report, CutShortItIsRefused) {
+  const std::string text = report_json(test::sample_embedding("33").result, run);
+  for (std::size_t length = 0; length + 2 < text.size(); length += 1 + text.size() / 200)
+    EXPECT_THAT(refusal(text.substr(0, length)), HasSubstr("no JSON")) << length;
+}
+
+TEST(Report, WhatIsNoReportIsRefused) {
+  for (const char* text :
+       {"", " ", "nonsense", "ply\n", "{", "[1, 2", "{\"schema\": }", "\x00\xff", "{\"energy\": 1e999}"})
+    EXPECT_NE(refusal(text), "accepted") << text;
+  for (const char* text : {"{}", "[]", "null", "7", "\"text\"", "true"})
+    EXPECT_THAT(refusal(text), HasSubstr("'schema'")) << text;
+  EXPECT_NE(refusal(std::string(100000, '[')), "accepted");
+}
+
+TEST(Report, MissingKeysAreNamed) {
+  for (const char* pointer : {"/schema",
+                              "/orbifold",
+                              "/orbifold/signature",
+                              "/orbifold/group_order",
+                              "/seams",
+                              "/seams/0/left",
+                              "/seams/1/right",
+                              "/seams/0/transform",
+                              "/cones",
+                              "/cones/2/vertex",
+                              "/cones/0/order",
+                              "/cones/1/kind",
+                              "/cones/0/copies",
+                              "/weights",
+                              "/weights/kind",
+                              "/weights/clamp",
+                              "/energy",
+                              "/termination",
+                              "/certificate",
+                              "/certificate/bijective",
+                              "/certificate/nonpositive_faces"}) {
+    const Json::json_pointer path(pointer);
+    const std::string sentence =
+        refusal([&](Json& json) { json.at(path.parent_pointer()).erase(path.back()); });
+    EXPECT_THAT(sentence, HasSubstr("'" + path.back() + "'")) << pointer;
+    EXPECT_THAT(sentence, Not(HasSubstr("json.exception"))) << pointer;
+    EXPECT_THAT(sentence, Not(HasSubstr("\n"))) << pointer;
+  }
+}
+
+TEST(Report, ValuesOfTheWrongTypeAreNamed) {
+  const std::vector<std::pair<const char*, std::vector<Json>>> faults = {
+      {"/schema", {1, nullptr, Json::array(), "orbitutte.report/2", ""}},
+      {"/orbifold", {1, "532", Json::array()}},
+      {"/orbifold/signature", {532, nullptr, Json::array()}},
+      {"/orbifold/group_order", {"60", 60.5, nullptr, true, 0, -60, 4294967356LL, 1e300, Json::array({60})}},
+      {"/seams", {1, nullptr, "left", Json::object(), true}},
+      {"/seams/0/left",
+       {1, "1", nullptr, Json::object(), Json::array({"1"}), Json::array({1.5}), Json::array({true})}},
+      {"/seams/0/right",
+       {nullptr, Json::array({4294967296LL}), Json::array({-99999999999LL}), Json::array({Json::array({1})}),
+        Json::array({18446744073709551615ULL})}},
+      {"/seams/0/transform",
+       {1, nullptr, Json::array(), Json::array({1, 2, 3}), Json({{1, 0, 0}, {0, 1, 0}}),
+        Json({{1, 0, 0}, {0, 1, 0}, {0, 0}}), Json({{1, 0, 0}, {0, 1, 0}, {0, 0, "1"}}),
+        Json({{1, 0, 0}, {0, 1, 0}, {0, 0, nullptr}}), Json({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}}),
+        Json({{1, 0, 0, 0}, {0, 1, 0}, {0, 0, 1}})}},
+      {"/cones", {1, nullptr, Json::object()}},
+      {"/cones/0/vertex", {"1", 1.5, nullptr, true, 99999999999LL}},
+      {"/cones/0/order", {"5", 5.5, nullptr, 99999999999LL}},
+      {"/cones/0/kind", {1, nullptr, "", "cone"}},
+      {"/cones/0/copies", {1, nullptr, Json::array({nullptr}), Json::array({"1"})}},
+      {"/weights", {1, nullptr, "cotan"}},
+      {"/weights/kind", {1, nullptr, "other"}},
+      {"/weights/clamp", {"0.01", nullptr, true}},
+      {"/energy", {"1", nullptr, true, Json::array()}},
+      {"/termination", {1, nullptr, false}},
+      {"/certificate", {1, nullptr, Json::array()}},
+      {"/certificate/bijective", {1, 0, nullptr, "true"}},
+      {"/certificate/nonpositive_faces", {1, nullptr, Json::array({"1"}), Json::array({1e10})}}};
+  for (const auto& [pointer, values] : faults) {
+    const Json::json_pointer path(pointer);
+    for (const Json& value : values) {
+      const std::string sentence = refusal([&](Json& json) { json.at(path) = value; });
+      EXPECT_THAT(sentence, HasSubstr("'" + path.back() + "'")) << pointer << " = " << value;
+      EXPECT_THAT(sentence, Not(HasSubstr("json.exception"))) << pointer << " = " << value;
+    }
+  }
+  // Elements of lists that are no objects: the first key that they ought to have is named.
+  EXPECT_THAT(refusal([](Json& json) { json["seams"][0] = 1; }), HasSubstr("'left'"));
+  EXPECT_THAT(refusal([](Json& json) { json["cones"][0] = nullptr; }), ContainsRegex("'kind'|'vertex'"));
+}
+
+TEST(Report, BanksOfDifferentLengthsAreRefused) {
+  EXPECT_THAT(refusal([](Json& json) { json["seams"][0]["left"].push_back(0); }), HasSubstr("'left'"));
+}
+
+TEST(Report, MissingFileIsAFileError) { EXPECT_THROW(read_report("/nowhere/report.json"), FileError); }
+
+// The embedding
+
+TEST(EmbeddingFile, RoundTripIsExact) {
+  for (const std::string& signature : test::sample_signatures()) {
+    const Embedding& written = test::sample_embedding(signature).embedding();
+    const TemporaryFile file(serialize_embedding(written), ".ply");
+    const Embedding read_back = read_embedding(file.path());
+    EXPECT_EQ(read_back.positions, written.positions) << signature;
+    EXPECT_EQ(read_back.faces, written.faces) << signature;
+    EXPECT_EQ(read_back.source_vertex, written.source_vertex) << signature;
+  }
+}
+
+TEST(EmbeddingFile, WithItsReportIsCertifiedAgain) {
+  for (const char* signature : {"532", "33", "*432", "*22"}) {
+    const test::SampleEmbedding& sample = test::sample_embedding(signature);
+    const TemporaryFile file(serialize_embedding(sample.embedding()), ".ply");
+    const Embedding embedding = read_embedding(file.path(), read(report_json(sample.result, run)));
+    EXPECT_EQ(embedding.signature, signature);
+    EXPECT_TRUE(certify(sample.mesh, embedding).bijective);
+  }
+}
+
+TEST(EmbeddingFile, ExtremeNumbersSurvive) {
+  Embedding embedding;
+  embedding.positions.resize(3, 3);
+  embedding.positions << 1.0 / 3, -0.0, std::numeric_limits<double>::denorm_min(), std::nextafter(1.0, 2.0),
+      1e-300, -1, std::numeric_limits<double>::max(), 0, 1;
+  embedding.faces.resize(1, 3);
+  embedding.faces << 2, 0, 1;
+  embedding.source_vertex = {0, 1, 1};
+  const TemporaryFile file(serialize_embedding(embedding), ".ply");
+  const Embedding read_back = read_embedding(file.path());
+  EXPECT_EQ(read_back.positions, embedding.positions);
+  EXPECT_TRUE(std::signbit(read_back.positions(0, 1)));
+  EXPECT_EQ(read_back.source_vertex, embedding.source_vertex);
+}
+
+std::string ply(const std::string& vertex_properties, const std::string& vertices,
+                const std::string& face_property, const std::string& faces) {
+  return "ply\nformat ascii 1.0\nelement vertex 3\n" + vertex_properties + "element face 1\n" +
+         face_property + "end_header\n" + vertices + faces;
+}
+
+const std::string xyzs =
+    "property double x\nproperty double y\nproperty double z\nproperty int source_vertex\n";
+const std::string triple = "1 0 0 0\n0 1 0 1\n0 0 1 2\n";
+const std::string list = "property list uchar int vertex_indices\n";
+
+std::string ply_refusal(const std::string& bytes) {
+  const TemporaryFile file(bytes, ".ply");
+  try {
+    read_embedding(file.path());
+  } catch (const MeshError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(EmbeddingFile, DefectsAreNamed) {
+  EXPECT_EQ(ply_refusal(ply(xyzs, triple, list, "3 0 1 2\n")), "accepted");
+  EXPECT_THAT(ply_refusal(ply("property double x\nproperty double y\nproperty int source_vertex\n",
+                              "1 0 0\n0 1 1\n0 0 2\n", list, "3 0 1 2\n")),
+              HasSubstr("'z'"));
+  EXPECT_THAT(ply_refusal(ply("property double x\nproperty double y\nproperty double z\n",
+                              "1 0 0\n0 1 0\n0 0 1\n", list, "3 0 1 2\n")),
+              HasSubstr("'source_vertex'"));
+  EXPECT_THAT(ply_refusal(ply(xyzs, triple, "property list uchar int corners\n", "3 0 1 2\n")),
+              HasSubstr("'vertex_indices'"));
+  EXPECT_THAT(ply_refusal(ply(xyzs, triple, "property int vertex_indices\n", "0\n")),
+              HasSubstr("'vertex_indices'"));
+  EXPECT_THAT(ply_refusal(ply(xyzs, triple, list, "4 0 1 2 0\n")), HasSubstr("face 0 is no triangle"));
+  EXPECT_THAT(ply_refusal(ply(xyzs, triple, list, "2 0 1\n")), HasSubstr("face 0 is no triangle"));
+  EXPECT_THAT(ply_refusal(ply(xyzs, triple, list, "3 0 1 3\n")),
+              AllOf(HasSubstr("face 0"), HasSubstr("vertex 3")));
+  EXPECT_THAT(ply_refusal(ply(xyzs, triple, list, "3 0 1 -1\n")),
+              AllOf(HasSubstr("face 0"), HasSubstr("vertex -1")));
+  EXPECT_THAT(ply_refusal(ply(xyzs, "1 0 0 0\n0 1 0 7\n0 0 1 2\n", list, "3 0 1 2\n")),
+              AllOf(HasSubstr("cut vertex 1"), HasSubstr("vertex 7")));
+  EXPECT_NE(ply_refusal(ply(xyzs, triple, list, "3 0 1\n")), "accepted");
+  EXPECT_NE(ply_refusal("ply\nformat ascii 1.0\nelement vertex 0\nend_header\n"), "accepted");
+  EXPECT_NE(ply_refusal(""), "accepted");
+  EXPECT_NE(ply_refusal("{}"), "accepted");
+}
+
+TEST(EmbeddingFile, CutShortItIsRefused) {
+  const std::string bytes = serialize_embedding(test::sample_embedding("33").embedding());
+  for (std::size_t length = 0; length < bytes.size(); length += 1 + bytes.size() / 100)
+    EXPECT_NE(ply_refusal(bytes.substr(0, length)), "accepted") << length;
+  EXPECT_NE(ply_refusal(bytes.substr(0, bytes.size() - 1)), "accepted");
+}
+
+TEST(EmbeddingFile, MissingFileIsAFileError) {
+  EXPECT_THROW(read_embedding("/nowhere/embedding.ply"), FileError);
+}
+
+TEST(EmbeddingFile, ReportOfAnotherEmbeddingIsRefused) {
+  const Embedding& embedding = test::sample_embedding("33").embedding();
+  const TemporaryFile file(serialize_embedding(embedding), ".ply");
+  const Report good = read(report_json(test::sample_embedding("33").result, run));
+  const int count = static_cast<int>(embedding.source_vertex.size());
+  for (const int wrong : {-1, count, std::numeric_limits<int>::max(), std::numeric_limits<int>::min()}) {
+    for (const std::function<int&(Report&)>& place :
+         {std::function<int&(Report&)>([](Report& r) -> int& { return r.seams[0].left[1]; }),
+          std::function<int&(Report&)>([](Report& r) -> int& { return r.seams[0].right.back(); }),
+          std::function<int&(Report&)>([](Report& r) -> int& { return r.cones[1].copies[0]; })}) {
+      Report report = good;
+      place(report) = wrong;
+      try {
+        read_embedding(file.path(), report);
+        ADD_FAILURE() << wrong << " is accepted";
+      } catch (const MeshError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("the cut vertex " + std::to_string(wrong)));
+      }
+    }
+  }
+}
+
+TEST(Sha256, DigestsOfTheStandard) {
+  EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(sha256(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  EXPECT_EQ(sha256("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
+            "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
+  EXPECT_EQ(sha256(std::string(1000000, 'a')),
+            "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
+}
+
+}  // namespace
+}  // namespace orbitutte
