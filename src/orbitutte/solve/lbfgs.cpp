@@ -15,23 +15,25 @@ double dot(const Points& a, const Points& b) { return a.cwiseProduct(b).sum(); }
 double max_norm(const Points& a) { return a.size() ? a.cwiseAbs().maxCoeff() : 0.0; }
 
 struct Pair {
-  Points s, y;  // step, difference of gradients
+  Points s, y, Py;  // step, difference of gradients, its image under the preconditioner
   double sy;
 };
 
-// H g of the quasi-Newton matrix whose initial one is gamma P, gamma = s'y/(y' P y) of the newest pair.
+// H g of the quasi-Newton matrix whose initial one is gamma P, gamma = s'y/(y' P y) of the newest pair. P g
+// and the P y are given, and P is linear, so that each iteration solves with the Laplacian once.
 class InverseHessian {
  public:
-  InverseHessian(const LaplacianSolver& laplacian, int memory) : laplacian_(laplacian), memory_(memory) {}
+  explicit InverseHessian(int memory) : memory_(memory) {}
 
-  Points apply(const Points& gradient) const {
-    Points q = gradient;
+  Points apply(const Points& gradient, const Points& preconditioned) const {
+    Points q = gradient, Pq = preconditioned;
     std::vector<double> alpha(pairs_.size());
     for (std::size_t k = pairs_.size(); k-- > 0;) {  // newest to oldest
       alpha[k] = dot(pairs_[k].s, q) / pairs_[k].sy;
       q -= alpha[k] * pairs_[k].y;
+      Pq -= alpha[k] * pairs_[k].Py;
     }
-    Points r = gamma_ * laplacian_.precondition(q);
+    Points r = gamma_ * Pq;
     for (std::size_t k = 0; k < pairs_.size(); ++k) {  // oldest to newest
       const double beta = dot(pairs_[k].y, r) / pairs_[k].sy;
       r += (alpha[k] - beta) * pairs_[k].s;
@@ -40,13 +42,11 @@ class InverseHessian {
   }
 
   // Keeps the pair unless its curvature is not positive.
-  void update(Points s, Points y) {
-    const double sy = dot(s, y);
-    if (!(sy > 0)) return;
-    const double yPy = dot(y, laplacian_.precondition(y));
-    if (!(yPy > 0)) return;
+  void update(Points s, Points y, Points Py) {
+    const double sy = dot(s, y), yPy = dot(y, Py);
+    if (!(sy > 0) || !(yPy > 0)) return;
     gamma_ = sy / yPy;
-    pairs_.push_back({std::move(s), std::move(y), sy});
+    pairs_.push_back({std::move(s), std::move(y), std::move(Py), sy});
     if (static_cast<int>(pairs_.size()) > memory_) pairs_.pop_front();
   }
 
@@ -58,7 +58,6 @@ class InverseHessian {
   bool empty() const { return pairs_.empty(); }
 
  private:
-  const LaplacianSolver& laplacian_;
   int memory_;
   double gamma_ = 1;
   std::deque<Pair> pairs_;  // oldest first
@@ -143,7 +142,8 @@ Minimum minimize(const SphericalEnergy& energy, const LaplacianSolver& laplacian
   Minimum result;
   State state = {start, energy.evaluate(start)};
   result.evaluations = 1;
-  InverseHessian inverse_hessian(laplacian, options.memory);
+  Points preconditioned = laplacian.precondition(state.value.gradient);
+  InverseHessian inverse_hessian(options.memory);
   const LineSearch line_search(energy, result.evaluations);
   double last_step = 0;
 
@@ -153,7 +153,7 @@ Minimum minimize(const SphericalEnergy& energy, const LaplacianSolver& laplacian
   };
   record();
   for (;;) {
-    const Points direction = -inverse_hessian.apply(state.value.gradient);
+    const Points direction = -inverse_hessian.apply(state.value.gradient, preconditioned);
     const double step_tolerance = std::max(options.tolerance, 1e-12);
     if (gradient_vanishes(state.value.gradient, energy.rounding_floor(), options.tolerance) &&
         max_norm(direction) <= step_tolerance) {
@@ -179,7 +179,10 @@ Minimum minimize(const SphericalEnergy& energy, const LaplacianSolver& laplacian
     ++result.iterations;
     Points s = next->x - state.x;
     last_step = max_norm(s);
-    inverse_hessian.update(std::move(s), next->value.gradient - state.value.gradient);
+    Points next_preconditioned = laplacian.precondition(next->value.gradient);
+    inverse_hessian.update(std::move(s), next->value.gradient - state.value.gradient,
+                           next_preconditioned - preconditioned);
+    preconditioned = std::move(next_preconditioned);
     state = std::move(*next);
     record();
   }
