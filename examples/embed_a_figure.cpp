@@ -13,15 +13,18 @@ int main() {
 
   EmbedOptions options;
   options.progress = [](const Progress& progress) {
-    if (progress.stage == "optimize") std::printf("iteration %2d: E = %.12g\n", progress.iteration, progress.energy);
+    if (progress.stage == "optimize")
+      std::printf("iteration %2d: E = %.12g\n", progress.iteration, progress.energy);
     return true;  // false would cancel
   };
   const EmbedResult result = embed(mesh, orbifold, cones, options);
 
-  std::printf("%s after %d iterations, %s\n", name(result.minimum.termination).c_str(), result.minimum.iterations,
+  std::printf("%s after %d iterations, %s\n", name(result.minimum.termination).c_str(),
+              result.minimum.iterations,
               result.certificate.bijective ? "certified bijective" : "not certified");
   for (const Check& check : result.certificate.checks)
     std::printf("  %-15s %s\n", check.name.c_str(), check.passed ? "holds" : check.detail.c_str());
-  std::printf("mean distortion: area %.3f, angles %.3f\n", result.distortion.area.mean, result.distortion.angle.mean);
+  std::printf("mean distortion: area %.3f, angles %.3f\n", result.distortion.area.mean,
+              result.distortion.angle.mean);
   return result.certificate.bijective ? 0 : 1;
 }

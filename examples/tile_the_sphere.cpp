@@ -16,7 +16,8 @@ int main() {
 
   const long long edges = tiling.mesh.F.rows() * 3 / 2;
   std::printf("%d tiles, %lld vertices - %lld edges + %lld faces = %lld; see sphere.glb\n", tiling.tiles,
-              static_cast<long long>(tiling.mesh.V.rows()), edges, static_cast<long long>(tiling.mesh.F.rows()),
+              static_cast<long long>(tiling.mesh.V.rows()), edges,
+              static_cast<long long>(tiling.mesh.F.rows()),
               tiling.mesh.V.rows() - edges + tiling.mesh.F.rows());
   return result.certificate.bijective ? 0 : 1;
 }

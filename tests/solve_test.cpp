@@ -3,10 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "orbitutte/solve/ears.h"
+#include "orbitutte/solve/frame.h"
+#include "orbitutte/solve/laplacian_systems.h"
 #include "orbitutte/solve/lbfgs.h"
 #include "solve_cases.h"
 
@@ -152,6 +156,69 @@ TEST_P(EveryFamily, HarmonicExtensionGivesEveryInnerVertexTheMeanOfItsNeighbours
     pull.row(v).setZero();
   }
   EXPECT_LT(pull.cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST_P(EveryFamily, OneFactorisationWithTheBanksLastSolvesBothSystems) {
+  const auto c = solve_case(GetParam());
+  std::vector<char> inside(c->boundary.basis_of.size(), 1);
+  for (const int v : c->cut.boundary) inside[c->cut.source_vertex[v]] = 0;
+  std::vector<int> order(inside.size());
+  std::iota(order.begin(), order.end(), 0);
+  const LaplacianProblem problem = {c->cut, c->glued, c->weights.w, c->boundary, inside, order};
+  const Points f = random_feasible(*c, 8);
+  const Eigen::MatrixXd g = Eigen::MatrixXd::Random(c->cut.vertex_count(), 2);
+  const auto coupled = coupled_systems(problem, available_backends().front());
+  for (const Backend backend : available_backends()) {
+    const auto banked = banked_systems(problem, backend);
+    EXPECT_LT((banked->solve_glued(f) - coupled->solve_glued(f)).cwiseAbs().maxCoeff(), 1e-11)
+        << name(backend);
+    EXPECT_LT((banked->solve_disk(g) - coupled->solve_disk(g)).cwiseAbs().maxCoeff(), 1e-11) << name(backend);
+  }
+}
+
+TEST(SparseFactor, TrailingBlockIsTheRootOfTheSchurComplement) {
+  const int n = 60, trailing = 7;
+  const Eigen::MatrixXd root = Eigen::MatrixXd::Random(n, n).cwiseProduct(
+      (Eigen::MatrixXd::Random(n, n).array() > 0.8).cast<double>().matrix());
+  const Eigen::MatrixXd A = root * root.transpose() + Eigen::MatrixXd::Identity(n, n);
+  const int leading = n - trailing;
+  const Eigen::MatrixXd schur =
+      A.bottomRightCorner(trailing, trailing) - A.bottomLeftCorner(trailing, leading) *
+                                                    A.topLeftCorner(leading, leading).inverse() *
+                                                    A.topRightCorner(leading, trailing);
+  const SparseMatrix lower = Eigen::MatrixXd(A.triangularView<Eigen::Lower>()).sparseView();
+  const Eigen::MatrixXd B = Eigen::MatrixXd::Random(n, 2);
+  for (const Backend backend : available_backends()) {
+    const auto factor = factorize(lower, backend, trailing);
+    const Eigen::MatrixXd L = factor->trailing_block();
+    EXPECT_LT((L * L.transpose() - schur).cwiseAbs().maxCoeff(), 1e-12) << name(backend);
+    EXPECT_LT((A * factor->solve_upper(factor->solve_lower(B)) - B).cwiseAbs().maxCoeff(), 1e-11)
+        << name(backend);
+  }
+}
+
+TEST(LaplacianSolver, BoundariesThatAreLongBesideTheMeshAreSolvedAsWell) {
+  const Mesh strip = test::grid_disk(400, 1);  // every vertex is on the boundary
+  const EmbedResult result = embed(strip, parse_orbifold("*432"), {0, 200, 600});
+  EXPECT_EQ(result.minimum.termination, Termination::converged);
+}
+
+TEST(Frame, PlaceThatShrinksMostIsTakenToAnAxis) {
+  const auto c = solve_case("432");
+  const SphericalEnergy energy(c->glued, c->weights, c->boundary);
+  Points positions = feasible_positions(*c, 30);
+  EXPECT_FALSE(resolving_frame(energy, positions).has_value());
+  int v = 0;
+  while (c->boundary.basis(v).cols() < 3 || c->glued.edges[v].t != 0 ||
+         c->boundary.basis(c->glued.edges[v].j).cols() < 3)
+    ++v;
+  const auto [i, j, t] = c->glued.edges[v];
+  positions.row(j) = positions.row(i);
+  positions(j, 0) += 1e-9;
+  const std::optional<Matrix3> frame = resolving_frame(energy, positions);
+  ASSERT_TRUE(frame.has_value());
+  EXPECT_LT((*frame * Vector3(positions.row(i)) - Vector3::UnitX()).norm(), 1e-8);
+  EXPECT_NEAR(frame->determinant(), 1, 1e-14);
 }
 
 TEST(SparseFactor, BackendsAgreeAndSolve) {

@@ -11,6 +11,7 @@
 #include "orbitutte/mesh/extremities.h"
 #include "orbitutte/mesh/inspection.h"
 #include "orbitutte/solve/ears.h"
+#include "orbitutte/solve/frame.h"
 #include "orbitutte/solve/initial_embedding.h"
 
 namespace orbitutte {
@@ -141,8 +142,8 @@ EmbedResult embed(const Mesh& mesh, const Orbifold& orbifold, const std::vector<
 
   const CutMesh cut =
       stage("cut", [&] { return cut_to_disk(mesh, connectivity, marked_vertices, options.cut); });  // 4.1
-  const Tile tile = basic_tile(orbifold, cut.arrangement);                         // appendix A
-  const BoundaryConditions boundary = glue(cut, tile, orbifold, marked_vertices);  // (3), (4), (7)
+  Tile tile = basic_tile(orbifold, cut.arrangement);                         // appendix A
+  BoundaryConditions boundary = glue(cut, tile, orbifold, marked_vertices);  // (3), (4), (7)
   const GluedEdges glued = glued_edges(cut, connectivity, boundary);
   require_apart(glued, boundary, orbifold);
   const SphericalEnergy energy(glued, result.weights, boundary);  // (2)
@@ -160,12 +161,18 @@ EmbedResult embed(const Mesh& mesh, const Orbifold& orbifold, const std::vector<
   };
   result.minimum =
       stage("optimize", [&] { return minimize(energy, laplacian, start, lbfgs); });  // algorithm 1
+  Points& positions = result.minimum.positions;
+  fix_gauge(tile, positions);
+  if (const std::optional<Matrix3> frame = resolving_frame(energy, positions)) {
+    tile = rotated(tile, *frame);
+    boundary = glue(cut, tile, orbifold, marked_vertices);
+    const SphericalEnergy there(glued_edges(cut, connectivity, boundary), result.weights, boundary);
+    positions = settle_in_frame(positions, *frame, there, boundary);
+  }
   const std::vector<Ear> ears = find_ears(cut, tile, boundary);
   result.warnings = warnings_about(result.weights, ears);
-  fix_gauge(tile, result.minimum.positions);
-  round_outward(ears, result.minimum.positions);
+  round_outward(ears, positions);
 
-  const Points& positions = result.minimum.positions;
   result.embedding = {orbifold.signature,
                       orbifold.group_order,
                       boundary.spread(positions, cut.source_vertex),

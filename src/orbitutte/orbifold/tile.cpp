@@ -29,6 +29,16 @@ Tile basic_tile(const Orbifold& orbifold, const std::vector<int>& arrangement) {
   return find_family(orbifold.symbol)->tile(orders, arrangement);
 }
 
+Tile rotated(const Tile& tile, const Matrix3& rotation) {
+  Tile result = tile;
+  for (TileSide& side : result.sides) {
+    side.start = rotation * side.start;
+    side.direction = rotation * side.direction;
+    side.transform = rotation * side.transform * rotation.transpose();
+  }
+  return result;
+}
+
 bool free_rotation_axis(const Tile& tile, Vector3& axis) {
   axis = tile.sides.front().start;
   return std::all_of(tile.sides.begin(), tile.sides.end(), [&](const TileSide& side) {

@@ -40,6 +40,9 @@ struct Tile {
 /// permutation.
 Tile basic_tile(const Orbifold& orbifold, const std::vector<int>& arrangement);
 
+/// The same tile turned by a rotation.
+Tile rotated(const Tile& tile, const Matrix3& rotation);
+
 /// True where a rotation about an axis changes no side's gluing, so that the embedding is fixed only up to
 /// it; then `axis` is that direction.
 bool free_rotation_axis(const Tile& tile, Vector3& axis);

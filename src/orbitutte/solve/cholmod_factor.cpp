@@ -8,8 +8,10 @@
 #include <dlfcn.h>
 #include <omp.h>
 
-#include <cstring>
+#include <algorithm>
 #include <new>
+#include <numeric>
+#include <vector>
 
 namespace orbitutte {
 namespace {
@@ -63,18 +65,19 @@ cholmod_sparse sparse_view(const SparseMatrix& lower) {
 
 class CholmodFactor : public SparseFactor {
  public:
-  explicit CholmodFactor(const SparseMatrix& lower) {
+  CholmodFactor(const SparseMatrix& lower, long trailing) : trailing_(trailing) {
     use_one_blas_thread();
     const SerialRegions serial;
     cholmod_l_start(&common_);
     common_.print = 0;
     common_.error_handler = nullptr;
     common_.nmethods = 1;
-    common_.method[0].ordering = CHOLMOD_NATURAL;
-    common_.postorder = 1;
+    common_.method[0].ordering = CHOLMOD_GIVEN;
+    common_.postorder = 0;
     common_.supernodal = CHOLMOD_SUPERNODAL;
     cholmod_sparse A = sparse_view(lower);
-    factor_ = cholmod_l_analyze(&A, &common_);
+    order_ = postorder(lower);
+    factor_ = cholmod_l_analyze_p(&A, order_.data(), nullptr, 0, &common_);
     if (factor_) cholmod_l_factorize(&A, factor_, &common_);
     if (common_.status != CHOLMOD_OK) fail();
   }
@@ -83,18 +86,67 @@ class CholmodFactor : public SparseFactor {
   CholmodFactor(const CholmodFactor&) = delete;
   CholmodFactor& operator=(const CholmodFactor&) = delete;
 
-  Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const override {
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const override { return run(CHOLMOD_A, B); }
+
+  Eigen::MatrixXd solve_lower(const Eigen::MatrixXd& B) const override {
+    Eigen::MatrixXd permuted(B.rows(), B.cols());
+    for (Eigen::Index k = 0; k < B.rows(); ++k) permuted.row(k) = B.row(order_[k]);
+    return run(CHOLMOD_L, permuted);
+  }
+
+  Eigen::MatrixXd solve_upper(const Eigen::MatrixXd& B) const override {
+    const Eigen::MatrixXd permuted = run(CHOLMOD_Lt, B);
+    Eigen::MatrixXd X(B.rows(), B.cols());
+    for (Eigen::Index k = 0; k < B.rows(); ++k) X.row(order_[k]) = permuted.row(k);
+    return X;
+  }
+
+  // Column j of a supernode is stored densely, with the row indices of all of the supernode's columns.
+  Eigen::MatrixXd trailing_block() const override {
+    const auto* super = static_cast<const long*>(factor_->super);
+    const auto* row_start = static_cast<const long*>(factor_->pi);
+    const auto* value_start = static_cast<const long*>(factor_->px);
+    const auto* rows = static_cast<const long*>(factor_->s);
+    const auto* values = static_cast<const double*>(factor_->x);
+    const long leading = static_cast<long>(factor_->n) - trailing_;
+    Eigen::MatrixXd block = Eigen::MatrixXd::Zero(trailing_, trailing_);
+    for (std::size_t s = 0; s < factor_->nsuper; ++s) {
+      const long count = row_start[s + 1] - row_start[s];
+      for (long j = std::max(super[s], leading); j < super[s + 1]; ++j) {
+        const double* column = values + value_start[s] + (j - super[s]) * count;
+        for (long r = 0; r < count; ++r)
+          if (const long i = rows[row_start[s] + r]; i >= j) block(i - leading, j - leading) = column[r];
+      }
+    }
+    return block;
+  }
+
+ private:
+  // The order of A's rows in the factor: a postorder of the leading part's elimination tree, which supernodes
+  // need, and the trailing rows as they are.
+  std::vector<long> postorder(const SparseMatrix& lower) {
+    const long leading = lower.rows() - trailing_;
+    std::vector<long> order(lower.rows());
+    std::iota(order.begin(), order.end(), 0L);
+    SparseMatrix upper = SparseMatrix(lower.topLeftCorner(leading, leading)).transpose();
+    cholmod_sparse view = sparse_view(upper);
+    view.stype = 1;
+    std::vector<long> parent(leading + 1);
+    if (!cholmod_l_etree(&view, parent.data(), &common_) ||
+        cholmod_l_postorder(parent.data(), leading, nullptr, order.data(), &common_) != leading)
+      fail();
+    return order;
+  }
+
+  Eigen::MatrixXd run(int system, const Eigen::MatrixXd& B) const {
     cholmod_dense b = dense_view(B);
-    cholmod_dense* x = cholmod_l_solve(CHOLMOD_A, factor_, &b, &common_);
+    cholmod_dense* x = cholmod_l_solve(system, factor_, &b, &common_);
     if (!x) throw std::bad_alloc();
     Eigen::MatrixXd X = Eigen::Map<Eigen::MatrixXd>(static_cast<double*>(x->x), B.rows(), B.cols());
     cholmod_l_free_dense(&x, &common_);
     return X;
   }
 
-  double nonzeros() const override { return common_.lnz; }
-
- private:
   void release() {
     cholmod_l_free_factor(&factor_, &common_);
     cholmod_l_finish(&common_);
@@ -102,9 +154,7 @@ class CholmodFactor : public SparseFactor {
 
   [[noreturn]] void fail() {
     const int status = common_.status;
-    const long column = factor_ && status == CHOLMOD_NOT_POSDEF
-                            ? static_cast<const long*>(factor_->Perm)[factor_->minor]
-                            : -1;
+    const long column = factor_ && status == CHOLMOD_NOT_POSDEF ? order_[factor_->minor] : -1;
     release();
     if (status == CHOLMOD_NOT_POSDEF) throw NotPositiveDefinite(column);
     throw std::bad_alloc();
@@ -112,12 +162,14 @@ class CholmodFactor : public SparseFactor {
 
   mutable cholmod_common common_;
   cholmod_factor* factor_ = nullptr;
+  long trailing_;
+  std::vector<long> order_;  // row k of the factor is row order_[k] of A
 };
 
 }  // namespace
 
-std::unique_ptr<SparseFactor> cholmod_factorize(const SparseMatrix& lower) {
-  return std::make_unique<CholmodFactor>(lower);
+std::unique_ptr<SparseFactor> cholmod_factorize(const SparseMatrix& lower, long trailing) {
+  return std::make_unique<CholmodFactor>(lower, trailing);
 }
 
 }  // namespace orbitutte

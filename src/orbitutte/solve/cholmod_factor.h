@@ -9,7 +9,7 @@
 namespace orbitutte {
 
 #ifdef ORBITUTTE_HAS_CHOLMOD
-std::unique_ptr<SparseFactor> cholmod_factorize(const SparseMatrix& lower);
+std::unique_ptr<SparseFactor> cholmod_factorize(const SparseMatrix& lower, long trailing);
 #endif
 
 }  // namespace orbitutte

@@ -15,6 +15,8 @@ struct LaplacianOptions {
   Backend backend = available_backends().front();
 };
 
+class LaplacianSystems;
+
 class LaplacianSolver {
  public:
   /// Orders the mesh once and factorises both systems. The arguments must outlive the solver.
@@ -34,13 +36,11 @@ class LaplacianSolver {
   Points precondition(const Points& gradient) const;
 
  private:
-  struct System;
   const CutMesh& cut_;
-  const BoundaryConditions& boundary_;
   const GluedEdges& glued_;
   const Eigen::VectorXd& w_;
-  std::unique_ptr<System> disk_;     // one unknown for each vertex inside the cut disk
-  std::unique_ptr<System> coupled_;  // up to three for each vertex that may move
+  std::vector<char> inside_;  // n: the vertices that extend_harmonically completes
+  std::unique_ptr<LaplacianSystems> systems_;
 };
 
 }  // namespace orbitutte

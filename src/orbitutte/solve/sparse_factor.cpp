@@ -15,18 +15,23 @@ namespace {
 
 class EigenFactor : public SparseFactor {
  public:
-  explicit EigenFactor(const SparseMatrix& lower) : factor_(lower) {
+  EigenFactor(const SparseMatrix& lower, long trailing) : factor_(lower), trailing_(trailing) {
     if (factor_.info() != Eigen::Success) throw NotPositiveDefinite(-1);
   }
 
   Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const override { return factor_.solve(B); }
-  double nonzeros() const override {
-    return static_cast<double>(factor_.matrixL().nestedExpression().nonZeros());
+  Eigen::MatrixXd solve_lower(const Eigen::MatrixXd& B) const override { return factor_.matrixL().solve(B); }
+  Eigen::MatrixXd solve_upper(const Eigen::MatrixXd& B) const override { return factor_.matrixU().solve(B); }
+
+  Eigen::MatrixXd trailing_block() const override {
+    const SparseMatrix& L = factor_.matrixL().nestedExpression();
+    return L.bottomRightCorner(trailing_, trailing_);
   }
 
  private:
   Eigen::SimplicialLLT<SparseMatrix, Eigen::Lower, Eigen::NaturalOrdering<SparseMatrix::StorageIndex>>
       factor_;
+  long trailing_;
 };
 
 }  // namespace
@@ -48,10 +53,10 @@ std::string blas_description(Backend backend) {
   return describe ? describe() : "unknown";
 }
 
-std::unique_ptr<SparseFactor> factorize(const SparseMatrix& lower, Backend backend) {
-  if (backend == Backend::eigen) return std::make_unique<EigenFactor>(lower);
+std::unique_ptr<SparseFactor> factorize(const SparseMatrix& lower, Backend backend, long trailing) {
+  if (backend == Backend::eigen) return std::make_unique<EigenFactor>(lower, trailing);
 #ifdef ORBITUTTE_HAS_CHOLMOD
-  return cholmod_factorize(lower);
+  return cholmod_factorize(lower, trailing);
 #else
   throw ArgumentError("this binary was built without CHOLMOD; its linear solver is Eigen's");
 #endif

@@ -39,13 +39,21 @@ class SparseFactor {
   /// X with A X = B, for all columns of B (n x k).
   virtual Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const = 0;
 
-  virtual double nonzeros() const = 0;  ///< of the factor
+  /// L^-1 B and L^-T B, for all columns of B (n x k). Rows are in the factor's own order, which differs from
+  /// A's among the leading rows only and is the same in both: the first result may be changed in its trailing
+  /// rows and handed to the second. What goes into solve_lower and comes out of solve_upper is in A's order.
+  virtual Eigen::MatrixXd solve_lower(const Eigen::MatrixXd& B) const = 0;
+  virtual Eigen::MatrixXd solve_upper(const Eigen::MatrixXd& B) const = 0;
+
+  /// The trailing rows and columns of L (t x t, lower triangle): L_TT L_TT' is the Schur complement of A onto
+  /// them.
+  virtual Eigen::MatrixXd trailing_block() const = 0;
 };
 
 /// A = L L' of a symmetric positive definite matrix whose lower triangle is given, its rows and columns
-/// already in an order that keeps L sparse (`fill_reducing_order`). Throws NotPositiveDefinite; ArgumentError
-/// where the backend is not in this binary.
-std::unique_ptr<SparseFactor> factorize(const SparseMatrix& lower, Backend backend);
+/// already in an order that keeps L sparse (`fill_reducing_order`). The last `trailing` rows and columns stay
+/// last. Throws NotPositiveDefinite; ArgumentError where the backend is not in this binary.
+std::unique_ptr<SparseFactor> factorize(const SparseMatrix& lower, Backend backend, long trailing = 0);
 
 /// An elimination order of the vertices of a graph by nested dissection (METIS): order[k] is eliminated k-th.
 /// start and neighbor list each vertex' neighbours, without loops.

@@ -120,4 +120,44 @@ SphericalEnergy::Value SphericalEnergy::evaluate(const Points& x) const {
   return value;
 }
 
+void SphericalEnergy::relax(Points& p, int v) const {
+  const Vector3 here = p.row(v);
+  Vector3 pull = Vector3::Zero();
+  double weight = 0;
+  for (int k = start_[v]; k < start_[v + 1]; ++k) {
+    const Vector3 there = image(p, incidences_[k]);
+    const double w = w_[incidences_[k].edge] * distance_over_sine(spherical_distance(here, there));
+    pull += w * (there - here);
+    weight += w;
+  }
+  if (!(weight > 0)) return;
+  pull /= weight;
+  if (basis_of_[v] != 0) pull = projectors_[basis_of_[v]] * pull;
+  pull -= here.dot(pull) * here;
+  p.row(v) = (here + pull).normalized();
+}
+
+std::pair<int, double> SphericalEnergy::smallest_spot(const Points& positions) const {
+  std::pair<int, double> spot = {0, std::numeric_limits<double>::infinity()};
+  for (int v = 0; v < static_cast<int>(positions.rows()); ++v) {
+    for (int k = start_[v]; k < start_[v + 1]; ++k) {
+      const double length = (image(positions, incidences_[k]) - Vector3(positions.row(v))).norm();
+      if (length < spot.second) spot = {v, length};
+    }
+  }
+  return spot;
+}
+
+void SphericalEnergy::relax_small(Points& positions, double length, int sweeps) const {
+  std::vector<int> small;
+  for (int v = 0; v < static_cast<int>(positions.rows()); ++v) {
+    bool any = false;
+    for (int k = start_[v]; k < start_[v + 1] && !any; ++k)
+      any = (image(positions, incidences_[k]) - Vector3(positions.row(v))).norm() < length;
+    if (any) small.push_back(v);
+  }
+  for (int sweep = 0; sweep < sweeps; ++sweep)
+    for (const int v : small) relax(positions, v);
+}
+
 }  // namespace orbitutte

@@ -44,6 +44,14 @@ class SphericalEnergy {
   /// x: n x 3, no row zero. Energy and gradient are sums in a fixed order, whatever the number of threads.
   Value evaluate(const Points& x) const;
 
+  /// The vertex with the shortest edge, and that edge's length.
+  std::pair<int, double> smallest_spot(const Points& positions) const;
+
+  /// Gauss-Seidel sweeps over the vertices with an edge shorter than `length`: each moves to the weighted
+  /// mean of its neighbours, computed from differences, so that it ends within a unit in the last place of
+  /// it.
+  void relax_small(Points& positions, double length, int sweeps) const;
+
   /// How exactly the gradient at unit vectors can be known in double precision: per vertex, the rounding
   /// error of a position times the sum of its weights. n.
   const Eigen::VectorXd& rounding_floor() const { return rounding_floor_; }
@@ -55,6 +63,7 @@ class SphericalEnergy {
 
   Vector3 image(const Points& p, const Incidence& incidence) const;
   void evaluate_edges(const Points& p, double& energy) const;
+  void relax(Points& p, int v) const;
 
   GluedEdges glued_;
   const Eigen::VectorXd w_;
