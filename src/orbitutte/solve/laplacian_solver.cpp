@@ -26,7 +26,7 @@ Neighbors neighbors_of(const GluedEdges& glued, int vertex_count) {
 // the banks are, like shortest paths and ordinary boundaries, no longer than some multiple of the square root
 // of the mesh.
 bool banks_are_short(const CutMesh& cut, std::size_t vertex_count) {
-  return static_cast<double>(cut.boundary.size()) <= 200 + 8 * std::sqrt(static_cast<double>(vertex_count));
+  return static_cast<double>(cut.boundary.size()) <= 200 + 4 * std::sqrt(static_cast<double>(vertex_count));
 }
 
 }  // namespace
