@@ -34,12 +34,15 @@ class Stages {
   }
 
  private:
-  struct Clock {
+  class Clock {
+   public:
     Clock(const char* stage, Timings& timings) : stage_(stage), timings_(timings) {}
     ~Clock() {
       const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
       timings_.emplace_back(stage_, passed.count());
     }
+
+   private:
     const char* stage_;
     Timings& timings_;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

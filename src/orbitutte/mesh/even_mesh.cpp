@@ -11,15 +11,15 @@
 namespace orbitutte {
 namespace {
 
-constexpr int kFewestRelaxedFaces = 600;      // with fewer, vertices slide off what is thin
-constexpr int kMostGrownFaces = 10'000;       // a mesh with more is divided instead
-constexpr int kMostFlippedFaces = 1'000'000;  // beyond, triangles have taken their shapes
-constexpr double kGrowth = 0.15;              // so many of the edges, the longest ones, are split at a time
-constexpr int kFlipPasses = 30;
-constexpr int kGrowingRounds = 3;        // of relaxation after every growth
-constexpr int kFinalRounds = 40;         // and after the last one
-constexpr int kDividingRounds = 2;       // and after every division
-constexpr int kSerialVertices = 20'000;  // fewer are not worth waking threads for
+constexpr int fewest_relaxed_faces = 600;      // with fewer, vertices slide off what is thin
+constexpr int most_grown_faces = 10'000;       // a mesh with more is divided instead
+constexpr int most_flipped_faces = 1'000'000;  // beyond, triangles have taken their shapes
+constexpr double growth = 0.15;                // so many of the edges, the longest ones, are split at a time
+constexpr int flip_passes = 30;
+constexpr int growing_rounds = 3;        // of relaxation after every growth
+constexpr int final_rounds = 40;         // and after the last one
+constexpr int dividing_rounds = 2;       // and after every division
+constexpr int serial_vertices = 20'000;  // fewer are not worth waking threads for
 
 int face_count(const Mesh& mesh) { return static_cast<int>(mesh.F.rows()); }
 int vertex_count(const Mesh& mesh) { return static_cast<int>(mesh.V.rows()); }
@@ -45,12 +45,12 @@ std::vector<char> boundary_vertices(const Mesh& mesh, const Connectivity& connec
 // Newton's steps along the gradient to the zero set, in the plane through p with this normal, or in space for
 // normal 0.
 Vector3 drawn(const SmoothSurface& surface, Vector3 p, const Vector3& normal = Vector3::Zero()) {
-  constexpr int kSteps = 12;
-  constexpr double kTolerance = 1e-9;
-  for (int step = 0; step < kSteps; ++step) {
+  constexpr int steps = 12;
+  constexpr double tolerance = 1e-9;
+  for (int step = 0; step < steps; ++step) {
     const FieldSample at = surface.field(p);
     const Vector3 gradient = at.gradient - at.gradient.dot(normal) * normal;
-    if (std::abs(at.value) < kTolerance || gradient.squaredNorm() == 0) break;
+    if (std::abs(at.value) < tolerance || gradient.squaredNorm() == 0) break;
     p -= at.value / gradient.squaredNorm() * gradient;
   }
   return p;
@@ -108,7 +108,7 @@ void split_long_edges(Mesh& mesh, const SmoothSurface& surface, int faces) {
   const std::vector<int> halfedge = halfedge_of_edges(connectivity);
   std::vector<char> is_split(mesh.F.rows(), 0);
   int m = vertex_count(mesh), f = face_count(mesh);
-  int splits = 1 + static_cast<int>(kGrowth * connectivity.edges.size());
+  int splits = 1 + static_cast<int>(growth * connectivity.edges.size());
   mesh.V.conservativeResize(m + splits, 3);
   mesh.F.conservativeResize(f + 2 * splits, 3);
   for (const int e : edges_by_length(mesh, connectivity)) {
@@ -142,15 +142,15 @@ bool has_edge(const Connectivity& connectivity, int v, int w) {
 
 // Whether a triangle lies with its back to the surface, or nearly so.
 bool lies_wrong(const Mesh& mesh, const SmoothSurface& surface, int a, int b, int c) {
-  constexpr double kLeastCosine = 0.3;
+  constexpr double least_cosine = 0.3;
   Vector3 expected = Vector3::Zero();
   for (const int v : {a, b, c}) expected += normal_at(surface, mesh.V.row(v));
-  return area_vector(mesh, a, b, c).normalized().dot(expected.normalized()) < kLeastCosine;
+  return area_vector(mesh, a, b, c).normalized().dot(expected.normalized()) < least_cosine;
 }
 
 // Flips every edge whose opposite angles add up to more than pi, no two at the same vertex. Returns how many.
 int flip_edges(Mesh& mesh, const SmoothSurface& surface) {
-  constexpr double kRounding = 1e-9;
+  constexpr double rounding = 1e-9;
   const Connectivity connectivity = connect(mesh);
   std::vector<char> at_flip(mesh.V.rows(), 0);
   int flips = 0;
@@ -160,7 +160,7 @@ int flip_edges(Mesh& mesh, const SmoothSurface& surface) {
     const int a = origin(mesh.F, h), b = target(mesh.F, h);
     const int o = origin(mesh.F, previous_halfedge(h)), q = origin(mesh.F, previous_halfedge(g));
     if (at_flip[a] || at_flip[b] || at_flip[o] || at_flip[q]) continue;
-    if (cotangent(mesh, a, b, o) + cotangent(mesh, a, b, q) >= -kRounding || has_edge(connectivity, o, q))
+    if (cotangent(mesh, a, b, o) + cotangent(mesh, a, b, q) >= -rounding || has_edge(connectivity, o, q))
       continue;
     if (lies_wrong(mesh, surface, a, q, o) || lies_wrong(mesh, surface, q, b, o)) continue;
     mesh.F.row(h / 3) << a, q, o;
@@ -172,7 +172,7 @@ int flip_edges(Mesh& mesh, const SmoothSurface& surface) {
 }
 
 void flip_to_delaunay(Mesh& mesh, const SmoothSurface& surface) {
-  for (int pass = 0; pass < kFlipPasses; ++pass) {
+  for (int pass = 0; pass < flip_passes; ++pass) {
     if (flip_edges(mesh, surface) == 0) return;
   }
 }
@@ -210,7 +210,7 @@ Points centres(const Mesh& mesh, const Connectivity& connectivity, const std::ve
 Points centred(const Mesh& mesh, const SmoothSurface& surface, const Connectivity& connectivity) {
   const std::vector<char> on_rim = boundary_vertices(mesh, connectivity);
   Points result = centres(mesh, connectivity, on_rim);
-#pragma omp parallel for if (vertex_count(mesh) > kSerialVertices)
+#pragma omp parallel for if (vertex_count(mesh) > serial_vertices)
   for (int v = 0; v < vertex_count(mesh); ++v) {
     const Vector3 p = mesh.V.row(v), n = normal_at(surface, p), move = result.row(v).transpose() - p;
     const Vector3 moved = p + move - n.dot(move) * n;
@@ -221,11 +221,11 @@ Points centred(const Mesh& mesh, const SmoothSurface& surface, const Connectivit
 
 // Whether a triangle lies with its back to the surface, or nearly so.
 bool lies_wrong(const Mesh& mesh, const Points& normal, int f) {
-  constexpr double kLeastCosine = 0.2;
+  constexpr double least_cosine = 0.2;
   const int a = mesh.F(f, 0), b = mesh.F(f, 1), c = mesh.F(f, 2);
   const Vector3 expected = (normal.row(a) + normal.row(b) + normal.row(c)).normalized();
   const Vector3 area = area_vector(mesh, a, b, c);
-  return area.dot(expected) < kLeastCosine * area.norm();
+  return area.dot(expected) < least_cosine * area.norm();
 }
 
 // Moves all vertices to their centres, but those of triangles that would come to lie wrong.
@@ -274,7 +274,7 @@ Mesh divided(const Mesh& mesh, const SmoothSurface& surface) {
   Mesh result;
   result.V.resize(n + edges, 3);
   result.V.topRows(n) = mesh.V;
-#pragma omp parallel for if (n > kSerialVertices)
+#pragma omp parallel for if (n > serial_vertices)
   for (int e = 0; e < edges; ++e) {
     const auto& [i, j] = connectivity.edges[e];
     result.V.row(n + e) = drawn_midpoint(mesh, surface, i, j, connectivity.opposite[halfedge[e]] < 0);
@@ -296,20 +296,20 @@ Mesh divided(const Mesh& mesh, const SmoothSurface& surface) {
 
 Mesh even_mesh(Mesh mesh, const SmoothSurface& surface, int faces) {
   int divisions = 0;
-  for (double share = faces; share > kMostGrownFaces; share /= 4) ++divisions;
+  for (double share = faces; share > most_grown_faces; share /= 4) ++divisions;
   const int grown = grown_faces(mesh, faces, divisions);
 
   for (Eigen::Index v = 0; v < mesh.V.rows(); ++v) mesh.V.row(v) = drawn(surface, mesh.V.row(v));
   while (face_count(mesh) < grown) {
     split_long_edges(mesh, surface, grown);
-    relax_and_flip(mesh, surface, face_count(mesh) < kFewestRelaxedFaces ? 0 : kGrowingRounds);
+    relax_and_flip(mesh, surface, face_count(mesh) < fewest_relaxed_faces ? 0 : growing_rounds);
   }
-  relax_and_flip(mesh, surface, kFinalRounds);
+  relax_and_flip(mesh, surface, final_rounds);
   for (int division = 0; division < divisions; ++division) {
     mesh = divided(mesh, surface);
-    if (face_count(mesh) <= kMostFlippedFaces) flip_to_delaunay(mesh, surface);
+    if (face_count(mesh) <= most_flipped_faces) flip_to_delaunay(mesh, surface);
     const Connectivity connectivity = connect(mesh);
-    for (int round = 0; round < kDividingRounds; ++round) mesh.V = centred(mesh, surface, connectivity);
+    for (int round = 0; round < dividing_rounds; ++round) mesh.V = centred(mesh, surface, connectivity);
   }
   return mesh;
 }

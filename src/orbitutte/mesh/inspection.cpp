@@ -8,7 +8,7 @@
 namespace orbitutte {
 namespace inspection {
 
-constexpr std::size_t kListed = 5;  // so many elements a sentence names
+constexpr std::size_t most_listed = 5;  // so many elements a sentence names
 
 void add(Inspection& result, DefectKind kind, long long count, std::string message) {
   result.defects.push_back({kind, std::move(message), count});
@@ -24,10 +24,10 @@ std::string such(long long count, const char* plural) {
 }
 
 std::string listed(const std::vector<int>& numbers) {
-  const std::size_t n = numbers.size(), named = n > kListed ? kListed : n - 1;
+  const std::size_t n = numbers.size(), named = n > most_listed ? most_listed : n - 1;
   std::string result;
   for (std::size_t i = 0; i < named; ++i) result += (i > 0 ? ", " : "") + std::to_string(numbers[i]);
-  if (n > kListed) return fmt::format("{} and {} more", result, n - kListed);
+  if (n > most_listed) return fmt::format("{} and {} more", result, n - most_listed);
   return result + (n > 1 ? " and " : "") + std::to_string(numbers.back());
 }
 
@@ -70,20 +70,20 @@ void report_emptiness(Inspection& result) {
 }  // namespace
 
 std::string name(DefectKind kind) {
-  static constexpr const char* kNames[] = {"empty_mesh",
-                                           "index_out_of_range",
-                                           "non_finite_position",
-                                           "too_few_corners",
-                                           "repeated_vertex",
-                                           "duplicate_face",
-                                           "non_manifold_edge",
-                                           "non_manifold_vertex",
-                                           "inconsistent_orientation",
-                                           "several_components",
-                                           "holes",
-                                           "genus",
-                                           "not_orientable"};
-  return kNames[static_cast<int>(kind)];
+  static constexpr const char* names[] = {"empty_mesh",
+                                          "index_out_of_range",
+                                          "non_finite_position",
+                                          "too_few_corners",
+                                          "repeated_vertex",
+                                          "duplicate_face",
+                                          "non_manifold_edge",
+                                          "non_manifold_vertex",
+                                          "inconsistent_orientation",
+                                          "several_components",
+                                          "holes",
+                                          "genus",
+                                          "not_orientable"};
+  return names[static_cast<int>(kind)];
 }
 
 Inspection inspect(const PolygonMesh& mesh) {

@@ -86,7 +86,7 @@ std::vector<int> faces_by_vertices(const Surface& s, const std::vector<int>& sor
     const auto order =
         std::lexicographical_compare_three_way(sorted.begin() + start[f], sorted.begin() + start[f + 1],
                                                sorted.begin() + start[g], sorted.begin() + start[g + 1]);
-    return order == 0 ? f < g : order < 0;
+    return std::is_eq(order) ? f < g : std::is_lt(order);
   };
   for (int v = 0; v < faces.size(); ++v)
     std::sort(faces.items.begin() + faces.start[v], faces.items.begin() + faces.start[v + 1], before);

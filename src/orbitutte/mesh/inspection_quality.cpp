@@ -10,7 +10,7 @@
 namespace orbitutte::inspection {
 namespace {
 
-constexpr double kZeroCotangent = 1e-12;  // rounding errors of a right angle, many times over
+constexpr double zero_cotangent = 1e-12;  // rounding errors of a right angle, many times over
 
 // The largest coordinate of a triangle's edges is the unit in which its area and angles are computed: nothing
 // overflows.
@@ -48,12 +48,12 @@ Triangle triangle(const PolygonMesh& mesh, int f) {
 bool is_triangle(const Surface& s, int f) { return s.well_formed(f) && s.mesh.face_degree(f) == 3; }
 
 void measure_triangles(const Surface& s, Inspection& result) {
-  constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();
+  constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
   double min_angle = std::numeric_limits<double>::infinity(), min_edge = min_angle;
   for (int f = 0; f < result.faces; ++f) {
     if (!is_triangle(s, f)) continue;
     const Triangle t = triangle(s.mesh, f);
-    if (!(t.doubled_area() > kRounding)) {
+    if (!(t.doubled_area() > rounding)) {
       ++result.zero_area_faces;
       continue;
     }
@@ -86,8 +86,8 @@ void count_cotangents(const Surface& s, Inspection& result) {
                end = s.edges.items.begin() + s.edges.start[e + 1];
     if (s.faces_on(e) > 2 || !std::all_of(begin, end, on_triangle)) continue;
     const double weight = cotangent_weight(s, e);
-    result.negative_cotangent_edges += weight < -kZeroCotangent;
-    result.zero_cotangent_edges += std::abs(weight) <= kZeroCotangent;
+    result.negative_cotangent_edges += weight < -zero_cotangent;
+    result.zero_cotangent_edges += std::abs(weight) <= zero_cotangent;
   }
 }
 

@@ -40,6 +40,7 @@ void report_edges(const Surface& s, Inspection& result) {
   }
   if (edges == 0) return;
   std::vector<int> faces;
+  faces.reserve(s.faces_on(first));
   for (int i = 0; i < s.faces_on(first); ++i) faces.push_back(s.face_of[s.half_edge(first, i)]);
   add(result, DefectKind::non_manifold_edge, edges,
       fmt::format("edge ({}, {}) belongs to {} faces ({}){}; remove the extra faces so that every edge has "
@@ -190,6 +191,7 @@ void report_components(const Surface& s, Components components, Inspection& resu
   if (result.components < 2 || has(result, DefectKind::index_out_of_range)) return;
   std::stable_sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.faces > b.faces; });
   std::vector<int> sizes;
+  sizes.reserve(list.size());
   for (const Component& component : list) sizes.push_back(component.faces);
   add(result, DefectKind::several_components, result.components,
       fmt::format("the surface has {} components, of {} faces, the first around vertex {}, the second around "

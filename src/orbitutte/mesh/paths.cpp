@@ -32,7 +32,8 @@ struct Search {
       queue.emplace(0.0, source);
     }
     while (!queue.empty()) {
-      const auto [reached, node] = queue.top();
+      const double reached = queue.top().first;
+      const int node = queue.top().second;
       queue.pop();
       if (reached > distance[node]) continue;
       if (done(node)) return node;

@@ -17,8 +17,8 @@
 namespace orbitutte {
 namespace {
 
-constexpr int kFewestFaces = 100;
-constexpr int kMostFaces = 20'000'000;
+constexpr int fewest_faces = 100;
+constexpr int most_faces = 20'000'000;
 
 // ---- the figure
 
@@ -69,8 +69,8 @@ FieldSample limb_distance(const Limb& limb, const Vector3& p) {
 
 // -log(sum_i exp(-k d_i)) / k: the limbs' distances, smoothly joined over lengths of 1 / k.
 FieldSample figure_field(const Vector3& p) {
-  constexpr double kSharpness = 14;
-  constexpr double kNegligible = 1.5;  // exp(-k d) is 2e-10: no step that shows
+  constexpr double sharpness = 14;
+  constexpr double negligible = 1.5;  // exp(-k d) is 2e-10: no step that shows
   std::array<FieldSample, 12> distance;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < distance.size(); ++i) {
@@ -80,12 +80,12 @@ FieldSample figure_field(const Vector3& p) {
   double sum = 0;
   Vector3 gradient = Vector3::Zero();
   for (const FieldSample& d : distance) {
-    if (d.value > least + kNegligible) continue;
-    const double weight = std::exp(-kSharpness * (d.value - least));
+    if (d.value > least + negligible) continue;
+    const double weight = std::exp(-sharpness * (d.value - least));
     sum += weight;
     gradient += weight * d.gradient;
   }
-  return {least - std::log(sum) / kSharpness, gradient / sum};
+  return {least - std::log(sum) / sharpness, gradient / sum};
 }
 
 // A closed mesh of quadrilaterals that grows by pulling faces out.
@@ -213,9 +213,9 @@ const std::array<Bump, 16>& bumps() {
 // h_i exp(-|(p - c_i) / s_i|^2).
 FieldSample mask_field(const Vector3& p) {
   const Vector3 radii(0.72, 1, 0.58);
-  constexpr double kScale = 0.6;
+  constexpr double scale = 0.6;
   const Vector3 q = p.cwiseQuotient(radii);
-  FieldSample result = {kScale * (q.norm() - 1), kScale * q.normalized().cwiseQuotient(radii)};
+  FieldSample result = {scale * (q.norm() - 1), scale * q.normalized().cwiseQuotient(radii)};
   for (const Bump& bump : bumps()) {
     const Vector3 d = (p - bump.centre).cwiseQuotient(bump.size);
     const double height = bump.height * std::exp(-d.squaredNorm());
@@ -253,9 +253,9 @@ int extreme_vertex(const Mesh& mesh, const Vector3& direction) {
 std::string name(SampleShape shape) { return shape == SampleShape::figure ? "figure" : "mask"; }
 
 Mesh sample_mesh(const SampleOptions& options) {
-  if (options.faces < kFewestFaces || options.faces > kMostFaces) {
+  if (options.faces < fewest_faces || options.faces > most_faces) {
     throw ArgumentError(fmt::format("a sample mesh of {} faces is not made; ask for {} to {}", options.faces,
-                                    kFewestFaces, kMostFaces));
+                                    fewest_faces, most_faces));
   }
   if (options.shape == SampleShape::figure) return even_mesh(coarse_figure(), {figure_field}, options.faces);
   return even_mesh(coarse_mask(), {mask_field}, options.faces);

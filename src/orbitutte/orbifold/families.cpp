@@ -83,7 +83,7 @@ Tile mirrored_triangle(const std::vector<int>& n, const std::vector<int>& marks)
 // n1 n2 n3: the triangle and its mirror image across the side p1 p3, glued by rotations about p1 and p3.
 Tile doubled_triangle(const std::vector<int>& n, const std::vector<int>& marks) {
   const std::vector<Vector3> p = triangle_corners({n[0], n[2], n[1]});  // p1, p3, p2'
-  const Vector3 p1 = p[0], p3 = p[1], p2_image = p[2];
+  const Vector3 &p1 = p[0], &p3 = p[1], &p2_image = p[2];
   const Vector3 p2 = reflection(p1.cross(p3).normalized()) * p2_image;
   Tile tile;
   tile.sides = {short_arc(p1, p2, marks[0]), short_arc(p2, p3, marks[1]), short_arc(p3, p2_image, marks[2]),
