@@ -110,7 +110,7 @@ std::string version_text() {
   const Backend backend = available_backends().front();
   const bool gpl = backend == Backend::cholmod;
   return fmt::format("orbitutte {} ({})\nlinear algebra: {}, BLAS: {}\nlicence: {}", version, commit,
-                     name(backend), blas_description(backend),
+                     name(backend), blas_description(),
                      gpl ? "sources MIT; this binary GPL-2.0-or-later through CHOLMOD's supernodal module"
                          : "MIT (with Eigen, MPL-2.0)");
 }

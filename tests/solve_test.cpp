@@ -71,19 +71,26 @@ TEST_P(EveryFamily, GradientAgreesWithDifferencesOfTheEnergy) {
   const SphericalEnergy energy(c->glued, c->weights, c->boundary);
   const Points x = feasible_positions(*c, 2), direction = random_feasible(*c, 3);
   const double h = 1e-5;
-  const double difference =
-      (energy.evaluate(x + h * direction).energy - energy.evaluate(x - h * direction).energy) / (2 * h);
+  const auto energy_at = [&](double t) {
+    return energy.evaluate((x + t * direction).rowwise().normalized()).energy;
+  };
+  const double difference = (energy_at(h) - energy_at(-h)) / (2 * h);
   const double slope = energy.evaluate(x).gradient.cwiseProduct(direction).sum();
   EXPECT_NEAR(slope, difference, 1e-7 * (1 + std::abs(slope)));
 }
 
-TEST_P(EveryFamily, EnergyDoesNotChangeWithTheLengthOfItsVectors) {
+TEST_P(EveryFamily, EnergyIsTheSumOfSquaredDistances) {
   const auto c = solve_case(GetParam());
   const SphericalEnergy energy(c->glued, c->weights, c->boundary);
   const Points x = feasible_positions(*c, 4);
-  Points scaled = x;
-  for (Eigen::Index v = 0; v < x.rows(); ++v) scaled.row(v) *= 1 + 0.5 * std::sin(static_cast<double>(v));
-  EXPECT_NEAR(energy.evaluate(scaled).energy, energy.evaluate(x).energy, 1e-13 * energy.evaluate(x).energy);
+  double expected = 0;
+  for (std::size_t e = 0; e < c->glued.edges.size(); ++e) {
+    const auto [i, j, t] = c->glued.edges[e];
+    const Vector3 p = x.row(i), q = c->glued.transforms[t] * Vector3(x.row(j));
+    const double d = std::atan2(p.cross(q).norm(), p.dot(q));
+    expected += c->weights.w[static_cast<Eigen::Index>(e)] * d * d;
+  }
+  EXPECT_NEAR(energy.evaluate(x).energy, expected, 1e-13 * expected);
 }
 
 TEST_P(EveryFamily, GradientIsTangentialAndFeasible) {
@@ -162,38 +169,17 @@ TEST_P(EveryFamily, OneFactorisationWithTheBanksLastSolvesBothSystems) {
   const auto c = solve_case(GetParam());
   std::vector<char> inside(c->boundary.basis_of.size(), 1);
   for (const int v : c->cut.boundary) inside[c->cut.source_vertex[v]] = 0;
-  std::vector<int> order(inside.size());
-  std::iota(order.begin(), order.end(), 0);
-  const LaplacianProblem problem = {c->cut, c->glued, c->weights.w, c->boundary, inside, order};
+  const Dissection dissection = dissect(neighbors(c->connectivity.edges, test::vertex_count(c->mesh)));
+  const LaplacianProblem problem = {c->cut, c->glued, c->weights.w, c->boundary, inside, dissection};
   const Points f = random_feasible(*c, 8);
   const Eigen::MatrixXd g = Eigen::MatrixXd::Random(c->cut.vertex_count(), 2);
   const auto coupled = coupled_systems(problem, available_backends().front());
   for (const Backend backend : available_backends()) {
-    const auto banked = banked_systems(problem, backend);
+    LaplacianReuse reuse;
+    const auto banked = banked_systems(problem, {backend}, reuse);
     EXPECT_LT((banked->solve_glued(f) - coupled->solve_glued(f)).cwiseAbs().maxCoeff(), 1e-11)
         << name(backend);
     EXPECT_LT((banked->solve_disk(g) - coupled->solve_disk(g)).cwiseAbs().maxCoeff(), 1e-11) << name(backend);
-  }
-}
-
-TEST(SparseFactor, TrailingBlockIsTheRootOfTheSchurComplement) {
-  const int n = 60, trailing = 7;
-  const Eigen::MatrixXd root = Eigen::MatrixXd::Random(n, n).cwiseProduct(
-      (Eigen::MatrixXd::Random(n, n).array() > 0.8).cast<double>().matrix());
-  const Eigen::MatrixXd A = root * root.transpose() + Eigen::MatrixXd::Identity(n, n);
-  const int leading = n - trailing;
-  const Eigen::MatrixXd schur =
-      A.bottomRightCorner(trailing, trailing) - A.bottomLeftCorner(trailing, leading) *
-                                                    A.topLeftCorner(leading, leading).inverse() *
-                                                    A.topRightCorner(leading, trailing);
-  const SparseMatrix lower = Eigen::MatrixXd(A.triangularView<Eigen::Lower>()).sparseView();
-  const Eigen::MatrixXd B = Eigen::MatrixXd::Random(n, 2);
-  for (const Backend backend : available_backends()) {
-    const auto factor = factorize(lower, backend, trailing);
-    const Eigen::MatrixXd L = factor->trailing_block();
-    EXPECT_LT((L * L.transpose() - schur).cwiseAbs().maxCoeff(), 1e-12) << name(backend);
-    EXPECT_LT((A * factor->solve_upper(factor->solve_lower(B)) - B).cwiseAbs().maxCoeff(), 1e-11)
-        << name(backend);
   }
 }
 
@@ -221,30 +207,17 @@ TEST(Frame, PlaceThatShrinksMostIsTakenToAnAxis) {
   EXPECT_NEAR(frame->determinant(), 1, 1e-14);
 }
 
-TEST(SparseFactor, BackendsAgreeAndSolve) {
-  const int n = 200;
-  std::vector<Eigen::Triplet<double, long>> entries;
-  for (int i = 0; i < n; ++i) {
-    entries.emplace_back(i, i, 4.0 + i % 3);
-    if (i + 1 < n) entries.emplace_back(i + 1, i, -1.0);
-    if (i + 17 < n) entries.emplace_back(i + 17, i, -0.5);
-  }
-  SparseMatrix lower(n, n);
-  lower.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::MatrixXd B = Eigen::MatrixXd::Random(n, 3);
-  for (const Backend backend : available_backends()) {
-    const Eigen::MatrixXd X = factorize(lower, backend)->solve(B);
-    EXPECT_LT((lower.selfadjointView<Eigen::Lower>() * X - B).cwiseAbs().maxCoeff(), 1e-13) << name(backend);
-  }
-}
-
-TEST(SparseFactor, RefusesIndefiniteMatrices) {
-  SparseMatrix lower(2, 2);
-  lower.insert(0, 0) = 1;
-  lower.insert(1, 1) = -1;
-  lower.makeCompressed();
-  for (const Backend backend : available_backends())
-    EXPECT_THROW(factorize(lower, backend), NotPositiveDefinite);
+// A mesh of several blocks, embedded whole and in parts.
+TEST(LaplacianSolver, BlocksOfAnySizeSolveTheSameSystem) {
+  const Mesh sphere = test::perturbed(test::icosphere(5), 0.01, 3);
+  const std::vector<int> marks = choose_marked_vertices(sphere, parse_orbifold("432"));
+  EmbedOptions whole, parts;
+  whole.laplacian.block_size = 100000;
+  parts.laplacian.block_size = 1000;
+  const EmbedResult one = embed(sphere, parse_orbifold("432"), marks, whole),
+                    many = embed(sphere, parse_orbifold("432"), marks, parts);
+  EXPECT_EQ(one.minimum.iterations, many.minimum.iterations);
+  EXPECT_LT((one.minimum.positions - many.minimum.positions).cwiseAbs().maxCoeff(), 1e-11);
 }
 
 TEST(LaplacianSolver, NamesAVertexThatNoPositiveWeightHolds) {

@@ -7,9 +7,11 @@
 #include <Eigen/Geometry>
 #include <chrono>
 #include <cmath>
+#include <stdexcept>
 
 #include "orbitutte/mesh/extremities.h"
 #include "orbitutte/mesh/inspection.h"
+#include "orbitutte/mesh/recognition.h"
 #include "orbitutte/solve/ears.h"
 #include "orbitutte/solve/frame.h"
 #include "orbitutte/solve/initial_embedding.h"
@@ -66,12 +68,22 @@ class ThreadCount {
   int before_;
 };
 
-void require_topology(const Inspection& inspection, const Orbifold& orbifold) {
-  require_embeddable(inspection);
-  if (inspection.topology == orbifold.topology) return;
+void require_topology(Topology topology, const Orbifold& orbifold) {
+  if (topology == orbifold.topology) return;
   throw MeshError(
       fmt::format("the mesh is a {}, but {} needs a {}; choose an orbifold for it (see 'orbitutte types')",
-                  name(inspection.topology), orbifold.signature, name(orbifold.topology)));
+                  name(topology), orbifold.signature, name(orbifold.topology)));
+}
+
+// The mesh as a sphere or disk.
+SoundSurface require_surface(const Mesh& mesh) {
+  if (std::optional<SoundSurface> surface = recognize(mesh)) return std::move(*surface);
+  const Inspection inspection = inspect(mesh);
+  require_embeddable(inspection);
+  if (inspection.topology == Topology::projective_plane)
+    throw MeshError(
+        "the mesh is a projective-plane; no orbifold of this version takes one (see 'orbitutte types')");
+  throw std::logic_error("a mesh without defects was not recognised");
 }
 
 // Cones that lie opposite to each other need more than one edge between them: every arc of length pi is as
@@ -117,10 +129,15 @@ std::vector<std::string> warnings_about(const EdgeWeights& weights, const std::v
   return warnings;
 }
 
-}  // namespace
+// What is known of a mesh before its cones are.
+struct Preparation {
+  std::optional<SoundSurface> surface;
+  std::optional<EdgeWeights> weights;
+  std::shared_ptr<LaplacianReuse> laplacians;  // null where nothing will be used again
+};
 
-EmbedResult embed(const Mesh& mesh, const Orbifold& orbifold, const std::vector<int>& marked_vertices,
-                  const EmbedOptions& options) {
+EmbedResult embed_prepared(const Mesh& mesh, Preparation& prepared, const Orbifold& orbifold,
+                           const std::vector<int>& marked_vertices, const EmbedOptions& options) {
   if (options.threads < 0) throw ArgumentError("the number of threads must not be negative");
   if (marked_vertices.size() != orbifold.marks.size())
     throw MeshError(fmt::format("{} needs {} marked vertices, not {}", orbifold.signature,
@@ -131,27 +148,28 @@ EmbedResult embed(const Mesh& mesh, const Orbifold& orbifold, const std::vector<
   result.threads = omp_get_max_threads();
   result.backend = options.laplacian.backend;
 
-  const Inspection inspection = stage("validate", [&] { return inspect(mesh); });
-  require_topology(inspection, orbifold);
-  result.topology = inspection.topology;
-  result.unreferenced_vertices = inspection.unreferenced_vertices;
-  result.zero_area_faces = inspection.zero_area_faces;
-
-  const Connectivity connectivity = connect(mesh.F, static_cast<int>(mesh.V.rows()));
-  result.weights = stage("weights", [&] {  // section 4
-    return options.weights_file.empty() ? edge_weights(mesh, connectivity, options.weights)
-                                        : read_weights(options.weights_file, connectivity);
+  stage("validate", [&] {
+    if (!prepared.surface) prepared.surface = require_surface(mesh);
+    require_topology(prepared.surface->topology, orbifold);
   });
-
+  const Connectivity& connectivity = prepared.surface->connectivity;
+  stage("weights", [&] {  // section 4
+    if (prepared.weights) return;
+    prepared.weights = options.weights_file.empty() ? edge_weights(mesh, connectivity, options.weights)
+                                                    : read_weights(options.weights_file, connectivity);
+  });
+  const EdgeWeights& weights = *prepared.weights;
   const CutMesh cut =
       stage("cut", [&] { return cut_to_disk(mesh, connectivity, marked_vertices, options.cut); });  // 4.1
   Tile tile = basic_tile(orbifold, cut.arrangement);                         // appendix A
   BoundaryConditions boundary = glue(cut, tile, orbifold, marked_vertices);  // (3), (4), (7)
   const GluedEdges glued = glued_edges(cut, connectivity, boundary);
   require_apart(glued, boundary, orbifold);
-  const SphericalEnergy energy(glued, result.weights, boundary);  // (2)
-  const LaplacianSolver laplacian = stage(
-      "factorize", [&] { return LaplacianSolver(cut, glued, result.weights, boundary, options.laplacian); });
+  const SphericalEnergy energy(glued, weights, boundary);  // (2)
+  LaplacianOptions laplacian_options = options.laplacian;
+  if (prepared.laplacians) laplacian_options.reuse = prepared.laplacians;
+  const LaplacianSolver laplacian =
+      stage("factorize", [&] { return LaplacianSolver(cut, glued, weights, boundary, laplacian_options); });
   const Points start =
       stage("initialize", [&] { return initial_embedding(mesh, cut, tile, boundary, laplacian); });  // B
 
@@ -169,11 +187,11 @@ EmbedResult embed(const Mesh& mesh, const Orbifold& orbifold, const std::vector<
   if (const std::optional<Matrix3> frame = resolving_frame(energy, positions)) {
     tile = rotated(tile, *frame);
     boundary = glue(cut, tile, orbifold, marked_vertices);
-    const SphericalEnergy there(glued_edges(cut, connectivity, boundary), result.weights, boundary);
+    const SphericalEnergy there(glued_edges(cut, connectivity, boundary), weights, boundary);
     positions = settle_in_frame(positions, *frame, there, boundary);
   }
   const std::vector<Ear> ears = find_ears(cut, tile, boundary);
-  result.warnings = warnings_about(result.weights, ears);
+  result.warnings = warnings_about(weights, ears);
   round_outward(ears, positions);
 
   result.embedding = {orbifold.signature,
@@ -192,13 +210,41 @@ EmbedResult embed(const Mesh& mesh, const Orbifold& orbifold, const std::vector<
     result.certificate.checks.push_back({"converged", false, result.minimum.gradient_norm, options.tolerance,
                                          "the optimiser ended before it converged"});
   }
+  result.topology = prepared.surface->topology;
+  result.unreferenced_vertices = prepared.surface->unreferenced_vertices;
+  result.zero_area_faces = prepared.surface->zero_area_faces;
+  result.weights = weights;
   return result;
 }
 
+}  // namespace
+
+EmbedResult embed(const Mesh& mesh, const Orbifold& orbifold, const std::vector<int>& marked_vertices,
+                  const EmbedOptions& options) {
+  Preparation prepared;
+  return embed_prepared(mesh, prepared, orbifold, marked_vertices, options);
+}
+
+struct EmbeddingSolver::State {
+  Mesh mesh;
+  EmbedOptions options;
+  Preparation prepared;
+};
+
+EmbeddingSolver::EmbeddingSolver(Mesh mesh, EmbedOptions options)
+    : state_(std::make_unique<State>(
+          State{std::move(mesh), std::move(options), {{}, {}, reusable_laplacians()}})) {}
+EmbeddingSolver::~EmbeddingSolver() = default;
+EmbeddingSolver::EmbeddingSolver(EmbeddingSolver&&) noexcept = default;
+
+EmbedResult EmbeddingSolver::embed(const Orbifold& orbifold, const std::vector<int>& marked_vertices) {
+  return embed_prepared(state_->mesh, state_->prepared, orbifold, marked_vertices, state_->options);
+}
+
 std::vector<int> choose_marked_vertices(const Mesh& mesh, const Orbifold& orbifold) {
-  require_topology(inspect(mesh), orbifold);
-  return extremities(mesh, connect(mesh.F, static_cast<int>(mesh.V.rows())),
-                     static_cast<int>(orbifold.marks.size()));
+  const SoundSurface surface = require_surface(mesh);
+  require_topology(surface.topology, orbifold);
+  return extremities(mesh, surface.connectivity, static_cast<int>(orbifold.marks.size()));
 }
 
 }  // namespace orbitutte

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -67,6 +68,23 @@ struct EmbedResult {
 /// naming the defect and the vertex, edge or face; ArgumentError; Cancelled; std::bad_alloc.
 EmbedResult embed(const Mesh& mesh, const Orbifold& orbifold, const std::vector<int>& marked_vertices,
                   const EmbedOptions& options = {});
+
+/// For many embeddings of one mesh: keeps what depends neither on the cones nor on their orders, and those
+/// factors of the last embedding that fit the next. Results are those of the function above.
+class EmbeddingSolver {
+ public:
+  /// Keeps a copy of the mesh.
+  explicit EmbeddingSolver(Mesh mesh, EmbedOptions options = {});
+  ~EmbeddingSolver();
+  EmbeddingSolver(EmbeddingSolver&&) noexcept;
+
+  /// As the function above. Stages that find their work done take no time in the result's timings.
+  EmbedResult embed(const Orbifold& orbifold, const std::vector<int>& marked_vertices);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 
 /// Well separated extremities for the marks of the orbifold, on the boundary of a disk.
 /// Throws MeshError where the mesh is not what the orbifold needs.

@@ -1,51 +1,86 @@
 // SPDX-License-Identifier: MIT
 #include "orbitutte/mesh/connectivity.h"
 
+#include <omp.h>
+
 #include <algorithm>
+#include <cstdint>
 #include <numeric>
+
+#include "orbitutte/parallel.h"
 
 namespace orbitutte {
 namespace {
 
-// Half-edges sorted by (lower vertex, upper vertex): a counting sort over the lower one, then a sort of each
-// short bucket.
-std::vector<int> sorted_halfedges(const Faces& F, int vertex_count) {
-  const int halfedges = static_cast<int>(F.size());
-  const auto lower = [&](int h) { return std::min(origin(F, h), target(F, h)); };
-  const auto upper = [&](int h) { return std::max(origin(F, h), target(F, h)); };
+// A half-edge among those with the same lower vertex: its upper vertex, then its number.
+using Key = std::uint64_t;
+Key key(int upper, int h) { return static_cast<Key>(upper) << 32 | static_cast<Key>(h); }
+int upper_vertex(Key k) { return static_cast<int>(k >> 32); }
+int halfedge(Key k) { return static_cast<int>(k & 0xffffffffu); }
 
-  std::vector<int> start(vertex_count + 1, 0);
-  for (int h = 0; h < halfedges; ++h) ++start[lower(h) + 1];
-  std::partial_sum(start.begin(), start.end(), start.begin());
-  std::vector<int> order(halfedges), fill(start.begin(), start.end() - 1);
-  for (int h = 0; h < halfedges; ++h) order[fill[lower(h)]++] = h;
-  for (int v = 0; v < vertex_count; ++v) {
-    std::sort(order.begin() + start[v], order.begin() + start[v + 1],
-              [&](int a, int b) { return std::pair(upper(a), a) < std::pair(upper(b), b); });
+// Calls visit(begin, end) for one range of vertices a thread; each reads the whole mesh and writes what
+// belongs to its vertices.
+template <typename Visit>
+void for_vertex_ranges(int vertex_count, const Visit& visit) {
+  const int ranges = std::max(1, std::min(omp_get_max_threads(), vertex_count / 10000));
+  const auto bound = [&](int r) {
+    return static_cast<int>(static_cast<long long>(vertex_count) * r / ranges);
+  };
+  parallel_for(ranges, [&](int r) { visit(bound(r), bound(r + 1)); });
+}
+
+// Calls visit(lower, upper, half-edge) for every half-edge whose lower vertex is in begin .. end - 1, in
+// ascending order.
+template <typename Visit>
+void for_halfedges(const Faces& F, int begin, int end, const Visit& visit) {
+  const int* corner = F.data();
+  for (int h = 0, size = static_cast<int>(F.size()); h < size; h += 3, corner += 3) {
+    for (int k = 0; k < 3; ++k) {
+      const auto [lower, upper] = std::minmax({corner[k], corner[k == 2 ? 0 : k + 1]});
+      if (lower >= begin && lower < end) visit(lower, upper, h + k);
+    }
   }
-  return order;
 }
 
 }  // namespace
 
 Connectivity connect(const Faces& F, int vertex_count) {
-  Connectivity result;
-  result.edge_of.assign(F.size(), -1);
-  result.opposite.assign(F.size(), -1);
-  result.edges.reserve(F.size() / 2 + 1);
-  int previous = -1;
-  for (const int h : sorted_halfedges(F, vertex_count)) {
-    const auto [i, j] = std::minmax({origin(F, h), target(F, h)});
-    const std::array<int, 2> edge = {i, j};
-    if (previous >= 0 && result.edges.back() == edge) {
-      result.opposite[h] = previous;
-      result.opposite[previous] = h;
-    } else {
-      result.edges.push_back(edge);
+  // A counting sort by the lower vertex, then a sort of each short bucket.
+  std::vector<int> start(vertex_count + 1, 0), first_edge(vertex_count + 1, 0);
+  for_vertex_ranges(vertex_count, [&](int begin, int end) {
+    for_halfedges(F, begin, end, [&](int lower, int, int) { ++start[lower + 1]; });
+  });
+  std::partial_sum(start.begin(), start.end(), start.begin());
+  std::vector<Key> keys(F.size());
+  for_vertex_ranges(vertex_count, [&](int begin, int end) {
+    std::vector<int> fill(start.begin() + begin, start.begin() + end);
+    for_halfedges(F, begin, end,
+                  [&](int lower, int upper, int h) { keys[fill[lower - begin]++] = key(upper, h); });
+    for (int v = begin; v < end; ++v) {
+      std::sort(keys.begin() + start[v], keys.begin() + start[v + 1]);
+      for (int k = start[v]; k < start[v + 1]; ++k)
+        first_edge[v + 1] += k == start[v] || upper_vertex(keys[k]) != upper_vertex(keys[k - 1]);
     }
-    result.edge_of[h] = static_cast<int>(result.edges.size()) - 1;
-    previous = h;
-  }
+  });
+  std::partial_sum(first_edge.begin(), first_edge.end(), first_edge.begin());
+
+  Connectivity result;
+  result.edge_of.resize(F.size());
+  result.opposite.resize(F.size());
+  result.edges.resize(first_edge.back());
+  for_vertex_ranges(vertex_count, [&](int begin, int end) {
+    for (int v = begin; v < end; ++v) {
+      int edge = first_edge[v] - 1;
+      for (int k = start[v]; k < start[v + 1]; ++k) {
+        const int h = halfedge(keys[k]);
+        const bool again = k > start[v] && upper_vertex(keys[k]) == upper_vertex(keys[k - 1]);
+        if (!again) result.edges[++edge] = {v, upper_vertex(keys[k])};
+        result.edge_of[h] = edge;
+        result.opposite[h] = again ? halfedge(keys[k - 1]) : -1;
+        if (again) result.opposite[halfedge(keys[k - 1])] = h;
+      }
+    }
+  });
   return result;
 }
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "orbitutte/parallel.h"
+
 namespace orbitutte {
 namespace {
 
@@ -152,13 +154,12 @@ CutMesh uncut(const Mesh& mesh) {
 }  // namespace
 
 EdgeGraph edge_length_graph(const Mesh& mesh, const Connectivity& connectivity) {
-  EdgeGraph graph = {neighbors(connectivity.edges, static_cast<int>(mesh.V.rows())), {}};
-  graph.length.reserve(connectivity.edges.size());
-  double total = 0;
-  for (const auto& [i, j] : connectivity.edges) {
-    graph.length.push_back(straight_distance(mesh, i, j));
-    total += graph.length.back();
-  }
+  EdgeGraph graph = {neighbors(connectivity.edges, static_cast<int>(mesh.V.rows())),
+                     std::vector<double>(connectivity.edges.size())};
+  const double total = parallel_sum(static_cast<int>(graph.length.size()), [&](int e) {
+    const auto [i, j] = connectivity.edges[e];
+    return graph.length[e] = straight_distance(mesh, i, j);
+  });
   const double tiny = total > 0 ? 1e-6 * total / static_cast<double>(graph.length.size()) : 1.0;
   for (double& length : graph.length) length += tiny;
   return graph;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "orbitutte/mesh/inspection_steps.h"
+#include "orbitutte/mesh/recognition.h"
 
 namespace orbitutte::inspection {
 namespace {
@@ -48,12 +49,12 @@ Triangle triangle(const PolygonMesh& mesh, int f) {
 bool is_triangle(const Surface& s, int f) { return s.well_formed(f) && s.mesh.face_degree(f) == 3; }
 
 void measure_triangles(const Surface& s, Inspection& result) {
-  constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
   double min_angle = std::numeric_limits<double>::infinity(), min_edge = min_angle;
   for (int f = 0; f < result.faces; ++f) {
     if (!is_triangle(s, f)) continue;
     const Triangle t = triangle(s.mesh, f);
-    if (!(t.doubled_area() > rounding)) {
+    const int* corner = &s.mesh.corners[s.mesh.face_start[f]];
+    if (is_degenerate(s.mesh.V.row(corner[0]), s.mesh.V.row(corner[1]), s.mesh.V.row(corner[2]))) {
       ++result.zero_area_faces;
       continue;
     }

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "orbitutte/mesh/file.h"
+#include "orbitutte/parallel.h"
 
 namespace orbitutte {
 namespace {
@@ -32,11 +33,21 @@ double half_cotangent(const Points& V, int i, int j, int o) {
 EdgeWeights cotangent_weights(const Mesh& mesh, const Connectivity& connectivity, double clamp) {
   EdgeWeights result;
   result.clamp = clamp;
-  result.w = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(connectivity.edges.size()));
-  for (int h = 0; h < static_cast<int>(mesh.F.size()); ++h) {
-    const int i = origin(mesh.F, h), j = target(mesh.F, h), o = origin(mesh.F, previous_halfedge(h));
-    result.w[connectivity.edge_of[h]] += half_cotangent(mesh.V, i, j, o);
-  }
+  result.w.resize(static_cast<Eigen::Index>(connectivity.edges.size()));
+  const int halfedges = static_cast<int>(mesh.F.size());
+  std::vector<double> cotangent(halfedges);
+  parallel_ranges(halfedges, [&](int begin, int end) {
+    for (int h = begin; h < end; ++h)
+      cotangent[h] =
+          half_cotangent(mesh.V, origin(mesh.F, h), target(mesh.F, h), origin(mesh.F, previous_halfedge(h)));
+  });
+  parallel_ranges(halfedges, [&](int begin, int end) {
+    for (int h = begin; h < end; ++h) {
+      const int other = connectivity.opposite[h];
+      if (other < 0) result.w[connectivity.edge_of[h]] = cotangent[h];
+      if (other > h) result.w[connectivity.edge_of[h]] = cotangent[h] + cotangent[other];
+    }
+  });
   for (double& w : result.w) {
     if (!(w > 0)) {
       w = clamp;

@@ -83,12 +83,8 @@ Json timings_json(const Timings& stages, const RunRecord& run) {
 }
 
 Json environment_json(const EmbedResult& result, const RunRecord& run) {
-  return {{"version", version},
-          {"commit", commit},
-          {"backend", name(result.backend)},
-          {"blas", blas_description(result.backend)},
-          {"threads", result.threads},
-          {"input_sha256", run.input_sha256}};
+  return {{"version", version},         {"commit", commit},          {"backend", name(result.backend)},
+          {"blas", blas_description()}, {"threads", result.threads}, {"input_sha256", run.input_sha256}};
 }
 
 template <typename Values, typename Convert>

@@ -1,164 +1,228 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+
+#include "orbitutte/parallel.h"
+#include "orbitutte/solve/dense_factor.h"
 #include "orbitutte/solve/laplacian_matrix.h"
 #include "orbitutte/solve/laplacian_systems.h"
+#include "orbitutte/solve/substructure.h"
 
 namespace orbitutte {
 namespace {
 
-// The Laplacian's edges in the cut disk. A weight along the cut is shared by the edge's two images.
-struct CutGraph {
-  Neighbors near;
-  Eigen::VectorXd w;
+// The unknowns of the cut disk, one for each vertex inside in the order of the dissection, then one for each
+// bank vertex.
+struct DiskUnknowns {
+  std::vector<int> vertex;               // of every unknown: its cut vertex
+  std::vector<int> of;                   // of every cut vertex: its unknown, or -1 where it is held
+  std::vector<EliminationBlock> blocks;  // of the inner ones
+  int inner = 0;
+
+  int count() const { return static_cast<int>(vertex.size()); }
+  int banks() const { return count() - inner; }
+  int bank(int k) const { return vertex[inner + k]; }
 };
 
-CutGraph cut_graph(const LaplacianProblem& problem) {
-  const int n_cut = problem.cut.vertex_count();
-  const Connectivity connectivity = connect(problem.cut.F, n_cut);
-  std::vector<int> images(problem.glued.edges.size(), 0), source(connectivity.edges.size());
-  for (std::size_t h = 0; h < connectivity.edge_of.size(); ++h)
-    source[connectivity.edge_of[h]] = problem.glued.edge_of[h];
-  for (const int e : source) ++images[e];
-  CutGraph graph = {neighbors(connectivity.edges, n_cut), Eigen::VectorXd(source.size())};
-  for (std::size_t k = 0; k < source.size(); ++k)
-    graph.w[static_cast<Eigen::Index>(k)] = problem.w[source[k]] / images[source[k]];
-  return graph;
+// The nodes of the dissection down to the depth at which subtrees are small, every such subtree in one block.
+std::vector<EliminationBlock> elimination_blocks(const Dissection& dissection,
+                                                 const std::vector<long>& unknowns_before, int block_size) {
+  int depth = 0, deepest = 0;
+  for (const Dissection::Node& node : dissection.nodes) deepest = std::max(deepest, node.depth);
+  while (depth < deepest && static_cast<int>(dissection.order.size()) >> depth > block_size) ++depth;
+  std::vector<int> block_of(dissection.nodes.size(), -1);
+  std::vector<EliminationBlock> blocks;
+  for (std::size_t k = 0; k < dissection.nodes.size(); ++k) {
+    const Dissection::Node& node = dissection.nodes[k];
+    if (node.depth > depth) continue;
+    block_of[k] = static_cast<int>(blocks.size());
+    blocks.push_back(
+        {-1, unknowns_before[node.depth == depth ? node.first : node.begin], unknowns_before[node.end]});
+  }
+  for (std::size_t k = 0; k < dissection.nodes.size(); ++k) {
+    const int parent = dissection.nodes[k].parent;
+    if (block_of[k] >= 0 && parent >= 0) blocks[block_of[k]].parent = block_of[parent];
+  }
+  return blocks;
 }
 
-// All entries of the lower triangle, zeros too.
-SparseMatrix lower_triangle(const Eigen::MatrixXd& A) {
-  SparseMatrix lower(A.rows(), A.cols());
-  lower.reserve(A.rows() * (A.rows() + 1) / 2);
-  for (Eigen::Index column = 0; column < A.cols(); ++column) {
-    lower.startVec(column);
-    for (Eigen::Index row = column; row < A.rows(); ++row) lower.insertBack(row, column) = A(row, column);
+DiskUnknowns disk_unknowns(const LaplacianProblem& problem, int block_size) {
+  DiskUnknowns unknowns;
+  std::vector<long> before = {0};  // of the k first vertices of the order, how many are inside
+  for (const int v : problem.dissection.order) {
+    if (problem.inside[v]) unknowns.vertex.push_back(v);
+    before.push_back(static_cast<long>(unknowns.vertex.size()));
   }
-  lower.finalize();
-  return lower;
+  unknowns.inner = unknowns.count();
+  unknowns.blocks = elimination_blocks(problem.dissection, before, block_size);
+  for (const int v : problem.cut.boundary)
+    if (problem.boundary.basis(problem.cut.source_vertex[v]).cols() > 0) unknowns.vertex.push_back(v);
+  unknowns.of.assign(problem.cut.vertex_count(), -1);
+  for (int k = 0; k < unknowns.count(); ++k) unknowns.of[unknowns.vertex[k]] = k;
+  return unknowns;
+}
+
+// The lower triangle of the cut disk's Laplacian. An edge along the cut has two images there; the whole
+// weight goes to one, since gluing adds them up.
+SparseMatrix disk_laplacian(const LaplacianProblem& problem, const DiskUnknowns& unknowns) {
+  const int count = unknowns.count();
+  std::vector<std::array<int, 2>> ends(problem.glued.edges.size());
+  for (int h = 0; h < static_cast<int>(problem.cut.F.size()); ++h)
+    ends[problem.glued.edge_of[h]] = {unknowns.of[origin(problem.cut.F, h)],
+                                      unknowns.of[target(problem.cut.F, h)]};
+  SparseMatrix K(count, count);
+  long* start = K.outerIndexPtr();
+  std::fill(start, start + count + 1, 0);
+  for (int k = 0; k < count; ++k) start[k + 1] = 1;
+  for (auto& [a, b] : ends) {
+    if (a > b) std::swap(a, b);
+    if (a >= 0) ++start[a + 1];
+  }
+  for (int k = 0; k < count; ++k) start[k + 1] += start[k];
+  K.resizeNonZeros(start[count]);
+  std::vector<long> fill(start, start + count);
+  for (int k = 0; k < count; ++k) {
+    K.innerIndexPtr()[fill[k]] = k;
+    K.valuePtr()[fill[k]++] = 0;
+  }
+  for (std::size_t e = 0; e < ends.size(); ++e) {
+    const auto [a, b] = ends[e];
+    const double w = problem.w[static_cast<Eigen::Index>(e)];
+    if (a >= 0) {
+      K.innerIndexPtr()[fill[a]] = b;
+      K.valuePtr()[fill[a]++] = -w;
+      K.valuePtr()[start[a]] += w;
+    }
+    if (b >= 0) K.valuePtr()[start[b]] += w;
+  }
+  return K;
 }
 
 class BankedSystems : public LaplacianSystems {
  public:
-  BankedSystems(const LaplacianProblem& problem, Backend backend)
-      : cut_(problem.cut), boundary_(problem.boundary) {
-    const int n_cut = cut_.vertex_count();
-    std::vector<int> order;
-    for (const int v : problem.order)
-      if (problem.inside[v]) order.push_back(v);
-    leading_ = static_cast<long>(order.size());
-    for (const int v : cut_.boundary)
-      if (boundary_.basis(cut_.source_vertex[v]).cols() > 0) banks_.push_back(v);
-    order.insert(order.end(), banks_.begin(), banks_.end());
-    std::vector<int> count(n_cut, 0);
-    for (const int v : order) count[v] = 1;
-    disk_ = number_unknowns(order, std::move(count));
-
-    const CutGraph graph = cut_graph(problem);
-    disk_factor_ = factorize_laplacian(
-        assemble(disk_, graph.near, graph.w, [](int, int) { return Block(Block::Identity(1, 1)); }), disk_,
-        backend, static_cast<long>(banks_.size()));
-    glue_banks(backend);
+  BankedSystems(const LaplacianProblem& problem, const LaplacianOptions& options, LaplacianReuse& reuse)
+      : cut_(problem.cut), boundary_(problem.boundary), disk_(disk_unknowns(problem, options.block_size)) {
+    factorize_disk(problem, options.backend, reuse);
+    glue_banks();
   }
 
   Eigen::MatrixXd solve_disk(const Eigen::MatrixXd& f) const override {
+    Points y = Points::Zero(disk_.count(), 3);
+    for (int k = 0; k < disk_.inner; ++k) y.row(k).head(f.cols()) = f.row(disk_.vertex[k]);
+    factor_->forward(y);
+    y.bottomRows(disk_.banks()).setZero();  // the banks are held at zero
+    factor_->backward(y);
     Eigen::MatrixXd result = Eigen::MatrixXd::Zero(f.rows(), f.cols());
-    if (!disk_factor_) return result;
-    Eigen::MatrixXd x = Eigen::MatrixXd::Zero(disk_.total, f.cols());
-    for (long k = 0; k < leading_; ++k) x.row(k) = f.row(disk_.order[k]);
-    x = disk_factor_->solve_lower(x);
-    x.bottomRows(bank_count()).setZero();  // the banks are held at zero
-    x = disk_factor_->solve_upper(x);
-    for (long k = 0; k < leading_; ++k) result.row(disk_.order[k]) = x.row(k);
+    for (int k = 0; k < disk_.inner; ++k) result.row(disk_.vertex[k]) = y.row(k).head(f.cols());
     return result;
   }
 
-  // With K = L L', the banks' right-hand side is f_B - K_BI K_II^-1 f_I = L_BB y_B, y = L^-1 (f_I, 0), before
-  // they are glued; and once their positions x_B are known, L' x = (y_I, L_BB' x_B) gives the others.
+  // Eliminating the inner vertices leaves f_B - K_BI K_II^-1 f_I on the banks, before they are glued; and
+  // once their positions x_B are known, those of the inner vertices follow.
   Points solve_glued(const Points& f) const override {
+    Points y(disk_.count(), 3);
+    y.bottomRows(disk_.banks()).setZero();
+    parallel_ranges(disk_.inner, [&](int begin, int end) {
+      for (int k = begin; k < end; ++k) y.row(k) = f.row(disk_.vertex[k]);
+    });
+    factor_->forward(y);
+    if (glued_.total > 0) solve_banks(f, y);
+    factor_->backward(y);
     Points result = Points::Zero(f.rows(), 3);
-    if (!disk_factor_) return result;
-    Eigen::MatrixXd y = Eigen::MatrixXd::Zero(disk_.total, 3);
-    for (long k = 0; k < leading_; ++k) y.row(k) = f.row(disk_.order[k]);
-    y = disk_factor_->solve_lower(y);
-    if (glued_factor_) {
-      const Eigen::MatrixXd z =
-          solve_banks(f, trailing_.triangularView<Eigen::Lower>() * y.bottomRows(bank_count()));
-      y.bottomRows(bank_count()) = trailing_.triangularView<Eigen::Lower>().transpose() * z;
-    }
-    y = disk_factor_->solve_upper(y);
-    for (const int v : disk_.order)
-      if (v < f.rows()) result.row(v) = y.row(disk_.first[v]);
+    parallel_ranges(disk_.count(), [&](int begin, int end) {
+      for (int k = begin; k < end; ++k)
+        if (disk_.vertex[k] < f.rows()) result.row(disk_.vertex[k]) = y.row(k);
+    });
     return result;
   }
 
  private:
-  Eigen::Index bank_count() const { return static_cast<Eigen::Index>(banks_.size()); }
+  void factorize_disk(const LaplacianProblem& problem, Backend backend, LaplacianReuse& reuse) {
+    try {
+      factor_ = std::make_shared<Substructure>(disk_laplacian(problem, disk_), disk_.blocks, backend,
+                                               reuse.disk_factor.get());
+      reuse.disk_factor = factor_;
+    } catch (const NotPositiveDefinite& error) {
+      throw not_tied(error.column < 0 ? -1 : disk_.vertex[error.column]);
+    }
+  }
+
+  int source(int bank) const { return cut_.source_vertex[disk_.bank(bank)]; }
 
   // The 3 x k matrix that takes the unknowns of a bank vertex' input vertex to its position.
-  Block placement(int cut_vertex) const {
-    return boundary_.transform(cut_vertex) * boundary_.basis(cut_.source_vertex[cut_vertex]);
+  Block placement(int bank) const {
+    return boundary_.transform(disk_.bank(bank)) * boundary_.basis(source(bank));
   }
 
   // Factorises N'(S x I3)N, where N takes the glued unknowns to the positions of all bank vertices.
-  void glue_banks(Backend backend) {
+  void glue_banks() {
     std::vector<int> count(boundary_.basis_of.size(), 0), order;
-    for (const int v : banks_) {
-      const int source = cut_.source_vertex[v];
-      if (count[source] == 0) order.push_back(source);
-      count[source] = static_cast<int>(boundary_.basis(source).cols());
+    std::vector<Block> placements;
+    std::vector<std::vector<int>> copies;  // of every vertex in `order`
+    std::vector<int> place(count.size());
+    for (int k = 0; k < disk_.banks(); ++k) {
+      const int v = source(k);
+      placements.push_back(placement(k));
+      if (count[v] == 0) {
+        place[v] = static_cast<int>(order.size());
+        order.push_back(v);
+        copies.emplace_back();
+      }
+      copies[place[v]].push_back(k);
+      count[v] = static_cast<int>(placements[k].cols());
     }
     glued_ = number_unknowns(order, std::move(count));
-    if (glued_.total == 0) return;
-    trailing_ = disk_factor_->trailing_block();
-    const Eigen::MatrixXd S = trailing_.triangularView<Eigen::Lower>() * trailing_.transpose();
-    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(glued_.total, glued_.total);
-    std::vector<Block> placements;
-    for (const int v : banks_) placements.push_back(placement(v));
-    for (Eigen::Index l = 0; l < bank_count(); ++l) {
-      const int u = cut_.source_vertex[banks_[l]];
-      const Block left = placements[l].transpose();
-      for (Eigen::Index k = 0; k < bank_count(); ++k) {
-        const int v = cut_.source_vertex[banks_[k]];
-        if (glued_.first[u] < glued_.first[v]) continue;
-        A.block(glued_.first[u], glued_.first[v], left.rows(), glued_.count[v]) +=
-            S(l, k) * left * placements[k];
+    const Eigen::MatrixXd& S = factor_->schur_complement();
+    glued_factor_ = Eigen::MatrixXd::Zero(glued_.total, glued_.total);
+    parallel_for(static_cast<int>(order.size()), [&](int column) {
+      const long first = glued_.first[order[column]];
+      for (const int k : copies[column]) {
+        for (int l = 0; l < disk_.banks(); ++l) {
+          const long row = glued_.first[source(l)];
+          if (row < first) continue;
+          const double s = S(l, k);
+          const Block &left = placements[l], &right = placements[k];
+          for (int c = 0; c < right.cols(); ++c)
+            for (int r = 0; r < left.cols(); ++r)
+              glued_factor_(row + r, first + c) += s * left.col(r).dot(right.col(c));
+        }
       }
+    });
+    try {
+      partial_cholesky(glued_factor_, glued_.total);
+    } catch (const NotPositiveDefinite& error) {
+      throw not_tied(holder(glued_, error.column));
     }
-    glued_factor_ = factorize_laplacian(lower_triangle(A), glued_, backend);
   }
 
-  // Positions (b x 3) of all bank vertices for the right-hand sides `own` of their input vertices and `rest`
-  // of the banks.
-  Eigen::MatrixXd solve_banks(const Points& own, const Eigen::MatrixXd& rest) const {
-    Eigen::VectorXd rhs(glued_.total);
+  // Replaces the right-hand sides of the bank vertices in y, before gluing, by their positions; f holds those
+  // of their input vertices.
+  void solve_banks(const Points& f, Points& y) const {
+    Eigen::VectorXd x(glued_.total);
     for (const int v : glued_.order)
-      rhs.segment(glued_.first[v], glued_.count[v]) = boundary_.basis(v).transpose() * own.row(v).transpose();
-    for (Eigen::Index k = 0; k < bank_count(); ++k) {
-      const int v = cut_.source_vertex[banks_[k]];
-      rhs.segment(glued_.first[v], glued_.count[v]) +=
-          placement(banks_[k]).transpose() * rest.row(k).transpose();
-    }
-    const Eigen::VectorXd z = glued_factor_->solve(rhs);
-    Eigen::MatrixXd positions(bank_count(), 3);
-    for (Eigen::Index k = 0; k < bank_count(); ++k) {
-      const int v = cut_.source_vertex[banks_[k]];
-      positions.row(k) = (placement(banks_[k]) * z.segment(glued_.first[v], glued_.count[v])).transpose();
-    }
-    return positions;
+      x.segment(glued_.first[v], glued_.count[v]) = boundary_.basis(v).transpose() * f.row(v).transpose();
+    for (int k = 0; k < disk_.banks(); ++k)
+      x.segment(glued_.first[source(k)], glued_.count[source(k)]) +=
+          placement(k).transpose() * y.row(disk_.inner + k).transpose();
+    glued_factor_.triangularView<Eigen::Lower>().solveInPlace(x);
+    glued_factor_.transpose().triangularView<Eigen::Upper>().solveInPlace(x);
+    for (int k = 0; k < disk_.banks(); ++k)
+      y.row(disk_.inner + k) =
+          (placement(k) * x.segment(glued_.first[source(k)], glued_.count[source(k)])).transpose();
   }
 
   const CutMesh& cut_;
   const BoundaryConditions& boundary_;
-  std::vector<int> banks_;  // the cut vertices of the boundary that may move
-  long leading_ = 0;        // how many unknowns are inside; the banks' follow
-  Unknowns disk_, glued_;   // by cut vertex; by input vertex on the banks
-  std::unique_ptr<SparseFactor> disk_factor_, glued_factor_;
-  Eigen::MatrixXd trailing_;  // L_BB
+  DiskUnknowns disk_;
+  std::shared_ptr<const Substructure> factor_;
+  Unknowns glued_;                // of the input vertices on the banks
+  Eigen::MatrixXd glued_factor_;  // the Cholesky factor of N'(S x I3)N
 };
 
 }  // namespace
 
-std::unique_ptr<LaplacianSystems> banked_systems(const LaplacianProblem& problem, Backend backend) {
-  return std::make_unique<BankedSystems>(problem, backend);
+std::unique_ptr<LaplacianSystems> banked_systems(const LaplacianProblem& problem,
+                                                 const LaplacianOptions& options, LaplacianReuse& reuse) {
+  return std::make_unique<BankedSystems>(problem, options, reuse);
 }
 
 }  // namespace orbitutte

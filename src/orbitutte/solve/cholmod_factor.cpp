@@ -5,7 +5,6 @@
 #ifdef ORBITUTTE_HAS_CHOLMOD
 
 #include <cholmod.h>
-#include <dlfcn.h>
 #include <omp.h>
 
 #include <algorithm>
@@ -13,23 +12,23 @@
 #include <numeric>
 #include <vector>
 
+#include "orbitutte/solve/dense_factor.h"
+
 namespace orbitutte {
 namespace {
 
 static_assert(sizeof(SuiteSparse_long) == sizeof(SparseMatrix::StorageIndex));
 
-// Two BLAS threads gain nothing on small fronts and lose much on a busy machine.
-void use_one_blas_thread() {
-  using SetThreads = void (*)(int);
-  if (const auto set = reinterpret_cast<SetThreads>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"))) set(1);
-}
-
 // CHOLMOD opens a parallel region of its own for every supernode, which costs more than it gains; while this
-// lives, OpenMP regions run on the calling thread.
+// lives, such regions run on the calling thread. Inside a parallel loop they do so anyway.
 class SerialRegions {
  public:
-  SerialRegions() : before_(omp_get_max_active_levels()) { omp_set_max_active_levels(0); }
-  ~SerialRegions() { omp_set_max_active_levels(before_); }
+  SerialRegions() : before_(omp_get_max_active_levels()) {
+    if (omp_get_active_level() == 0) omp_set_max_active_levels(0);
+  }
+  ~SerialRegions() {
+    if (omp_get_active_level() == 0) omp_set_max_active_levels(before_);
+  }
   SerialRegions(const SerialRegions&) = delete;
   SerialRegions& operator=(const SerialRegions&) = delete;
 
@@ -59,7 +58,8 @@ cholmod_sparse sparse_view(const SparseMatrix& lower) {
   view.itype = CHOLMOD_LONG;
   view.xtype = CHOLMOD_REAL;
   view.dtype = CHOLMOD_DOUBLE;
-  view.sorted = view.packed = 1;
+  view.sorted = 0;
+  view.packed = 1;
   return view;
 }
 
@@ -80,48 +80,86 @@ class CholmodFactor : public SparseFactor {
     factor_ = cholmod_l_analyze_p(&A, order_.data(), nullptr, 0, &common_);
     if (factor_) cholmod_l_factorize(&A, factor_, &common_);
     if (common_.status != CHOLMOD_OK) fail();
+    for (std::size_t k = 0; k < factor_->nsuper; ++k) max_rows_ = std::max(max_rows_, supernode(k).L.rows);
   }
 
   ~CholmodFactor() override { release(); }
   CholmodFactor(const CholmodFactor&) = delete;
   CholmodFactor& operator=(const CholmodFactor&) = delete;
 
-  Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const override { return run(CHOLMOD_A, B); }
-
-  Eigen::MatrixXd solve_lower(const Eigen::MatrixXd& B) const override {
-    Eigen::MatrixXd permuted(B.rows(), B.cols());
-    for (Eigen::Index k = 0; k < B.rows(); ++k) permuted.row(k) = B.row(order_[k]);
-    return run(CHOLMOD_L, permuted);
-  }
-
-  Eigen::MatrixXd solve_upper(const Eigen::MatrixXd& B) const override {
-    const Eigen::MatrixXd permuted = run(CHOLMOD_Lt, B);
-    Eigen::MatrixXd X(B.rows(), B.cols());
-    for (Eigen::Index k = 0; k < B.rows(); ++k) X.row(order_[k]) = permuted.row(k);
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const override {
+    cholmod_dense b = dense_view(B);
+    cholmod_dense* x = cholmod_l_solve(CHOLMOD_A, factor_, &b, &common_);
+    if (!x) throw std::bad_alloc();
+    Eigen::MatrixXd X = Eigen::Map<Eigen::MatrixXd>(static_cast<double*>(x->x), B.rows(), B.cols());
+    cholmod_l_free_dense(&x, &common_);
     return X;
   }
 
-  // Column j of a supernode is stored densely, with the row indices of all of the supernode's columns.
-  Eigen::MatrixXd trailing_block() const override {
-    const auto* super = static_cast<const long*>(factor_->super);
-    const auto* row_start = static_cast<const long*>(factor_->pi);
-    const auto* value_start = static_cast<const long*>(factor_->px);
-    const auto* rows = static_cast<const long*>(factor_->s);
-    const auto* values = static_cast<const double*>(factor_->x);
-    const long leading = static_cast<long>(factor_->n) - trailing_;
-    Eigen::MatrixXd block = Eigen::MatrixXd::Zero(trailing_, trailing_);
-    for (std::size_t s = 0; s < factor_->nsuper; ++s) {
-      const long count = row_start[s + 1] - row_start[s];
-      for (long j = std::max(super[s], leading); j < super[s + 1]; ++j) {
-        const double* column = values + value_start[s] + (j - super[s]) * count;
-        for (long r = 0; r < count; ++r)
-          if (const long i = rows[row_start[s] + r]; i >= j) block(i - leading, j - leading) = column[r];
-      }
+  void forward(Points& y) const override {
+    Points permuted(y.rows(), 3);
+    for (Eigen::Index k = 0; k < y.rows(); ++k) permuted.row(k) = y.row(order_[k]);
+    y.swap(permuted);
+    std::vector<double> pull(3 * max_rows_);
+    for (std::size_t k = 0; k < factor_->nsuper; ++k) {
+      const Supernode s = leading_part(k);
+      orbitutte::forward(s.L, y.data() + 3 * s.first, pull.data());
+      for (long r = 0, border = s.L.border(); r < border; ++r)
+        for (int c = 0; c < 3; ++c) y(s.row[s.L.columns + r], c) -= pull[r + c * border];
     }
-    return block;
+  }
+
+  void backward(Points& y) const override {
+    std::vector<double> x(3 * max_rows_);
+    for (std::size_t k = factor_->nsuper; k-- > 0;) {
+      const Supernode s = leading_part(k);
+      for (long r = 0, border = s.L.border(); r < border; ++r)
+        for (int c = 0; c < 3; ++c) x[r + c * border] = y(s.row[s.L.columns + r], c);
+      orbitutte::backward(s.L, y.data() + 3 * s.first, x.data());
+    }
+    Points permuted(y.rows(), 3);
+    for (Eigen::Index k = 0; k < y.rows(); ++k) permuted.row(order_[k]) = y.row(k);
+    y.swap(permuted);
+  }
+
+  Eigen::MatrixXd schur_complement() const override {
+    const long leading = static_cast<long>(factor_->n) - trailing_;
+    Eigen::MatrixXd S = Eigen::MatrixXd::Zero(trailing_, trailing_);
+    for (std::size_t k = 0; k < factor_->nsuper; ++k) {
+      const Supernode s = supernode(k);
+      for (long j = std::max(0L, leading - s.first); j < s.L.columns; ++j)
+        for (long r = j; r < s.L.rows; ++r)
+          S(s.row[r] - leading, s.first + j - leading) = s.L.values[r + j * s.L.stride];
+    }
+    multiply_by_transpose(S);
+    return S;
   }
 
  private:
+  // Columns with the same rows below them.
+  struct Supernode {
+    long first;       // column
+    const long* row;  // of every row of L
+    DenseColumns L;
+  };
+
+  Supernode supernode(std::size_t k) const {
+    const auto* super = static_cast<const long*>(factor_->super);
+    const auto* row_start = static_cast<const long*>(factor_->pi);
+    const auto* value_start = static_cast<const long*>(factor_->px);
+    const long rows = row_start[k + 1] - row_start[k];
+    return {super[k],
+            static_cast<const long*>(factor_->s) + row_start[k],
+            {static_cast<const double*>(factor_->x) + value_start[k], rows, super[k + 1] - super[k], rows}};
+  }
+
+  // Where a supernode runs into the trailing columns, its part before them.
+  Supernode leading_part(std::size_t k) const {
+    Supernode s = supernode(k);
+    s.L.columns = std::clamp(static_cast<long>(factor_->n) - trailing_ - s.first, 0L, s.L.columns);
+    return s;
+  }
+
   // The order of A's rows in the factor: a postorder of the leading part's elimination tree, which supernodes
   // need, and the trailing rows as they are.
   std::vector<long> postorder(const SparseMatrix& lower) {
@@ -136,15 +174,6 @@ class CholmodFactor : public SparseFactor {
         cholmod_l_postorder(parent.data(), leading, nullptr, order.data(), &common_) != leading)
       fail();
     return order;
-  }
-
-  Eigen::MatrixXd run(int system, const Eigen::MatrixXd& B) const {
-    cholmod_dense b = dense_view(B);
-    cholmod_dense* x = cholmod_l_solve(system, factor_, &b, &common_);
-    if (!x) throw std::bad_alloc();
-    Eigen::MatrixXd X = Eigen::Map<Eigen::MatrixXd>(static_cast<double*>(x->x), B.rows(), B.cols());
-    cholmod_l_free_dense(&x, &common_);
-    return X;
   }
 
   void release() {
@@ -163,6 +192,7 @@ class CholmodFactor : public SparseFactor {
   mutable cholmod_common common_;
   cholmod_factor* factor_ = nullptr;
   long trailing_;
+  long max_rows_ = 0;
   std::vector<long> order_;  // row k of the factor is row order_[k] of A
 };
 

@@ -22,7 +22,8 @@ class CoupledSystems : public LaplacianSystems {
   CoupledSystems(const LaplacianProblem& problem, Backend backend) : boundary_(problem.boundary) {
     const int n = static_cast<int>(problem.inside.size());
     const Neighbors near = neighbors(ends(problem.glued), n);
-    disk_.unknowns = number_unknowns(problem.order, {problem.inside.begin(), problem.inside.end()});
+    disk_.unknowns =
+        number_unknowns(problem.dissection.order, {problem.inside.begin(), problem.inside.end()});
     disk_.factor = factorize_laplacian(
         assemble(disk_.unknowns, near, problem.w, [](int, int) { return Block(Block::Identity(1, 1)); }),
         disk_.unknowns, backend);
@@ -36,7 +37,7 @@ class CoupledSystems : public LaplacianSystems {
       return v == j ? Block(boundary_.basis(i).transpose() * g * boundary_.basis(j))
                     : Block(boundary_.basis(j).transpose() * g.transpose() * boundary_.basis(i));
     };
-    coupled_.unknowns = number_unknowns(problem.order, std::move(room));
+    coupled_.unknowns = number_unknowns(problem.dissection.order, std::move(room));
     coupled_.factor = factorize_laplacian(assemble(coupled_.unknowns, near, problem.w, coupling),
                                           coupled_.unknowns, backend);
   }

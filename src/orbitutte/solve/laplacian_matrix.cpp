@@ -18,18 +18,25 @@ Unknowns number_unknowns(const std::vector<int>& order, std::vector<int> count) 
   return unknowns;
 }
 
+int holder(const Unknowns& unknowns, long unknown) {
+  return *(std::upper_bound(unknowns.order.begin(), unknowns.order.end(), unknown,
+                            [&](long number, int v) { return number < unknowns.first[v]; }) -
+           1);
+}
+
+MeshError not_tied(int vertex) {
+  return MeshError(fmt::format(
+      "no positive weights tie {} to the cones; give it positive weights, or use --weights uniform",
+      vertex < 0 ? "a vertex" : fmt::format("vertex {}", vertex)));
+}
+
 std::unique_ptr<SparseFactor> factorize_laplacian(const SparseMatrix& A, const Unknowns& unknowns,
-                                                  Backend backend, long trailing) {
+                                                  Backend backend) {
   if (unknowns.total == 0) return nullptr;
   try {
-    return factorize(A, backend, trailing);
+    return factorize(A, backend);
   } catch (const NotPositiveDefinite& error) {
-    const auto holder = std::upper_bound(unknowns.order.begin(), unknowns.order.end(), error.column,
-                                         [&](long column, int v) { return column < unknowns.first[v]; });
-    const std::string vertex = error.column < 0 ? "a vertex" : fmt::format("vertex {}", *(holder - 1));
-    throw MeshError(fmt::format(
-        "no positive weights tie {} to the cones; give it positive weights, or use --weights uniform",
-        vertex));
+    throw not_tied(error.column < 0 ? -1 : holder(unknowns, error.column));
   }
 }
 

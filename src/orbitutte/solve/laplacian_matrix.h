@@ -24,10 +24,15 @@ struct Unknowns {
 /// Numbers the unknowns of the vertices in `order`; `count` says how many each vertex has.
 Unknowns number_unknowns(const std::vector<int>& order, std::vector<int> count);
 
-/// factorize(), whose failure becomes a MeshError naming the vertex; the last `trailing` unknowns stay last.
-/// Null where there are no unknowns.
+/// The vertex to which an unknown belongs.
+int holder(const Unknowns& unknowns, long unknown);
+
+/// What is said of a Laplacian that is not positive definite at this vertex (-1: not known which).
+MeshError not_tied(int vertex);
+
+/// factorize(), whose failure becomes a MeshError naming the vertex. Null where there are no unknowns.
 std::unique_ptr<SparseFactor> factorize_laplacian(const SparseMatrix& A, const Unknowns& unknowns,
-                                                  Backend backend, long trailing = 0);
+                                                  Backend backend);
 
 // The lower triangle of the Laplacian sum of w |x_i - g x_j|^2 over the edges, in blocks: `coupling(e, v)` is
 // the block that edge e puts into the rows of its other end and the columns of v, without the factor -w.

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "orbitutte/parallel.h"
 #include "orbitutte/solve/laplacian_systems.h"
 
 namespace orbitutte {
@@ -34,12 +35,16 @@ bool banks_are_short(const CutMesh& cut, std::size_t vertex_count) {
 LaplacianSolver::LaplacianSolver(const CutMesh& cut, const GluedEdges& glued, const EdgeWeights& weights,
                                  const BoundaryConditions& boundary, const LaplacianOptions& options)
     : cut_(cut), glued_(glued), w_(weights.w), inside_(vertices_inside(cut, boundary)) {
-  const Neighbors near = neighbors_of(glued, static_cast<int>(inside_.size()));
-  const LaplacianProblem problem = {cut,      glued,   w_,
-                                    boundary, inside_, fill_reducing_order(near.start, near.neighbor)};
-  systems_ = banks_are_short(cut, inside_.size()) ? banked_systems(problem, options.backend)
+  const std::shared_ptr<LaplacianReuse> reuse = options.reuse ? options.reuse : reusable_laplacians();
+  if (!reuse->dissection)
+    reuse->dissection =
+        std::make_shared<Dissection>(dissect(neighbors_of(glued, static_cast<int>(inside_.size()))));
+  const LaplacianProblem problem = {cut, glued, w_, boundary, inside_, *reuse->dissection};
+  systems_ = banks_are_short(cut, inside_.size()) ? banked_systems(problem, options, *reuse)
                                                   : coupled_systems(problem, options.backend);
 }
+
+std::shared_ptr<LaplacianReuse> reusable_laplacians() { return std::make_shared<LaplacianReuse>(); }
 
 LaplacianSolver::~LaplacianSolver() = default;
 LaplacianSolver::LaplacianSolver(LaplacianSolver&&) noexcept = default;
@@ -67,7 +72,10 @@ Eigen::MatrixXd LaplacianSolver::extend_harmonically(const Eigen::MatrixXd& boun
 }
 
 Points LaplacianSolver::precondition(const Points& gradient) const {
-  return systems_->solve_glued(0.5 * gradient);
+  Points result = systems_->solve_glued(gradient);
+  parallel_ranges(static_cast<int>(result.rows()),
+                  [&](int begin, int end) { result.middleRows(begin, end - begin) *= 0.5; });
+  return result;
 }
 
 }  // namespace orbitutte

@@ -11,15 +11,28 @@
 
 namespace orbitutte {
 
+class LaplacianReuse;
+
 struct LaplacianOptions {
   Backend backend = available_backends().front();
+
+  /// Parts of the mesh with at most so many vertices are factorised each on its own, at the same time as
+  /// others.
+  int block_size = 60000;
+
+  /// What earlier solvers of the same mesh and weights left behind, to be used again where it fits; none
+  /// where null. Results do not depend on it.
+  std::shared_ptr<LaplacianReuse> reuse;
 };
+
+/// Something for LaplacianOptions::reuse that is still empty.
+std::shared_ptr<LaplacianReuse> reusable_laplacians();
 
 class LaplacianSystems;
 
 class LaplacianSolver {
  public:
-  /// Orders the mesh once and factorises both systems. The arguments must outlive the solver.
+  /// Orders the mesh and factorises both systems. The arguments must outlive the solver.
   /// Throws MeshError naming a vertex that no positive weight ties to the cones.
   LaplacianSolver(const CutMesh& cut, const GluedEdges& glued, const EdgeWeights& weights,
                   const BoundaryConditions& boundary, const LaplacianOptions& options = {});

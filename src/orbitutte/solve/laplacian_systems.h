@@ -4,9 +4,19 @@
 
 #include <memory>
 
+#include "orbitutte/solve/dissection.h"
 #include "orbitutte/solve/laplacian_solver.h"
 
 namespace orbitutte {
+
+class Substructure;
+
+/// What does not depend on cones and orders, or may turn out not to.
+class LaplacianReuse {
+ public:
+  std::shared_ptr<const Dissection> dissection;
+  std::shared_ptr<const Substructure> disk_factor;  ///< of the last cut disk
+};
 
 /// The cut disk with its gluing, as the systems see it.
 struct LaplacianProblem {
@@ -15,8 +25,8 @@ struct LaplacianProblem {
   const Eigen::VectorXd& w;
   const BoundaryConditions& boundary;
   const std::vector<char>&
-      inside;              ///< n: is the vertex inside the cut disk, not on its boundary, and used by a face?
-  std::vector<int> order;  ///< n: a fill-reducing elimination order
+      inside;  ///< n: is the vertex inside the cut disk, not on its boundary, and used by a face?
+  const Dissection& dissection;  ///< of the uncut mesh's graph
 };
 
 class LaplacianSystems {
@@ -32,10 +42,12 @@ class LaplacianSystems {
 };
 
 /// One factorisation of the cut disk's scalar Laplacian, its banks last. Away from the banks the three
-/// coordinates do not couple, so the leading part of the factor serves both systems, and the trailing Schur
-/// complement S (the disk's Dirichlet-to-Neumann matrix on the banks) is glued into one small dense matrix
-/// N'(S x I3)N. For banks that are short beside the mesh.
-std::unique_ptr<LaplacianSystems> banked_systems(const LaplacianProblem& problem, Backend backend);
+/// coordinates do not couple, so the factor of the inner vertices serves both systems, and the Schur
+/// complement S onto the banks (the disk's Dirichlet-to-Neumann matrix) is glued into one small dense matrix
+/// N'(S x I3)N. For banks that are short beside the mesh. Uses what it can of the last disk's factor, and
+/// leaves its own behind.
+std::unique_ptr<LaplacianSystems> banked_systems(const LaplacianProblem& problem,
+                                                 const LaplacianOptions& options, LaplacianReuse& reuse);
 
 /// Each system sparse and on its own: a scalar one, and one of up to three unknowns a vertex. For banks of
 /// any length.

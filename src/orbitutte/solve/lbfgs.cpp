@@ -6,61 +6,142 @@
 
 #include <cmath>
 #include <deque>
-#include <optional>
+
+#include "orbitutte/parallel.h"
 
 namespace orbitutte {
 namespace {
 
-double dot(const Points& a, const Points& b) { return a.cwiseProduct(b).sum(); }
-double max_norm(const Points& a) { return a.size() ? a.cwiseAbs().maxCoeff() : 0.0; }
+// Vectors are read once for all their inner products, range by range: they are far larger than any cache.
+using Vectors = std::vector<const Points*>;
 
-struct Pair {
-  Points s, y, Py;  // step, difference of gradients, its image under the preconditioner
-  double sy;
-};
+// <v, a_i> for every i.
+std::vector<double> inner_products(const Vectors& vectors, const Points& a) {
+  constexpr int length = 2048;  // rows
+  const int rows = static_cast<int>(a.rows()), ranges = (rows + length - 1) / length;
+  std::vector<std::vector<double>> partial(ranges, std::vector<double>(vectors.size()));
+  parallel_for(ranges, [&](int r) {
+    const int begin = r * length, count = std::min(length, rows - begin);
+    for (std::size_t k = 0; k < vectors.size(); ++k)
+      partial[r][k] = vectors[k]->middleRows(begin, count).cwiseProduct(a.middleRows(begin, count)).sum();
+  });
+  std::vector<double> result(vectors.size(), 0.0);
+  for (const std::vector<double>& products : partial)
+    for (std::size_t k = 0; k < products.size(); ++k) result[k] += products[k];
+  return result;
+}
+
+double dot(const Points& a, const Points& b) { return inner_products({&a}, b).front(); }
+
+// sum of c_i a_i.
+Points combination(const Vectors& vectors, const std::vector<double>& coefficients) {
+  Points result(vectors.front()->rows(), 3);
+  parallel_ranges(static_cast<int>(result.rows()), [&](int begin, int end) {
+    auto rows = result.middleRows(begin, end - begin);
+    rows = coefficients[0] * vectors[0]->middleRows(begin, end - begin);
+    for (std::size_t k = 1; k < vectors.size(); ++k)
+      rows += coefficients[k] * vectors[k]->middleRows(begin, end - begin);
+  });
+  return result;
+}
+
+double max_norm(const Points& a) {
+  return parallel_max(static_cast<int>(a.rows()), [&](int v) { return a.row(v).cwiseAbs().maxCoeff(); });
+}
+
+Points difference(const Points& a, const Points& b) { return combination({&a, &b}, {1, -1}); }
 
 // H g of the quasi-Newton matrix whose initial one is gamma P, gamma = s'y/(y' P y) of the newest pair. P g
-// and the P y are given, and P is linear, so that each iteration solves with the Laplacian once.
+// and the P y are given, and P is linear, so that each iteration solves with the Laplacian once. The two
+// loops run over inner products (W. Chen, Z. Wang, J. Zhou, "Large-scale L-BFGS using MapReduce", NIPS 2014),
+// of which only the newest are computed.
 class InverseHessian {
  public:
-  explicit InverseHessian(int memory) : memory_(memory) {}
+  explicit InverseHessian(int memory) : memory_(static_cast<std::size_t>(memory)) {}
 
-  Points apply(const Points& gradient, const Points& preconditioned) const {
-    Points q = gradient, Pq = preconditioned;
-    std::vector<double> alpha(pairs_.size());
-    for (std::size_t k = pairs_.size(); k-- > 0;) {  // newest to oldest
-      alpha[k] = dot(pairs_[k].s, q) / pairs_[k].sy;
-      q -= alpha[k] * pairs_[k].y;
-      Pq -= alpha[k] * pairs_[k].Py;
+  // -H g.
+  Points descent(const Points& gradient, const Points& preconditioned) const {
+    const std::size_t count = pairs_.size();
+    Vectors vectors;
+    for (const Pair& pair : pairs_) vectors.push_back(&pair.s);
+    for (const Pair& pair : pairs_) vectors.push_back(&pair.Py);
+    const std::vector<double> products = inner_products(vectors, gradient);  // s_k' g, and y_k' P g
+    std::vector<double> alpha(count), along_s(count), coefficients;
+    for (std::size_t k = count; k-- > 0;) {  // newest to oldest: alpha_k = s_k' q/s_k' y_k
+      double sq = products[k];
+      for (std::size_t j = k + 1; j < count; ++j) sq -= alpha[j] * sy_[k][j];
+      alpha[k] = sq / sy_[k][k];
     }
-    Points r = gamma_ * Pq;
-    for (std::size_t k = 0; k < pairs_.size(); ++k) {  // oldest to newest
-      const double beta = dot(pairs_[k].y, r) / pairs_[k].sy;
-      r += (alpha[k] - beta) * pairs_[k].s;
+    for (std::size_t k = 0; k < count; ++k) {  // oldest to newest: beta_k = y_k' r/s_k' y_k
+      double yr = products[count + k];
+      for (std::size_t j = 0; j < count; ++j) yr -= alpha[j] * yPy_[k][j];
+      yr *= gamma_;
+      for (std::size_t j = 0; j < k; ++j) yr += along_s[j] * sy_[j][k];
+      along_s[k] = alpha[k] - yr / sy_[k][k];
     }
-    return r;
+    for (const double a : along_s) coefficients.push_back(-a);
+    for (const double a : alpha) coefficients.push_back(gamma_ * a);
+    vectors.push_back(&preconditioned);
+    coefficients.push_back(-gamma_);
+    return combination(vectors, coefficients);
   }
 
   // Keeps the pair unless its curvature is not positive.
   void update(Points s, Points y, Points Py) {
-    const double sy = dot(s, y), yPy = dot(y, Py);
-    if (!(sy > 0) || !(yPy > 0)) return;
-    gamma_ = sy / yPy;
-    pairs_.push_back({std::move(s), std::move(y), std::move(Py), sy});
-    if (static_cast<int>(pairs_.size()) > memory_) pairs_.pop_front();
+    pairs_.push_back({std::move(s), std::move(y), std::move(Py)});
+    const Pair& newest = pairs_.back();
+    Vectors all_s, all_y, all_Py;
+    for (const Pair& pair : pairs_) {
+      all_s.push_back(&pair.s);
+      all_y.push_back(&pair.y);
+      all_Py.push_back(&pair.Py);
+    }
+    all_y.pop_back();
+    std::vector<double> row = inner_products(all_y, newest.s);
+    const std::vector<double> column = inner_products(all_s, newest.y),
+                              products = inner_products(all_Py, newest.y);
+    if (!(column.back() > 0) || !(products.back() > 0)) {
+      pairs_.pop_back();
+      return;
+    }
+    gamma_ = column.back() / products.back();
+    for (std::size_t k = 0; k < sy_.size(); ++k) {
+      sy_[k].push_back(column[k]);
+      yPy_[k].push_back(products[k]);
+    }
+    row.push_back(column.back());
+    sy_.emplace_back(row.begin(), row.end());
+    yPy_.emplace_back(products.begin(), products.end());
+    if (pairs_.size() > memory_) drop_oldest();
   }
 
   void forget() {
     pairs_.clear();
+    sy_.clear();
+    yPy_.clear();
     gamma_ = 1;
   }
 
   bool empty() const { return pairs_.empty(); }
 
  private:
-  int memory_;
+  struct Pair {
+    Points s, y, Py;  // step, difference of gradients, its image under the preconditioner
+  };
+  using Table = std::deque<std::deque<double>>;
+
+  void drop_oldest() {
+    pairs_.pop_front();
+    for (Table* table : {&sy_, &yPy_}) {
+      table->pop_front();
+      for (auto& products : *table) products.pop_front();
+    }
+  }
+
+  std::size_t memory_;
   double gamma_ = 1;
   std::deque<Pair> pairs_;  // oldest first
+  Table sy_, yPy_;          // s_i' y_j, and y_i' P y_j
 };
 
 struct State {
@@ -72,29 +153,36 @@ class LineSearch {
  public:
   LineSearch(const SphericalEnergy& energy, int& evaluations) : energy_(energy), evaluations_(evaluations) {}
 
-  // A step along `direction` that satisfies Armijo's condition, or, within the energy's rounding, the
-  // approximate Wolfe one.
-  std::optional<State> run(const State& from, const Points& direction) const {
+  // Finds a step along `direction` that satisfies Armijo's condition, or, within the energy's rounding, the
+  // approximate Wolfe one, and the state behind it, whose memory is used again. Is there one?
+  bool run(const State& from, const Points& direction, State& to) const {
     const double slope = dot(from.value.gradient, direction);
-    if (!(slope < 0)) return std::nullopt;
+    if (!(slope < 0)) return false;
     double t = 1;
     for (int trial = 0; trial < 40; ++trial) {
-      const Points x = (from.x + t * direction).rowwise().normalized();
-      State to = {x, energy_.evaluate(x)};
+      move(from.x, direction, t, to.x);
+      energy_.evaluate(to.x, to.value);
       ++evaluations_;
-      if (accept(from, to, direction, t, slope)) return to;
+      if (accept(from, to, direction, t, slope)) return true;
       t = shorter(t, slope, to.value.energy - from.value.energy);
     }
-    return std::nullopt;
+    return false;
   }
 
  private:
   static constexpr double armijo = 1e-4;
   static constexpr double energy_rounding = 1e-14;
 
+  static void move(const Points& x, const Points& direction, double t, Points& result) {
+    result.resize(x.rows(), 3);
+    parallel_ranges(static_cast<int>(x.rows()), [&](int begin, int end) {
+      for (int v = begin; v < end; ++v) result.row(v) = (x.row(v) + t * direction.row(v)).normalized();
+    });
+  }
+
   static bool accept(const State& from, const State& to, const Points& direction, double t, double slope) {
     const double change = to.value.energy - from.value.energy;
-    if (!std::isfinite(change) || !to.value.gradient.allFinite()) return false;
+    if (!std::isfinite(change) || !std::isfinite(dot(to.value.gradient, to.value.gradient))) return false;
     if (change <= armijo * t * slope && std::abs(change) > energy_rounding * from.value.energy) return true;
     if (std::abs(change) > energy_rounding * from.value.energy) return false;
     return dot(to.value.gradient, direction) <= (2 * armijo - 1) * slope;
@@ -112,8 +200,9 @@ class LineSearch {
 };
 
 bool gradient_vanishes(const Points& gradient, const Eigen::VectorXd& rounding_floor, double tolerance) {
-  const auto norms = gradient.cwiseAbs().rowwise().maxCoeff();
-  return (norms.array() <= rounding_floor.array().max(tolerance)).all();
+  return parallel_max(static_cast<int>(gradient.rows()), [&](int v) {
+           return gradient.row(v).cwiseAbs().maxCoeff() / std::max(rounding_floor[v], tolerance);
+         }) <= 1;
 }
 
 void check(const LbfgsOptions& options) {
@@ -140,7 +229,7 @@ Minimum minimize(const SphericalEnergy& energy, const LaplacianSolver& laplacian
                  const LbfgsOptions& options) {
   check(options);
   Minimum result;
-  State state = {start, energy.evaluate(start)};
+  State state = {start, energy.evaluate(start)}, next;
   result.evaluations = 1;
   Points preconditioned = laplacian.precondition(state.value.gradient);
   InverseHessian inverse_hessian(options.memory);
@@ -153,7 +242,7 @@ Minimum minimize(const SphericalEnergy& energy, const LaplacianSolver& laplacian
   };
   record();
   for (;;) {
-    const Points direction = -inverse_hessian.apply(state.value.gradient, preconditioned);
+    const Points direction = inverse_hessian.descent(state.value.gradient, preconditioned);
     const double step_tolerance = std::max(options.tolerance, 1e-12);
     if (gradient_vanishes(state.value.gradient, energy.rounding_floor(), options.tolerance) &&
         max_norm(direction) <= step_tolerance) {
@@ -164,8 +253,7 @@ Minimum minimize(const SphericalEnergy& energy, const LaplacianSolver& laplacian
       result.termination = Termination::max_iterations;
       break;
     }
-    std::optional<State> next = line_search.run(state, direction);
-    if (!next) {
+    if (!line_search.run(state, direction, next)) {
       if (inverse_hessian.empty()) {
         result.termination =
             gradient_vanishes(state.value.gradient, energy.rounding_floor(), options.tolerance)
@@ -177,13 +265,13 @@ Minimum minimize(const SphericalEnergy& energy, const LaplacianSolver& laplacian
       continue;
     }
     ++result.iterations;
-    Points s = next->x - state.x;
+    Points s = difference(next.x, state.x);
     last_step = max_norm(s);
-    Points next_preconditioned = laplacian.precondition(next->value.gradient);
-    inverse_hessian.update(std::move(s), next->value.gradient - state.value.gradient,
-                           next_preconditioned - preconditioned);
+    Points next_preconditioned = laplacian.precondition(next.value.gradient);
+    inverse_hessian.update(std::move(s), difference(next.value.gradient, state.value.gradient),
+                           difference(next_preconditioned, preconditioned));
     preconditioned = std::move(next_preconditioned);
-    state = std::move(*next);
+    std::swap(state, next);
     record();
   }
   result.positions = std::move(state.x);

@@ -2,13 +2,11 @@
 #include "orbitutte/solve/sparse_factor.h"
 
 #include <dlfcn.h>
-#include <metis.h>
 
 #include <Eigen/SparseCholesky>
-#include <new>
-#include <numeric>
 
 #include "orbitutte/solve/cholmod_factor.h"
+#include "orbitutte/solve/dense_factor.h"
 
 namespace orbitutte {
 namespace {
@@ -20,12 +18,32 @@ class EigenFactor : public SparseFactor {
   }
 
   Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const override { return factor_.solve(B); }
-  Eigen::MatrixXd solve_lower(const Eigen::MatrixXd& B) const override { return factor_.matrixL().solve(B); }
-  Eigen::MatrixXd solve_upper(const Eigen::MatrixXd& B) const override { return factor_.matrixU().solve(B); }
 
-  Eigen::MatrixXd trailing_block() const override {
+  void forward(Points& y) const override {
     const SparseMatrix& L = factor_.matrixL().nestedExpression();
-    return L.bottomRightCorner(trailing_, trailing_);
+    for (long column = 0; column < y.rows() - trailing_; ++column) {
+      SparseMatrix::InnerIterator entry(L, column);
+      const Eigen::RowVector3d here = y.row(column) /= entry.value();
+      for (++entry; entry; ++entry) y.row(entry.row()) -= entry.value() * here;
+    }
+  }
+
+  void backward(Points& y) const override {
+    const SparseMatrix& L = factor_.matrixL().nestedExpression();
+    for (long column = y.rows() - trailing_; column-- > 0;) {
+      SparseMatrix::InnerIterator entry(L, column);
+      const double diagonal = entry.value();
+      Eigen::RowVector3d here = y.row(column);
+      for (++entry; entry; ++entry) here -= entry.value() * y.row(entry.row());
+      y.row(column) = here / diagonal;
+    }
+  }
+
+  Eigen::MatrixXd schur_complement() const override {
+    const SparseMatrix& L = factor_.matrixL().nestedExpression();
+    Eigen::MatrixXd S = L.bottomRightCorner(trailing_, trailing_);
+    multiply_by_transpose(S);
+    return S;
   }
 
  private:
@@ -46,8 +64,7 @@ std::vector<Backend> available_backends() {
 #endif
 }
 
-std::string blas_description(Backend backend) {
-  if (backend == Backend::eigen) return "none";
+std::string blas_description() {
   using Describe = char* (*)();
   const auto describe = reinterpret_cast<Describe>(dlsym(RTLD_DEFAULT, "openblas_get_config"));
   return describe ? describe() : "unknown";
@@ -60,24 +77,6 @@ std::unique_ptr<SparseFactor> factorize(const SparseMatrix& lower, Backend backe
 #else
   throw ArgumentError("this binary was built without CHOLMOD; its linear solver is Eigen's");
 #endif
-}
-
-std::vector<int> fill_reducing_order(const std::vector<int>& start, const std::vector<int>& neighbor) {
-  idx_t count = static_cast<idx_t>(start.size()) - 1;
-  std::vector<idx_t> xadj(start.begin(), start.end()), adjncy(neighbor.begin(), neighbor.end());
-  std::vector<idx_t> order(count), position(count);
-  if (neighbor.empty()) {
-    std::iota(order.begin(), order.end(), 0);
-  } else {
-    idx_t options[METIS_NOPTIONS];
-    METIS_SetDefaultOptions(options);
-    options[METIS_OPTION_SEED] = 0;
-    const int status =
-        METIS_NodeND(&count, xadj.data(), adjncy.data(), nullptr, options, order.data(), position.data());
-    if (status == METIS_ERROR_MEMORY) throw std::bad_alloc();
-    if (status != METIS_OK) throw Error("METIS could not order the mesh");
-  }
-  return {order.begin(), order.end()};
 }
 
 }  // namespace orbitutte

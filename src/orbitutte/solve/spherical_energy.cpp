@@ -7,23 +7,43 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "orbitutte/parallel.h"
+
 namespace orbitutte {
 namespace {
 
-// d(p, q) of unit vectors, accurate for neighbours and for antipodes.
-double spherical_distance(const Vector3& p, const Vector3& q) {
-  return 2 * std::atan2((p - q).norm(), (p + q).norm());
+// d(p, q)^2 and d/sin d, as functions of the squared chord.
+struct Distance {
+  double squared, over_sine;
+};
+
+// With s = sin^2(d/2), a quarter of the squared chord: d/sin d = G(s) = sum of 4^k k!^2/(2k + 1)! s^k, and
+// since the derivative of (d/2)^2 by s is G, d^2 = 4 sum of G_k/(k + 1) s^(k + 1).
+constexpr std::array<double, 9> series = [] {
+  std::array<double, 9> G = {1};
+  for (std::size_t k = 1; k < G.size(); ++k)
+    G[k] = G[k - 1] * static_cast<double>(2 * k) / static_cast<double>(2 * k + 1);
+  return G;
+}();
+constexpr double series_bound = 1.0 / 64;  // its terms left out are below half a unit in the last place
+
+Distance short_distance(double s) {
+  double squared = 0, over_sine = 0;
+  for (std::size_t k = series.size(); k-- > 0;) {
+    squared = squared * s + series[k] / static_cast<double>(k + 1);
+    over_sine = over_sine * s + series[k];
+  }
+  return {4 * s * squared, over_sine};
 }
 
-// d/sin d, which is 1 at d = 0. It has a pole at d = pi, where the shortest arc is not unique: the edge's
-// slope is then taken just before it, large and finite, so that a line search turns back.
-double distance_over_sine(double d) {
-  if (d < 1e-4) return 1 + d * d / 6;
-  return d / std::max(std::sin(d), 1e-8);
+// At d = pi, d/sin d has a pole, where the shortest arc is not unique: the slope is then taken just before
+// it, large and finite, so that a line search turns back.
+Distance distance(const Vector3& p, const Vector3& q) {
+  const double squared_chord = (p - q).squaredNorm();
+  if (squared_chord < 4 * series_bound) return short_distance(squared_chord / 4);
+  const double d = 2 * std::atan2(std::sqrt(squared_chord), (p + q).norm());
+  return {d * d, d / std::max(std::sin(d), 1e-8)};
 }
-
-constexpr int block =
-    4096;  // edges are summed block by block, so that the sum does not depend on the threads
 
 }  // namespace
 
@@ -52,72 +72,63 @@ GluedEdges glued_edges(const CutMesh& cut, const Connectivity& connectivity,
 
 SphericalEnergy::SphericalEnergy(const GluedEdges& glued, const EdgeWeights& weights,
                                  const BoundaryConditions& boundary)
-    : glued_(glued), w_(weights.w), basis_of_(boundary.basis_of), slope_(glued.edges.size()) {
+    : transforms_(glued.transforms), basis_of_(boundary.basis_of) {
   const int n = static_cast<int>(basis_of_.size());
   for (const Basis& basis : boundary.bases) projectors_.push_back(basis * basis.transpose());
   start_.assign(n + 1, 0);
-  for (const GluedEdge& edge : glued_.edges) {
+  for (const GluedEdge& edge : glued.edges) {
     ++start_[edge.i + 1];
     ++start_[edge.j + 1];
   }
   std::partial_sum(start_.begin(), start_.end(), start_.begin());
-  incidences_.resize(2 * glued_.edges.size());
+  incidences_.resize(2 * glued.edges.size());
   std::vector<int> fill(start_.begin(), start_.end() - 1);
-  Eigen::VectorXd weight_sum = Eigen::VectorXd::Zero(n);
-  for (int e = 0; e < static_cast<int>(glued_.edges.size()); ++e) {
-    const auto [i, j, t] = glued_.edges[e];
-    incidences_[fill[i]++] = {j, e, 2 * t};
-    incidences_[fill[j]++] = {i, e, 2 * t + 1};
-    weight_sum[i] += w_[e];
-    weight_sum[j] += w_[e];
+  for (std::size_t e = 0; e < glued.edges.size(); ++e) {
+    const auto [i, j, t] = glued.edges[e];
+    const double w = weights.w[static_cast<Eigen::Index>(e)];
+    incidences_[fill[i]++] = {j, 2 * t, w};
+    incidences_[fill[j]++] = {i, 2 * t + 1, w};
   }
-  rounding_floor_ = 4 * std::numeric_limits<double>::epsilon() * weight_sum;
+  rounding_floor_.resize(n);
+  for (int v = 0; v < n; ++v) {
+    double sum = 0;
+    for (int k = start_[v]; k < start_[v + 1]; ++k) sum += incidences_[k].w;
+    rounding_floor_[v] = 4 * std::numeric_limits<double>::epsilon() * sum;
+  }
 }
 
 Vector3 SphericalEnergy::image(const Points& p, const Incidence& incidence) const {
-  Vector3 q = p.row(incidence.neighbor);
+  const Vector3 q = p.row(incidence.neighbor);
   if (incidence.transform < 2) return q;
-  const Matrix3& g = glued_.transforms[incidence.transform / 2];
+  const Matrix3& g = transforms_[incidence.transform / 2];
   return incidence.transform % 2 == 0 ? Vector3(g * q) : Vector3(g.transpose() * q);
 }
 
-void SphericalEnergy::evaluate_edges(const Points& p, double& energy) const {
-  const int count = static_cast<int>(glued_.edges.size());
-  const int blocks = (count + block - 1) / block;
-  std::vector<double> partial(blocks, 0.0);
-#pragma omp parallel for schedule(static)
-  for (int b = 0; b < blocks; ++b) {
-    double sum = 0;
-    for (int e = b * block; e < std::min(count, (b + 1) * block); ++e) {
-      const GluedEdge& edge = glued_.edges[e];
-      const double d = spherical_distance(p.row(edge.i), image(p, {edge.j, e, 2 * edge.t}));
-      sum += w_[e] * d * d;
-      slope_[e] = w_[e] * distance_over_sine(d);
-    }
-    partial[b] = sum;
-  }
-  energy = std::accumulate(partial.begin(), partial.end(), 0.0);
+SphericalEnergy::Value SphericalEnergy::evaluate(const Points& positions) const {
+  Value value;
+  evaluate(positions, value);
+  return value;
 }
 
-SphericalEnergy::Value SphericalEnergy::evaluate(const Points& x) const {
-  const int n = static_cast<int>(x.rows());
-  const Eigen::VectorXd length = x.rowwise().norm();
-  const Points p = x.array().colwise() / length.array();
-  Value value;
-  evaluate_edges(p, value.energy);
-  value.gradient.resize(n, 3);
-  // grad_i E = -2/|x_i| times the tangential, feasible part of sum over j of w_ij d/sin d (g_ij p_j - p_i).
-#pragma omp parallel for schedule(static)
-  for (int v = 0; v < n; ++v) {
-    const Vector3 here = p.row(v);
-    Vector3 pull = Vector3::Zero();
-    for (int k = start_[v]; k < start_[v + 1]; ++k)
-      pull += slope_[incidences_[k].edge] * (image(p, incidences_[k]) - here);
-    if (basis_of_[v] != 0) pull = projectors_[basis_of_[v]] * pull;
-    pull -= here.dot(pull) * here;
-    value.gradient.row(v) = -2 / length[v] * pull;
-  }
-  return value;
+void SphericalEnergy::evaluate(const Points& positions, Value& value) const {
+  value.gradient.resize(positions.rows(), 3);
+  // Every edge is met from both ends, half of its energy at each, and
+  // grad_i E = -2 times the tangential, feasible part of sum over j of w_ij d/sin d (g_ij p_j - p_i).
+  value.energy = 0.5 * parallel_sum(static_cast<int>(positions.rows()), [&](int v) {
+                   const Vector3 here = positions.row(v);
+                   Vector3 pull = Vector3::Zero();
+                   double energy = 0;
+                   for (int k = start_[v]; k < start_[v + 1]; ++k) {
+                     const Vector3 there = image(positions, incidences_[k]);
+                     const Distance d = distance(here, there);
+                     energy += incidences_[k].w * d.squared;
+                     pull += incidences_[k].w * d.over_sine * (there - here);
+                   }
+                   if (basis_of_[v] != 0) pull = projectors_[basis_of_[v]] * pull;
+                   pull -= here.dot(pull) * here;
+                   value.gradient.row(v) = -2 * pull;
+                   return energy;
+                 });
 }
 
 void SphericalEnergy::relax(Points& p, int v) const {
@@ -126,7 +137,7 @@ void SphericalEnergy::relax(Points& p, int v) const {
   double weight = 0;
   for (int k = start_[v]; k < start_[v + 1]; ++k) {
     const Vector3 there = image(p, incidences_[k]);
-    const double w = w_[incidences_[k].edge] * distance_over_sine(spherical_distance(here, there));
+    const double w = incidences_[k].w * distance(here, there).over_sine;
     pull += w * (there - here);
     weight += w;
   }

@@ -29,20 +29,23 @@ struct GluedEdges {
 GluedEdges glued_edges(const CutMesh& cut, const Connectivity& connectivity,
                        const BoundaryConditions& boundary);
 
-/// E(x) = sum over edges of w_ij d(p_i, g_ij p_j)^2 with p = x/|x| and d(p, q) = 2 atan2(|p - q|, |p + q|),
-/// which is the paper's atan2(|p x q|, <p, q>) without its loss of digits between neighbours. E does not
-/// change where an x_i is scaled.
+/// E(p) = sum over edges of w_ij d(p_i, g_ij p_j)^2 of unit vectors, with d the spherical distance, computed
+/// from the chord |p - q| without the loss of digits between neighbours that the paper's atan2(|p x q|, <p,
+/// q>) has.
 class SphericalEnergy {
  public:
   SphericalEnergy(const GluedEdges& glued, const EdgeWeights& weights, const BoundaryConditions& boundary);
 
   struct Value {
     double energy = 0;
-    Points gradient;  ///< n x 3, with respect to x: tangential, and feasible (along mirrors; zero where held)
+    Points gradient;  ///< n x 3: tangential, and feasible (along mirrors; zero where held)
   };
 
-  /// x: n x 3, no row zero. Energy and gradient are sums in a fixed order, whatever the number of threads.
-  Value evaluate(const Points& x) const;
+  /// positions: n x 3, unit. The same bits whatever the number of threads.
+  Value evaluate(const Points& positions) const;
+
+  /// The same, into a value whose memory is used again.
+  void evaluate(const Points& positions, Value& value) const;
 
   /// The vertex with the shortest edge, and that edge's length.
   std::pair<int, double> smallest_spot(const Points& positions) const;
@@ -57,22 +60,21 @@ class SphericalEnergy {
   const Eigen::VectorXd& rounding_floor() const { return rounding_floor_; }
 
  private:
+  /// One end of an edge, seen from the other.
   struct Incidence {
-    int neighbor, edge, transform;  ///< transform: 2 t for g, 2 t + 1 for its inverse
+    int neighbor, transform;  ///< transform: 2 t for g, 2 t + 1 for its inverse
+    double w;
   };
 
   Vector3 image(const Points& p, const Incidence& incidence) const;
-  void evaluate_edges(const Points& p, double& energy) const;
   void relax(Points& p, int v) const;
 
-  GluedEdges glued_;
-  const Eigen::VectorXd w_;
+  std::vector<Matrix3> transforms_;
   std::vector<Matrix3> projectors_;  // onto the room of each vertex, by BoundaryConditions::basis_of
   std::vector<int> basis_of_;
   std::vector<int> start_;  // incidences of vertex v: start_[v] .. start_[v + 1] - 1
   std::vector<Incidence> incidences_;
   Eigen::VectorXd rounding_floor_;
-  mutable std::vector<double> slope_;  // per edge: w d/sin d, from the last evaluation
 };
 
 }  // namespace orbitutte

@@ -17,6 +17,7 @@
 #include "orbitutte/mesh/connectivity.h"
 #include "orbitutte/orbifold/signature.h"
 #include "orbitutte/orbifold/symmetry_group.h"
+#include "orbitutte/parallel.h"
 #include "orbitutte/verify/orientation.h"
 #include "orbitutte/verify/spherical_triangle.h"
 
@@ -286,10 +287,15 @@ Check group_check(const Embedding& embedding) {
 
 Check orientation_check(const Embedding& embedding, std::vector<int>& nonpositive) {
   const Points& X = embedding.positions;
-  for (int f = 0; f < embedding.faces.rows(); ++f) {
-    const auto v = embedding.faces.row(f);
-    if (orientation_sign(X.row(v[0]), X.row(v[1]), X.row(v[2])) <= 0) nonpositive.push_back(f);
-  }
+  std::vector<char> positive(embedding.faces.rows());
+  parallel_ranges(static_cast<int>(positive.size()), [&](int begin, int end) {
+    for (int f = begin; f < end; ++f) {
+      const auto v = embedding.faces.row(f);
+      positive[f] = orientation_sign(X.row(v[0]), X.row(v[1]), X.row(v[2])) > 0;
+    }
+  });
+  for (int f = 0; f < static_cast<int>(positive.size()); ++f)
+    if (!positive[f]) nonpositive.push_back(f);
   const std::string first = nonpositive.empty()
                                 ? std::string()
                                 : fmt::format("face {} is not positively oriented", nonpositive.front());
@@ -313,10 +319,10 @@ Check edge_length_check(const Embedding& embedding, double& longest) {
 
 Check area_check(const Embedding& embedding, Certificate& certificate) {
   const Points& X = embedding.positions;
-  for (int f = 0; f < embedding.faces.rows(); ++f) {
+  certificate.signed_area = parallel_sum(static_cast<int>(embedding.faces.rows()), [&](int f) {
     const auto v = embedding.faces.row(f);
-    certificate.signed_area += signed_area(X.row(v[0]), X.row(v[1]), X.row(v[2]));
-  }
+    return signed_area(X.row(v[0]), X.row(v[1]), X.row(v[2]));
+  });
   Check check =
       at_most("signed_area", std::abs(certificate.signed_area - certificate.expected_area), area_bound);
   if (!check.passed)

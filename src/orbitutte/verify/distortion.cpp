@@ -9,6 +9,7 @@
 #include <numeric>
 #include <optional>
 
+#include "orbitutte/parallel.h"
 #include "orbitutte/verify/spherical_triangle.h"
 
 namespace orbitutte {
@@ -79,21 +80,65 @@ double length_unit(const Mesh& mesh) {
   return unit > 0 ? unit : 1;
 }
 
+// A triangle's measures; zero where there is none.
+struct FaceDistortion {
+  double area_ratio = 0;  // its share of the image's area over its share of the source's
+  double angle = 0;       // the ratio of the singular values
+};
+
+struct FaceAreas {
+  double source = 0, image = 0;
+};
+
+FaceDistortion face_distortion(const std::array<Vector3, 3>& source, const std::array<Vector3, 3>& image,
+                               const FaceAreas& area, const FaceAreas& total) {
+  FaceDistortion result;
+  const auto length = [&](int i, int j) { return (source[i] - source[j]).norm(); };
+  const std::array<double, 3> lengths = {length(0, 1), length(1, 2), length(2, 0)};
+  const std::array<double, 3> arcs = {arc_length(image[0], image[1]), arc_length(image[1], image[2]),
+                                      arc_length(image[2], image[0])};
+  const double longest = std::max({lengths[0], lengths[1], lengths[2]}),
+               longest_arc = std::max({arcs[0], arcs[1], arcs[2]});
+  if (!(area.source > area_rounding * longest * longest) || !(area.image > position_rounding * longest_arc))
+    return result;
+  const double ratio = (area.image / total.image) / (area.source / total.source);
+  if (!(ratio > 0) || !std::isfinite(ratio)) return result;
+  result.area_ratio = ratio;
+  const auto e = lay_out(lengths[0], lengths[1], lengths[2]), g = lay_out(arcs[0], arcs[1], arcs[2]);
+  if (!e || !g) return result;
+  const double angle = ratio_of_singular_values(*e, *g);
+  if (std::isfinite(angle) && angle >= 1) result.angle = angle;
+  return result;
+}
+
 }  // namespace
 
 Distortion measure_distortion(const Mesh& mesh, const Embedding& embedding) {
   const int m = static_cast<int>(mesh.F.rows());
   const double unit = length_unit(mesh);
-  std::vector<double> source(m), image(m);
-  for (int f = 0; f < m; ++f) {
-    const auto v = mesh.F.row(f), w = embedding.faces.row(f);
-    source[f] = triangle_area(mesh.V.row(v[0]) / unit, mesh.V.row(v[1]) / unit, mesh.V.row(v[2]) / unit);
-    image[f] = signed_area(embedding.positions.row(w[0]), embedding.positions.row(w[1]),
-                           embedding.positions.row(w[2]));
-  }
-  const double source_total = std::accumulate(source.begin(), source.end(), 0.0);
-  const double image_total = std::accumulate(image.begin(), image.end(), 0.0, [](double sum, double area) {
-    return area > 0 ? sum + area : sum;  // a map that is turned over in places still has shares
+  const auto source = [&](int f) {
+    const auto v = mesh.F.row(f);
+    return std::array<Vector3, 3>{mesh.V.row(v[0]) / unit, mesh.V.row(v[1]) / unit, mesh.V.row(v[2]) / unit};
+  };
+  const auto image = [&](int f) {
+    const auto v = embedding.faces.row(f);
+    const Points& X = embedding.positions;
+    return std::array<Vector3, 3>{X.row(v[0]), X.row(v[1]), X.row(v[2])};
+  };
+  std::vector<FaceAreas> area(m);
+  FaceAreas total;
+  total.source = parallel_sum(m, [&](int f) {
+    const auto p = source(f);
+    return area[f].source = triangle_area(p[0], p[1], p[2]);
+  });
+  total.image = parallel_sum(m, [&](int f) {
+    const auto p = image(f);
+    area[f].image = signed_area(p[0], p[1], p[2]);
+    return std::max(area[f].image, 0.0);  // a map that is turned over in places still has shares
+  });
+  std::vector<FaceDistortion> of_face(m);
+  parallel_ranges(m, [&](int begin, int end) {
+    for (int f = begin; f < end; ++f) of_face[f] = face_distortion(source(f), image(f), area[f], total);
   });
 
   Distortion result;
@@ -101,31 +146,16 @@ Distortion measure_distortion(const Mesh& mesh, const Embedding& embedding) {
   std::vector<double> areas;
   double angle_sum = 0;
   int angles = 0;
-  for (int f = 0; f < m; ++f) {
-    const auto v = mesh.F.row(f), w = embedding.faces.row(f);
-    const auto length = [&](int i, int j) {
-      return (mesh.V.row(v[i]) / unit - mesh.V.row(v[j]) / unit).norm();
-    };
-    const auto arc = [&](int i, int j) {
-      return arc_length(embedding.positions.row(w[i]), embedding.positions.row(w[j]));
-    };
-    const double longest = std::max({length(0, 1), length(1, 2), length(2, 0)});
-    const double longest_arc = std::max({arc(0, 1), arc(1, 2), arc(2, 0)});
-    if (!(source[f] > area_rounding * longest * longest) || !(image[f] > position_rounding * longest_arc))
-      continue;
-    const double ratio = (image[f] / image_total) / (source[f] / source_total);
-    if (!(ratio > 0) || !std::isfinite(ratio)) continue;
-    areas.push_back(std::max(ratio, 1 / ratio));
-    count_in(result.histogram, std::log2(ratio));
-
-    const auto e = lay_out(length(0, 1), length(1, 2), length(2, 0)),
-               g = lay_out(arc(0, 1), arc(1, 2), arc(2, 0));
-    if (!e || !g) continue;
-    const double angle = ratio_of_singular_values(*e, *g);
-    if (!std::isfinite(angle) || angle < 1) continue;
-    angle_sum += angle;
-    ++angles;
-    result.angle.max = std::max(result.angle.max, angle);
+  for (const FaceDistortion& face : of_face) {
+    if (face.area_ratio > 0) {
+      areas.push_back(std::max(face.area_ratio, 1 / face.area_ratio));
+      count_in(result.histogram, std::log2(face.area_ratio));
+    }
+    if (face.angle > 0) {
+      angle_sum += face.angle;
+      ++angles;
+      result.angle.max = std::max(result.angle.max, face.angle);
+    }
   }
   result.measured_faces = static_cast<int>(areas.size());
   result.area = statistics(areas);

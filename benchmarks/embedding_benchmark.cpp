@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// Times whole embeddings, stage by stage, beside the yardstick T0 in the same process; one JSON row a
+// repetition.
+#include <sys/resource.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "orbitutte/embed.h"
+#include "orbitutte/mesh/connectivity.h"
+#include "orbitutte/mesh/mesh_io.h"
+#include "orbitutte/mesh/sample.h"
+#include "yardstick.h"
+
+namespace {
+
+using namespace orbitutte;
+
+struct Arguments {
+  std::string mesh;
+  std::string orbifold = "432";
+  std::vector<int> cones;
+  int subdivisions = 0;
+  int repetitions = 3;
+  int threads = 0;
+};
+
+// Every triangle in four, at the midpoints of its edges. The vertices keep their numbers.
+Mesh subdivided(const Mesh& mesh) {
+  const int n = static_cast<int>(mesh.V.rows());
+  const Connectivity connectivity = connect(mesh.F, n);
+  Mesh fine = {Points(n + connectivity.edges.size(), 3), Faces(4 * mesh.F.rows(), 3)};
+  fine.V.topRows(n) = mesh.V;
+  for (std::size_t e = 0; e < connectivity.edges.size(); ++e) {
+    const auto [i, j] = connectivity.edges[e];
+    fine.V.row(n + static_cast<int>(e)) = 0.5 * (mesh.V.row(i) + mesh.V.row(j));
+  }
+  for (int f = 0; f < mesh.F.rows(); ++f) {
+    const auto corner = mesh.F.row(f);
+    const auto middle = [&](int k) { return n + connectivity.edge_of[3 * f + k]; };
+    for (int k = 0; k < 3; ++k) fine.F.row(4 * f + k) << corner[k], middle(k), middle((k + 2) % 3);
+    fine.F.row(4 * f + 3) << middle(0), middle(1), middle(2);
+  }
+  return fine;
+}
+
+struct Input {
+  Mesh mesh;
+  std::vector<int> cones;
+};
+
+// "figure:100000", "mask:100000", or a file.
+Input load(const Arguments& arguments) {
+  const auto colon = arguments.mesh.find(':');
+  const std::string kind = arguments.mesh.substr(0, colon);
+  Input input = {{}, arguments.cones};
+  if (colon != std::string::npos && (kind == "figure" || kind == "mask")) {
+    const SampleShape shape = kind == "figure" ? SampleShape::figure : SampleShape::mask;
+    input.mesh = sample_mesh({shape, std::stoi(arguments.mesh.substr(colon + 1))});
+    if (input.cones.empty()) input.cones = sample_cones(shape, input.mesh);
+    if (shape == SampleShape::mask && arguments.cones.empty()) input.cones.resize(3);
+  } else {
+    input.mesh = to_triangle_mesh(read_mesh(arguments.mesh));
+  }
+  for (int k = 0; k < arguments.subdivisions; ++k) input.mesh = subdivided(input.mesh);
+  const Orbifold orbifold = parse_orbifold(arguments.orbifold);
+  input.cones.resize(std::min(input.cones.size(), orbifold.marks.size()));
+  return input;
+}
+
+// From here on, the operating system's peak counts anew (Linux 4.0 and later).
+void reset_peak_memory() { std::ofstream("/proc/self/clear_refs") << 5; }
+
+long long peak_memory_bytes() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.rfind("VmHWM:", 0) == 0) return 1024 * std::stoll(line.substr(6));
+  rusage usage = {};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024LL * usage.ru_maxrss;
+}
+
+nlohmann::json run(const Arguments& arguments, const Input& input) {
+  const benchmarks::Yardstick yardstick = benchmarks::measure_yardstick(input.mesh);
+  EmbedOptions options;
+  options.threads = arguments.threads;
+  reset_peak_memory();
+  const auto start = std::chrono::steady_clock::now();
+  const EmbedResult result = embed(input.mesh, parse_orbifold(arguments.orbifold), input.cones, options);
+  const std::chrono::duration<double> total = std::chrono::steady_clock::now() - start;
+  nlohmann::json row = {{"mesh", arguments.mesh},
+                        {"subdivisions", arguments.subdivisions},
+                        {"vertices", input.mesh.V.rows()},
+                        {"faces", input.mesh.F.rows()},
+                        {"orbifold", arguments.orbifold},
+                        {"threads", result.threads},
+                        {"certified", result.certificate.bijective},
+                        {"iterations", result.minimum.iterations},
+                        {"evaluations", result.minimum.evaluations},
+                        {"energy", result.minimum.energy},
+                        {"peak_memory_bytes", peak_memory_bytes()},
+                        {"total", total.count()},
+                        {"T0", yardstick.total_seconds()},
+                        {"T0_analyze", yardstick.analyze_seconds},
+                        {"T0_factorize", yardstick.factorize_seconds},
+                        {"ratio", total.count() / yardstick.total_seconds()}};
+  for (const auto& [stage, seconds] : result.timings) row["stages"][stage] = seconds;
+  return row;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Arguments arguments;
+  CLI::App app{"Times embeddings beside T0, one factorisation of the mesh's Laplacian by CHOLMOD"};
+  app.add_option("mesh", arguments.mesh, "figure:FACES, mask:FACES, or a mesh file")->required();
+  app.add_option("--orbifold", arguments.orbifold, "Conway's symbol")->capture_default_str();
+  app.add_option("--cones", arguments.cones, "Marked vertices; those of the sample where left out")
+      ->delimiter(',');
+  app.add_option("--subdivide", arguments.subdivisions, "Midpoint subdivisions first")->capture_default_str();
+  app.add_option("--repeat", arguments.repetitions, "Repetitions")->capture_default_str();
+  app.add_option("--threads", arguments.threads, "0: as many as the machine has")->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  try {
+    const Input input = load(arguments);
+    for (int k = 0; k < arguments.repetitions; ++k) std::cout << run(arguments, input).dump() << std::endl;
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: MIT
+// Orders and factorisations below the Laplacian solver: dissection, sparse and dense factors, substructures.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <numeric>
+
+#include "orbitutte/solve/dense_factor.h"
+#include "orbitutte/solve/dissection.h"
+#include "orbitutte/solve/sparse_factor.h"
+#include "orbitutte/solve/substructure.h"
+#include "test_meshes.h"
+
+namespace orbitutte {
+namespace {
+
+Neighbors graph_of(const Mesh& mesh) {
+  const int n = test::vertex_count(mesh);
+  return neighbors(connect(mesh.F, n).edges, n);
+}
+
+SparseMatrix lower_part(const Eigen::MatrixXd& A) {
+  return Eigen::MatrixXd(A.triangularView<Eigen::Lower>()).sparseView();
+}
+
+Eigen::MatrixXd random_definite(int n, double density) {
+  const Eigen::MatrixXd root = Eigen::MatrixXd::Random(n, n).cwiseProduct(
+      (Eigen::MatrixXd::Random(n, n).array() > 1 - 2 * density).cast<double>().matrix());
+  return root * root.transpose() + Eigen::MatrixXd::Identity(n, n);
+}
+
+// The Schur complement of A onto its last rows.
+Eigen::MatrixXd schur_complement(const Eigen::MatrixXd& A, int last) {
+  const Eigen::Index first = A.rows() - last;
+  return A.bottomRightCorner(last, last) - A.bottomLeftCorner(last, first) *
+                                               A.topLeftCorner(first, first).inverse() *
+                                               A.topRightCorner(first, last);
+}
+
+double lower_difference(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
+  if (A.size() == 0 && B.size() == 0) return 0;
+  return Eigen::MatrixXd((A - B).triangularView<Eigen::Lower>()).cwiseAbs().maxCoeff();
+}
+
+// --- dissection
+
+class Dissected : public testing::TestWithParam<Mesh> {};
+INSTANTIATE_TEST_SUITE_P(Meshes, Dissected,
+                         testing::Values(test::tetrahedron(), test::icosphere(3), test::icosphere(5),
+                                         test::grid_disk(90, 90), test::grid_disk(4000, 1),
+                                         test::united(test::icosphere(4), test::torus(80, 40))));
+
+TEST_P(Dissected, OrderNamesEveryVertexOnce) {
+  std::vector<int> order = dissect(graph_of(GetParam())).order;
+  std::sort(order.begin(), order.end());
+  std::vector<int> all(order.size());
+  std::iota(all.begin(), all.end(), 0);
+  EXPECT_EQ(order, all);
+}
+
+TEST_P(Dissected, NodesTileTheOrderAndComeBeforeTheirParents) {
+  const Dissection dissection = dissect(graph_of(GetParam()));
+  int at = 0;
+  for (std::size_t k = 0; k < dissection.nodes.size(); ++k) {
+    const Dissection::Node& node = dissection.nodes[k];
+    EXPECT_EQ(node.begin, at);
+    EXPECT_LE(node.first, node.begin);
+    at = node.end;
+    if (node.parent < 0) {
+      EXPECT_EQ(k + 1, dissection.nodes.size());
+      continue;
+    }
+    const Dissection::Node& parent = dissection.nodes[node.parent];
+    EXPECT_GT(node.parent, static_cast<int>(k));
+    EXPECT_EQ(parent.depth + 1, node.depth);
+    EXPECT_LE(parent.first, node.first);
+  }
+  EXPECT_EQ(at, static_cast<int>(dissection.order.size()));
+}
+
+TEST_P(Dissected, EverySetSeparatesTheSubtreesBelowIt) {
+  const Neighbors graph = graph_of(GetParam());
+  const Dissection dissection = dissect(graph);
+  std::vector<int> node_of(dissection.order.size());
+  for (std::size_t k = 0; k < dissection.nodes.size(); ++k)
+    for (int i = dissection.nodes[k].begin; i < dissection.nodes[k].end; ++i)
+      node_of[dissection.order[i]] = static_cast<int>(k);
+  const auto is_above = [&](int above, int node) {
+    while (node >= 0 && node != above) node = dissection.nodes[node].parent;
+    return node == above;
+  };
+  for (int v = 0; v < static_cast<int>(node_of.size()); ++v)
+    for (int k = graph.start[v]; k < graph.start[v + 1]; ++k) {
+      const int a = node_of[v], b = node_of[graph.neighbor[k]];
+      ASSERT_TRUE(is_above(a, b) || is_above(b, a)) << v << ' ' << graph.neighbor[k];
+    }
+}
+
+TEST(Dissection, SeparatorsOfASphereAreShort) {
+  const Dissection dissection = dissect(graph_of(test::icosphere(5)));  // 10242 vertices, 5 edges long, about
+  const Dissection::Node& root = dissection.nodes.back();
+  EXPECT_GT(dissection.nodes.size(), 7u);
+  EXPECT_LT(root.end - root.begin, 3 * 101);
+}
+
+// --- dense factors
+
+TEST(DenseFactor, PartialCholeskyLeavesTheFactorAndTheSchurComplement) {
+  for (const auto& [n, own] : {std::pair(5, 0), std::pair(7, 7), std::pair(400, 250), std::pair(401, 401)}) {
+    const Eigen::MatrixXd A = random_definite(n, 0.5);
+    Eigen::MatrixXd factored = A.triangularView<Eigen::Lower>();
+    partial_cholesky(factored, own);
+    Eigen::MatrixXd L = factored.leftCols(own);
+    L.topRows(own).triangularView<Eigen::StrictlyUpper>().setZero();
+    EXPECT_LT(lower_difference((L * L.transpose()).leftCols(own), A.leftCols(own)), 1e-12 * n);
+    EXPECT_LT(lower_difference(factored.bottomRightCorner(n - own, n - own), schur_complement(A, n - own)),
+              1e-9);
+  }
+}
+
+TEST(DenseFactor, PartialCholeskyNamesTheColumnThatIsNotPositive) {
+  Eigen::MatrixXd A = Eigen::MatrixXd::Identity(300, 300);
+  A(250, 250) = -1;
+  try {
+    partial_cholesky(A, 300);
+    FAIL();
+  } catch (const NotPositiveDefinite& error) {
+    EXPECT_EQ(error.column, 250);
+  }
+}
+
+TEST(DenseFactor, MultiplyByTransposeIgnoresWhatLiesAboveTheDiagonal) {
+  Eigen::MatrixXd L = Eigen::MatrixXd::Random(230, 230);
+  const Eigen::MatrixXd lower = L.triangularView<Eigen::Lower>();
+  multiply_by_transpose(L);
+  EXPECT_LT(lower_difference(L, lower * lower.transpose()), 1e-12);
+}
+
+// --- sparse factors
+
+TEST(SparseFactor, ForwardAndBackwardSolveAroundTheSchurComplement) {
+  const int n = 90, trailing = 7;
+  const Eigen::MatrixXd A = random_definite(n, 0.05), S = schur_complement(A, trailing);
+  const Points b = Points::Random(n, 3);
+  for (const Backend backend : available_backends()) {
+    const auto factor = factorize(lower_part(A), backend, trailing);
+    EXPECT_LT(lower_difference(factor->schur_complement(), S), 1e-12) << name(backend);
+    Points y = b;
+    factor->forward(y);
+    y.bottomRows(trailing) = S.inverse() * y.bottomRows(trailing);
+    factor->backward(y);
+    EXPECT_LT((A * y - b).cwiseAbs().maxCoeff(), 1e-11) << name(backend);
+  }
+}
+
+TEST(SparseFactor, BackendsAgreeAndSolve) {
+  const Eigen::MatrixXd A = random_definite(200, 0.02), B = Eigen::MatrixXd::Random(200, 3);
+  for (const Backend backend : available_backends())
+    EXPECT_LT((A * factorize(lower_part(A), backend)->solve(B) - B).cwiseAbs().maxCoeff(), 1e-11)
+        << name(backend);
+}
+
+TEST(SparseFactor, RefusesIndefiniteMatrices) {
+  Eigen::MatrixXd A = Eigen::MatrixXd::Identity(2, 2);
+  A(1, 1) = -1;
+  for (const Backend backend : available_backends())
+    EXPECT_THROW(factorize(lower_part(A), backend), NotPositiveDefinite);
+}
+
+// --- substructures
+
+// A Laplacian plus the identity in the order of a dissection, with some more vertices, each beside two of the
+// order, behind them.
+struct Structure {
+  SparseMatrix lower;
+  Eigen::MatrixXd border;  // the Schur complement onto them, by another way
+  std::vector<EliminationBlock> blocks;
+  int inner, count;
+};
+
+Structure structure(const Mesh& mesh, int behind) {
+  const Neighbors graph = graph_of(mesh);
+  const Dissection dissection = dissect(graph);
+  const int n = static_cast<int>(dissection.order.size());
+  std::vector<int> place(n);
+  for (int k = 0; k < n; ++k) place[dissection.order[k]] = k;
+  std::vector<Eigen::Triplet<double, long>> entries;
+  const auto couple = [&](int i, int j, double w) {
+    entries.emplace_back(std::max(i, j), std::min(i, j), -w);
+    entries.emplace_back(i, i, w);
+    entries.emplace_back(j, j, w);
+  };
+  for (int v = 0; v < n; ++v)
+    for (int k = graph.start[v]; k < graph.start[v + 1]; ++k)
+      if (graph.neighbor[k] > v) couple(place[v], place[graph.neighbor[k]], 0.5 + 0.1 * (v % 7));
+  for (int k = 0; k < behind; ++k) {
+    couple(place[(13 * k) % n], n + k, 1.0 + k);
+    couple(place[(101 * k + 5) % n], n + k, 0.25);
+  }
+  for (int k = 0; k < n + behind; ++k) entries.emplace_back(k, k, 0.01);
+  Structure result = {SparseMatrix(n + behind, n + behind), {}, {}, n, n + behind};
+  result.lower.setFromTriplets(entries.begin(), entries.end());
+  for (const Dissection::Node& node : dissection.nodes)
+    result.blocks.push_back({node.parent, node.begin, node.end});
+  result.border = factorize(result.lower, Backend::eigen, behind)->schur_complement();
+  return result;
+}
+
+TEST(Substructure, SolvesAlongTheWholeTree) {
+  const Structure s = structure(test::icosphere(5), 20);
+  const Points b = Points::Random(s.count, 3);
+  for (const Backend backend : available_backends()) {
+    const Substructure factor(s.lower, s.blocks, backend);
+    EXPECT_LT(lower_difference(factor.schur_complement(), s.border), 1e-11) << name(backend);
+    EXPECT_EQ(factor.schur_complement(), Eigen::MatrixXd(factor.schur_complement().transpose()));
+    Points y = b;
+    factor.forward(y);
+    y.bottomRows(20) = factor.schur_complement().inverse() * y.bottomRows(20);
+    factor.backward(y);
+    EXPECT_LT((s.lower.selfadjointView<Eigen::Lower>() * y - b).cwiseAbs().maxCoeff(), 1e-11)
+        << name(backend);
+  }
+}
+
+TEST(Substructure, TakesBlocksOfAnEarlierOneOnlyWhereTheirEquationsAreTheSame) {
+  const Structure s = structure(test::icosphere(5), 12);
+  const Substructure first(s.lower, s.blocks, available_backends().front());
+  SparseMatrix changed = s.lower;
+  changed.coeffRef(3, 3) += 0.5;  // in the first block
+  const Substructure fresh(changed, s.blocks, available_backends().front()),
+      again(changed, s.blocks, available_backends().front(), &first);
+  EXPECT_EQ(again.schur_complement(), fresh.schur_complement());
+  EXPECT_NE(again.schur_complement(), first.schur_complement());
+  Points y = Points::Random(s.count, 3), z = y;
+  fresh.forward(y);
+  again.forward(z);
+  EXPECT_EQ(y, z);
+}
+
+TEST(Substructure, NamesTheUnknownThatNothingHolds) {
+  Structure s = structure(test::icosphere(5), 0);
+  const long loose = s.blocks[5].begin;
+  for (long column = 0; column < s.count; ++column)
+    for (SparseMatrix::InnerIterator entry(s.lower, column); entry; ++entry)
+      if (entry.row() == loose || entry.col() == loose) entry.valueRef() = 0;
+  for (const Backend backend : available_backends()) {
+    try {
+      const Substructure factor(s.lower, s.blocks, backend);
+      FAIL() << name(backend);
+    } catch (const NotPositiveDefinite& error) {
+      if (backend == Backend::cholmod) EXPECT_EQ(error.column, loose);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace orbitutte
