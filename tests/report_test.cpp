@@ -4,13 +4,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "orbitutte/mesh/file.h"
+#include "orbitutte/mesh/ply.h"
 #include "orbitutte/output/embedding_file.h"
 #include "sample_embeddings.h"
 
@@ -332,6 +336,45 @@ TEST(EmbeddingFile, ExtremeNumbersSurvive) {
   EXPECT_EQ(read_back.source_vertex, embedding.source_vertex);
 }
 
+bool same_bits(double a, double b) {
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+
+TEST(EmbeddingFile, HoldsTheSameBitsForAnyReaderOfPly) {
+  for (const std::string& signature : test::sample_signatures()) {
+    const Embedding& written = test::sample_embedding(signature).embedding();
+    const PlyFile file = parse_ply(serialize_embedding(written));
+    EXPECT_EQ(file.comments, std::vector<std::string>{"orbitutte embedding " + signature});
+    const PlyElement &vertex = *file.find("vertex"), &face = *file.find("face");
+    ASSERT_EQ(vertex.count, written.source_vertex.size());
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::VectorXd column = written.positions.col(k);
+      EXPECT_TRUE(std::equal(column.begin(), column.end(), vertex.properties[k].values.begin(), same_bits));
+    }
+    EXPECT_THAT(vertex.find("source_vertex")->values, ::testing::ElementsAreArray(written.source_vertex));
+    ASSERT_EQ(face.count, static_cast<std::size_t>(written.faces.rows()));
+    const auto corners = written.faces.reshaped<Eigen::RowMajor>();
+    EXPECT_TRUE(std::equal(corners.begin(), corners.end(), face.find("vertex_indices")->values.begin()));
+    EXPECT_EQ(serialize_ply(file), serialize_embedding(written)) << signature;
+  }
+}
+
+TEST(EmbeddingFile, FurtherPropertiesMakeNoDifference) {
+  const Embedding& written = test::sample_embedding("33").embedding();
+  PlyFile file = parse_ply(serialize_embedding(written));
+  for (PlyElement& element : file.elements) {
+    PlyProperty zeros;
+    zeros.name = "zeros";
+    zeros.values.resize(element.count);
+    element.properties.insert(element.properties.begin(), zeros);
+    const TemporaryFile disk(serialize_ply(file), ".ply");
+    const Embedding read_back = read_embedding(disk.path());
+    EXPECT_EQ(read_back.positions, written.positions);
+    EXPECT_EQ(read_back.faces, written.faces);
+    EXPECT_EQ(read_back.source_vertex, written.source_vertex);
+  }
+}
+
 std::string ply(const std::string& vertex_properties, const std::string& vertices,
                 const std::string& face_property, const std::string& faces) {
   return "ply\nformat ascii 1.0\nelement vertex 3\n" + vertex_properties + "element face 1\n" +
@@ -377,6 +420,22 @@ TEST(EmbeddingFile, DefectsAreNamed) {
   EXPECT_NE(ply_refusal("ply\nformat ascii 1.0\nelement vertex 0\nend_header\n"), "accepted");
   EXPECT_NE(ply_refusal(""), "accepted");
   EXPECT_NE(ply_refusal("{}"), "accepted");
+}
+
+TEST(EmbeddingFile, DefectsOfBinaryFilesAreNamed) {
+  const Embedding& good = test::sample_embedding("33").embedding();
+  const int count = static_cast<int>(good.source_vertex.size());
+  for (const int wrong : {-1, count}) {
+    const std::string named =
+        "names the vertex " + std::to_string(wrong) + "; there are " + std::to_string(count);
+    Embedding embedding = good;
+    embedding.source_vertex[5] = wrong;
+    EXPECT_THAT(ply_refusal(serialize_embedding(embedding)),
+                HasSubstr("the source of cut vertex 5 " + named));
+    embedding = good;
+    embedding.faces(7, 2) = wrong;
+    EXPECT_THAT(ply_refusal(serialize_embedding(embedding)), HasSubstr("face 7 " + named));
+  }
 }
 
 TEST(EmbeddingFile, CutShortItIsRefused) {

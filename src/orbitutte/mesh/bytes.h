@@ -18,12 +18,26 @@ T load(const char* bytes, std::endian order) {
   return std::bit_cast<T>(value);
 }
 
-/// Appends a number, the lowest byte first.
+/// The bytes of the number, the lowest one first.
 template <class T>
-void append_little_endian(std::string& bytes, T number) {
+std::array<char, sizeof(T)> little_endian_bytes(T number) {
   auto value = std::bit_cast<std::array<char, sizeof(T)>>(number);
   if (std::endian::native != std::endian::little) std::reverse(value.begin(), value.end());
-  bytes.append(value.data(), value.size());
+  return value;
+}
+
+/// Appends numbers one after the other without gaps, of each the lowest byte first.
+template <class... T>
+void append_little_endian(std::string& bytes, T... numbers) {
+  std::array<char, (sizeof(T) + ...)>
+      values;  // appended at once: every append asks anew whether there is room
+  char* at = values.data();
+  const auto store = [&](auto number) {
+    const auto value = little_endian_bytes(number);
+    at = std::copy(value.begin(), value.end(), at);
+  };
+  (store(numbers), ...);
+  bytes.append(values.data(), values.size());
 }
 
 }  // namespace orbitutte

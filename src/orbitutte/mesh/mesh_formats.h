@@ -2,11 +2,9 @@
 // One reader and one writer per mesh format; what they accept is told in mesh_io.h.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 
-#include "orbitutte/mesh/ply_header.h"
 #include "orbitutte/mesh/polygon_mesh.h"
 
 namespace orbitutte {
@@ -16,9 +14,6 @@ PolygonMesh read_obj(std::string_view text);
 PolygonMesh read_off(std::string_view text);
 PolygonMesh read_ply(std::string_view bytes);
 PolygonMesh read_stl(std::string_view bytes);
-
-/// read_ply of the layout that ply_triangles.cpp describes; none where the file has another.
-std::optional<PolygonMesh> read_ply_triangles(std::string_view bytes, const PlyHeader& header);
 
 std::string write_obj(const Mesh& mesh);
 std::string write_off(const Mesh& mesh);

@@ -152,26 +152,6 @@ void read_elements(Values in, PlyFile& file) {
   in.end_of_file();
 }
 
-std::string in_one_line(std::string text) {
-  for (char& c : text) {
-    if (c == '\n' || c == '\r') c = ' ';
-  }
-  return text;
-}
-
-std::string serialize_header(const PlyFile& file) {
-  std::string text = "ply\nformat binary_little_endian 1.0\n";
-  for (const std::string& comment : file.comments) text += fmt::format("comment {}\n", in_one_line(comment));
-  for (const PlyElement& element : file.elements) {
-    text += fmt::format("element {} {}\n", element.name, element.count);
-    for (const PlyProperty& property : element.properties) {
-      const std::string list = property.is_list ? fmt::format("list {} ", name(property.count_type)) : "";
-      text += fmt::format("property {}{} {}\n", list, name(property.type), property.name);
-    }
-  }
-  return text + "end_header\n";
-}
-
 bool are_lists(const std::vector<std::size_t>& start, std::size_t count, std::size_t values) {
   return start.size() == count + 1 && start.front() == 0 && start.back() == values &&
          std::is_sorted(start.begin(), start.end());
@@ -236,7 +216,7 @@ PlyFile parse_ply(std::string_view bytes) {
 }
 
 std::string serialize_ply(const PlyFile& file) {
-  std::string bytes = serialize_header(file);
+  std::string bytes = serialize_ply_header(file);
   for (const PlyElement& element : file.elements) {
     for (const PlyProperty& property : element.properties) check_size(element, property);
     const std::size_t count = element.properties.empty() ? 0 : element.count;

@@ -142,6 +142,13 @@ void check_promises(const PlyHeader& header, std::size_t data_size) {
   }
 }
 
+std::string in_one_line(std::string text) {
+  for (char& c : text) {
+    if (c == '\n' || c == '\r') c = ' ';
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string_view name(PlyType type) { return types[static_cast<int>(type)].name; }
@@ -160,6 +167,19 @@ PlyHeader parse_ply_header(std::string_view bytes) {
   header.lines = in.line() - 1;
   check_promises(header, bytes.size() - header.size);
   return header;
+}
+
+std::string serialize_ply_header(const PlyFile& file) {
+  std::string text = "ply\nformat binary_little_endian 1.0\n";
+  for (const std::string& comment : file.comments) text += fmt::format("comment {}\n", in_one_line(comment));
+  for (const PlyElement& element : file.elements) {
+    text += fmt::format("element {} {}\n", element.name, element.count);
+    for (const PlyProperty& property : element.properties) {
+      const std::string list = property.is_list ? fmt::format("list {} ", name(property.count_type)) : "";
+      text += fmt::format("property {}{} {}\n", list, name(property.type), property.name);
+    }
+  }
+  return text + "end_header\n";
 }
 
 }  // namespace orbitutte

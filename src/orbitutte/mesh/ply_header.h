@@ -20,6 +20,10 @@ struct PlyHeader {
 /// hold.
 PlyHeader parse_ply_header(std::string_view bytes);
 
+/// The header of a binary little-endian file of these elements, up to and including the line break behind
+/// `end_header`.
+std::string serialize_ply_header(const PlyFile& file);
+
 /// The value of visit(T{}), where T is the C++ type of the same name.
 template <class Visit>
 auto visit_type(PlyType type, Visit visit) {

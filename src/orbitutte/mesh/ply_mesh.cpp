@@ -8,6 +8,7 @@
 
 #include "orbitutte/mesh/mesh_formats.h"
 #include "orbitutte/mesh/ply_header.h"
+#include "orbitutte/mesh/ply_triangles.h"
 
 namespace orbitutte {
 
@@ -93,24 +94,6 @@ PolygonMesh to_mesh(const PlyFile& file) {
   return mesh;
 }
 
-PlyProperty column(std::string name, const Points& V, int k) {
-  PlyProperty property;
-  property.name = std::move(name);
-  property.values.reserve(V.rows());
-  for (Eigen::Index v = 0; v < V.rows(); ++v) property.values.push_back(V(v, k));
-  return property;
-}
-
-PlyProperty triangle_lists(const Faces& F) {
-  PlyProperty property;
-  property.name = "vertex_indices";
-  property.type = PlyType::int32;
-  property.is_list = true;
-  property.values.assign(F.data(), F.data() + F.size());
-  for (Eigen::Index f = 0; f <= F.rows(); ++f) property.list_start.push_back(3 * f);
-  return property;
-}
-
 }  // namespace
 
 PolygonMesh read_ply(std::string_view bytes) {
@@ -118,14 +101,6 @@ PolygonMesh read_ply(std::string_view bytes) {
   return to_mesh(parse_ply(bytes));
 }
 
-std::string write_ply(const Mesh& mesh) {
-  PlyFile file;
-  const auto vertices = static_cast<std::size_t>(mesh.V.rows());
-  const auto faces = static_cast<std::size_t>(mesh.F.rows());
-  file.elements = {
-      {"vertex", vertices, {column("x", mesh.V, 0), column("y", mesh.V, 1), column("z", mesh.V, 2)}},
-      {"face", faces, {triangle_lists(mesh.F)}}};
-  return serialize_ply(file);
-}
+std::string write_ply(const Mesh& mesh) { return write_ply_triangles(mesh.V, mesh.F); }
 
 }  // namespace orbitutte

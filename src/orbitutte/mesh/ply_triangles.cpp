@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The layout of nearly all large PLY files, read without the detour over PlyFile: binary, first vertices with
-// x, y, z of one floating-point type among other numbers, then nothing but triangles `uchar int int int`.
+#include "orbitutte/mesh/ply_triangles.h"
+
+#include <fmt/format.h>
+
 #include <array>
 #include <cstdint>
 #include <limits>
 
 #include "orbitutte/mesh/bytes.h"
-#include "orbitutte/mesh/mesh_formats.h"
-#include "orbitutte/mesh/ply_header.h"
 
 namespace orbitutte {
 
@@ -19,23 +19,41 @@ struct VertexLayout {
   PlyType type;                        ///< of x, y and z: float32 or float64
 };
 
+/// A file of the layout.
+struct TriangleFile {
+  std::endian order;
+  VertexLayout vertex;
+  std::size_t vertex_count;
+  std::size_t face_count;
+  bool has_unsigned_corners;
+  const char* vertices;  ///< the faces follow
+};
+
 constexpr std::size_t triangle_size = sizeof(std::uint8_t) + 3 * sizeof(std::int32_t);
+
+/// The bytes of an element's scalars before the property, or of all of them where it is null.
+std::size_t size_before(const PlyElement& element, const PlyProperty* wanted) {
+  std::size_t size = 0;
+  for (const PlyProperty& property : element.properties) {
+    if (&property == wanted) break;
+    size += size_of(property.type);
+  }
+  return size;
+}
 
 /// None where the vertices have lists, or x, y, z are not of one floating-point type.
 std::optional<VertexLayout> vertex_layout(const PlyElement& element) {
+  for (const PlyProperty& property : element.properties) {
+    if (property.is_list) return std::nullopt;
+  }
   const PlyProperty* const axes[] = {element.find("x"), element.find("y"), element.find("z")};
   for (const PlyProperty* axis : axes) {
     if (axis == nullptr || is_integer(axis->type) || axis->type != axes[0]->type) return std::nullopt;
   }
   VertexLayout layout;
+  layout.size = size_before(element, nullptr);
+  for (int k = 0; k < 3; ++k) layout.axis_at[k] = size_before(element, axes[k]);
   layout.type = axes[0]->type;
-  for (const PlyProperty& property : element.properties) {
-    if (property.is_list) return std::nullopt;
-    for (int k = 0; k < 3; ++k) {
-      if (&property == axes[k]) layout.axis_at[k] = layout.size;
-    }
-    layout.size += size_of(property.type);
-  }
   return layout;
 }
 
@@ -49,48 +67,8 @@ const PlyProperty* triangle_list(const PlyElement& element) {
   return is_named && is_typed ? &list : nullptr;
 }
 
-template <class T, std::endian order>
-Points load_points(const char* bytes, const VertexLayout& layout, std::size_t count) {
-  Points V(count, 3);
-  for (std::size_t v = 0; v < count; ++v, bytes += layout.size) {
-    for (int k = 0; k < 3; ++k) V(v, k) = load<T>(bytes + layout.axis_at[k], order);
-  }
-  return V;
-}
-
-/// The corners of `count` triangles; none where a face is no triangle or an index does not fit into an int.
-template <std::endian order>
-std::optional<std::vector<int>> load_corners(const char* bytes, bool is_unsigned, std::size_t count) {
-  std::vector<int> corners(3 * count);
-  for (std::size_t f = 0; f < count; ++f, bytes += triangle_size) {
-    if (*bytes != 3) return std::nullopt;
-    for (int k = 0; k < 3; ++k) {
-      const auto index = load<std::int32_t>(bytes + 1 + k * sizeof(std::int32_t), order);
-      if (is_unsigned && index < 0) return std::nullopt;
-      corners[3 * f + k] = index;
-    }
-  }
-  return corners;
-}
-
-template <std::endian order>
-std::optional<PolygonMesh> load_mesh(const char* vertices, std::size_t vertex_count,
-                                     const VertexLayout& layout, std::size_t face_count, bool is_unsigned) {
-  const char* faces = vertices + vertex_count * layout.size;
-  std::optional<std::vector<int>> corners = load_corners<order>(faces, is_unsigned, face_count);
-  if (!corners) return std::nullopt;
-  PolygonMesh mesh;
-  mesh.corners = std::move(*corners);
-  mesh.face_start.resize(face_count + 1);
-  for (std::size_t f = 0; f <= face_count; ++f) mesh.face_start[f] = static_cast<int>(3 * f);
-  mesh.V = layout.type == PlyType::float32 ? load_points<float, order>(vertices, layout, vertex_count)
-                                           : load_points<double, order>(vertices, layout, vertex_count);
-  return mesh;
-}
-
-}  // namespace
-
-std::optional<PolygonMesh> read_ply_triangles(std::string_view bytes, const PlyHeader& header) {
+/// None where the file has another layout.
+std::optional<TriangleFile> triangle_file(std::string_view bytes, const PlyHeader& header) {
   const std::vector<PlyElement>& elements = header.file.elements;
   if (!header.byte_order || elements.size() != 2) return std::nullopt;
   const PlyElement &vertex = elements[0], &face = elements[1];
@@ -101,10 +79,114 @@ std::optional<PolygonMesh> read_ply_triangles(std::string_view bytes, const PlyH
   if (!layout || list == nullptr || vertex.count > most || 3 * face.count > most) return std::nullopt;
   const std::string_view data = bytes.substr(header.size);
   if (data.size() != vertex.count * layout->size + face.count * triangle_size) return std::nullopt;
+  return TriangleFile{*header.byte_order, *layout, vertex.count, face.count, list->type == PlyType::uint32,
+                      data.data()};
+}
 
-  const auto load = *header.byte_order == std::endian::little ? load_mesh<std::endian::little>
-                                                              : load_mesh<std::endian::big>;
-  return load(data.data(), vertex.count, *layout, face.count, list->type == PlyType::uint32);
+template <class T, std::endian order>
+Points load_points(const TriangleFile& file) {
+  Points V(file.vertex_count, 3);
+  const char* vertex = file.vertices;
+  for (std::size_t v = 0; v < file.vertex_count; ++v, vertex += file.vertex.size) {
+    for (int k = 0; k < 3; ++k) V(v, k) = load<T>(vertex + file.vertex.axis_at[k], order);
+  }
+  return V;
+}
+
+/// None where a face is no triangle or an index does not fit into an int.
+template <std::endian order>
+std::optional<std::vector<int>> load_corners(const TriangleFile& file) {
+  std::vector<int> corners(3 * file.face_count);
+  const char* face = file.vertices + file.vertex_count * file.vertex.size;
+  for (std::size_t f = 0; f < file.face_count; ++f, face += triangle_size) {
+    if (*face != 3) return std::nullopt;
+    for (int k = 0; k < 3; ++k) {
+      const auto index = load<std::int32_t>(face + 1 + k * sizeof(std::int32_t), order);
+      if (file.has_unsigned_corners && index < 0) return std::nullopt;
+      corners[3 * f + k] = index;
+    }
+  }
+  return corners;
+}
+
+template <std::endian order>
+std::optional<PolygonMesh> load_mesh(const TriangleFile& file) {
+  std::optional<std::vector<int>> corners = load_corners<order>(file);
+  if (!corners) return std::nullopt;
+  PolygonMesh mesh;
+  mesh.corners = std::move(*corners);
+  mesh.face_start.resize(file.face_count + 1);
+  for (std::size_t f = 0; f <= file.face_count; ++f) mesh.face_start[f] = static_cast<int>(3 * f);
+  mesh.V = file.vertex.type == PlyType::float32 ? load_points<float, order>(file)
+                                                : load_points<double, order>(file);
+  return mesh;
+}
+
+PlyProperty scalar(std::string name, PlyType type) {
+  PlyProperty property;
+  property.name = std::move(name);
+  property.type = type;
+  return property;
+}
+
+/// The elements, without values.
+PlyFile layout_of(std::size_t vertices, std::size_t faces, const std::vector<PlyIntegers>& further) {
+  PlyElement vertex = {"vertex", vertices, {}};
+  for (const char* axis : {"x", "y", "z"}) vertex.properties.push_back(scalar(axis, PlyType::float64));
+  for (const PlyIntegers& column : further) vertex.properties.push_back(scalar(column.name, PlyType::int32));
+  PlyProperty list = scalar("vertex_indices", PlyType::int32);
+  list.is_list = true;
+  return {{}, {std::move(vertex), {"face", faces, {std::move(list)}}}};
+}
+
+void check_size(const PlyIntegers& column, std::size_t vertices) {
+  if (column.values.size() == vertices) return;
+  throw ArgumentError(
+      fmt::format("property '{}' does not have one value for each of {} vertices", column.name, vertices));
+}
+
+}  // namespace
+
+std::optional<PolygonMesh> read_ply_triangles(std::string_view bytes, const PlyHeader& header) {
+  const std::optional<TriangleFile> file = triangle_file(bytes, header);
+  if (!file) return std::nullopt;
+  return file->order == std::endian::little ? load_mesh<std::endian::little>(*file)
+                                            : load_mesh<std::endian::big>(*file);
+}
+
+std::optional<std::vector<int>> read_ply_integers(std::string_view bytes, const PlyHeader& header,
+                                                  std::string_view property) {
+  const std::optional<TriangleFile> file = triangle_file(bytes, header);
+  if (!file) return std::nullopt;
+  const PlyElement& vertex = header.file.elements.front();
+  const PlyProperty* column = vertex.find(property);
+  if (column == nullptr || column->type != PlyType::int32) return std::nullopt;
+  std::vector<int> values(file->vertex_count);
+  const char* at = file->vertices + size_before(vertex, column);
+  for (int& value : values) {
+    value = load<std::int32_t>(at, file->order);
+    at += file->vertex.size;
+  }
+  return values;
+}
+
+std::string write_ply_triangles(const Points& V, const Faces& F,
+                                const std::vector<PlyIntegers>& further_properties,
+                                const std::vector<std::string>& comments) {
+  const auto vertices = static_cast<std::size_t>(V.rows()), faces = static_cast<std::size_t>(F.rows());
+  for (const PlyIntegers& column : further_properties) check_size(column, vertices);
+  PlyFile layout = layout_of(vertices, faces, further_properties);
+  layout.comments = comments;
+  std::string bytes = serialize_ply_header(layout);
+  bytes.reserve(bytes.size() + vertices * size_before(layout.elements.front(), nullptr) +
+                faces * triangle_size);
+  for (std::size_t v = 0; v < vertices; ++v) {
+    append_little_endian(bytes, V(v, 0), V(v, 1), V(v, 2));
+    for (const PlyIntegers& column : further_properties) append_little_endian(bytes, column.values[v]);
+  }
+  for (const auto& face : F.rowwise())
+    append_little_endian(bytes, std::uint8_t{3}, face[0], face[1], face[2]);
+  return bytes;
 }
 
 }  // namespace orbitutte

@@ -16,13 +16,13 @@ PolygonMesh to_polygon_mesh(const Mesh& mesh) {
   return polygons;
 }
 
-Mesh to_triangle_mesh(const PolygonMesh& mesh) {
+Mesh to_triangle_mesh(PolygonMesh mesh) {
   for (int f = 0; f < mesh.face_count(); ++f) {
     if (mesh.face_degree(f) == 3) continue;
     throw MeshError(
         fmt::format("face {} has {} corners instead of three; triangulate the mesh", f, mesh.face_degree(f)));
   }
-  Mesh triangles{mesh.V, Faces(mesh.face_count(), 3)};
+  Mesh triangles{std::move(mesh.V), Faces(mesh.face_count(), 3)};
   std::copy(mesh.corners.begin(), mesh.corners.end(), triangles.F.data());
   return triangles;
 }

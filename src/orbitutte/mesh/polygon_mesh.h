@@ -23,8 +23,8 @@ struct PolygonMesh {
 /// The same mesh as polygons.
 PolygonMesh to_polygon_mesh(const Mesh& mesh);
 
-/// The same mesh as triangles; vertex and face order are kept.
+/// The same mesh as triangles; vertex and face order are kept. Positions that are moved in are not copied.
 /// Throws MeshError naming the first face that is not a triangle.
-Mesh to_triangle_mesh(const PolygonMesh& mesh);
+Mesh to_triangle_mesh(PolygonMesh mesh);
 
 }  // namespace orbitutte

@@ -6,26 +6,18 @@
 #include <cmath>
 
 #include "orbitutte/mesh/file.h"
-#include "orbitutte/mesh/ply.h"
+#include "orbitutte/mesh/mesh_io.h"
+#include "orbitutte/mesh/ply_triangles.h"
 
 namespace orbitutte {
 namespace {
 
-PlyProperty column(std::string name, PlyType type, std::vector<double> values) {
-  PlyProperty property;
-  property.name = std::move(name);
-  property.type = type;
-  property.values = std::move(values);
-  return property;
-}
-
-const PlyProperty& require(const PlyElement& element, const char* property, bool is_list) {
+void require(const PlyElement& element, const char* property, bool is_list) {
   const PlyProperty* found = element.find(property);
   if (!found || found->is_list != is_list)
     throw MeshError(
         fmt::format("the element '{}' has no {} property '{}'; is this an embedding written by orbitutte?",
                     element.name, is_list ? "list" : "scalar", property));
-  return *found;
 }
 
 const PlyElement& require(const PlyFile& file, const char* element) {
@@ -36,63 +28,68 @@ const PlyElement& require(const PlyFile& file, const char* element) {
   return *found;
 }
 
-int to_index(double value, std::size_t limit, const char* what, std::size_t of) {
-  if (!(value >= 0) || value >= static_cast<double>(limit) || value != std::floor(value))
+void require_properties(const PlyFile& file) {
+  const PlyElement &vertex = require(file, "vertex"), &face = require(file, "face");
+  for (const char* property : {"x", "y", "z", "source_vertex"}) require(vertex, property, false);
+  require(face, "vertex_indices", true);
+}
+
+int to_index(double value, int limit, const char* what, std::size_t of) {
+  if (!(value >= 0) || value >= limit || value != std::floor(value))
     throw MeshError(fmt::format("{} {} names the vertex {}; there are {}", what, of, value, limit));
   return static_cast<int>(value);
 }
 
-Embedding to_embedding(const PlyFile& file) {
-  const PlyElement &vertex = require(file, "vertex"), &face = require(file, "face");
+template <typename Number>
+std::vector<int> to_source_vertices(const std::vector<Number>& values) {
+  std::vector<int> sources;
+  sources.reserve(values.size());
+  for (const Number value : values)
+    sources.push_back(
+        to_index(value, static_cast<int>(values.size()), "the source of cut vertex", sources.size()));
+  return sources;
+}
+
+std::vector<int> read_source_vertices(std::string_view bytes, const PlyHeader& header) {
+  if (const auto values = read_ply_integers(bytes, header, "source_vertex"))
+    return to_source_vertices(*values);
+  return to_source_vertices(parse_ply(bytes).find("vertex")->find("source_vertex")->values);
+}
+
+Faces to_faces(const PolygonMesh& mesh) {
+  Faces faces(mesh.face_count(), 3);
+  for (int f = 0; f < mesh.face_count(); ++f) {
+    if (mesh.face_degree(f) != 3) throw MeshError(fmt::format("face {} is no triangle", f));
+    for (int k = 0; k < 3; ++k)
+      faces(f, k) =
+          to_index(mesh.corners[3 * f + k], mesh.vertex_count(), "face", static_cast<std::size_t>(f));
+  }
+  return faces;
+}
+
+Embedding parse_embedding(std::string_view bytes) {
+  const PlyHeader header = parse_ply_header(bytes);
+  require_properties(header.file);
+  PolygonMesh mesh = parse_mesh(bytes, MeshFormat::ply);
   Embedding embedding;
-  embedding.positions.resize(static_cast<Eigen::Index>(vertex.count), 3);
-  for (int k = 0; k < 3; ++k) {
-    const std::vector<double>& values = require(vertex, k == 0 ? "x" : k == 1 ? "y" : "z", false).values;
-    for (std::size_t v = 0; v < vertex.count; ++v)
-      embedding.positions(static_cast<Eigen::Index>(v), k) = values[v];
-  }
-  const std::vector<double>& source = require(vertex, "source_vertex", false).values;
-  for (std::size_t v = 0; v < vertex.count; ++v)
-    embedding.source_vertex.push_back(to_index(source[v], vertex.count, "the source of cut vertex", v));
-  const PlyProperty& corners = require(face, "vertex_indices", true);
-  embedding.faces.resize(static_cast<Eigen::Index>(face.count), 3);
-  for (std::size_t f = 0; f < face.count; ++f) {
-    if (corners.list_start[f + 1] - corners.list_start[f] != 3)
-      throw MeshError(fmt::format("face {} is no triangle", f));
-    for (std::size_t k = 0; k < 3; ++k)
-      embedding.faces(static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(k)) =
-          to_index(corners.values[3 * f + k], vertex.count, "face", f);
-  }
+  embedding.source_vertex = read_source_vertices(bytes, header);
+  embedding.faces = to_faces(mesh);
+  embedding.positions = std::move(mesh.V);
   return embedding;
 }
 
 }  // namespace
 
 std::string serialize_embedding(const Embedding& embedding) {
-  PlyFile file;
-  file.comments = {fmt::format("orbitutte embedding {}", embedding.signature)};
-  PlyElement vertex = {"vertex", static_cast<std::size_t>(embedding.positions.rows()), {}};
-  for (int k = 0; k < 3; ++k) {
-    const Eigen::VectorXd values = embedding.positions.col(k);
-    vertex.properties.push_back(
-        column(std::string(1, static_cast<char>('x' + k)), PlyType::float64, {values.begin(), values.end()}));
-  }
-  vertex.properties.push_back(column("source_vertex", PlyType::int32,
-                                     {embedding.source_vertex.begin(), embedding.source_vertex.end()}));
-  PlyElement face = {"face", static_cast<std::size_t>(embedding.faces.rows()), {}};
-  const auto corners = embedding.faces.reshaped<Eigen::RowMajor>();
-  PlyProperty lists = column("vertex_indices", PlyType::int32, {corners.begin(), corners.end()});
-  lists.is_list = true;
-  for (std::size_t f = 0; f <= face.count; ++f) lists.list_start.push_back(3 * f);
-  face.properties.push_back(std::move(lists));
-  file.elements = {std::move(vertex), std::move(face)};
-  return serialize_ply(file);
+  return write_ply_triangles(embedding.positions, embedding.faces,
+                             {{"source_vertex", embedding.source_vertex}},
+                             {fmt::format("orbitutte embedding {}", embedding.signature)});
 }
 
 Embedding read_embedding(const std::string& path) {
   const std::string bytes = read_file(path);
   try {
-    return to_embedding(parse_ply(bytes));
+    return parse_embedding(bytes);
   } catch (const MeshError& error) {
     throw MeshError(fmt::format("{}: {}", path, error.what()));
   }
