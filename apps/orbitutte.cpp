@@ -5,6 +5,7 @@
 #include <new>
 
 #include "commands.h"
+#include "orbitutte/memory.h"
 #include "orbitutte/types.h"
 
 namespace {
@@ -111,6 +112,7 @@ void add_sample(CLI::App& app, int& code) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  orbitutte::keep_freed_memory();
   CLI::App app("orbitutte: spherical orbifold Tutte embeddings", "orbitutte");
   app.set_version_flag("--version", version_text());
   app.require_subcommand(1);

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "orbitutte/embed.h"
+#include "orbitutte/memory.h"
 #include "orbitutte/mesh/connectivity.h"
 #include "orbitutte/mesh/mesh_io.h"
 #include "orbitutte/mesh/sample.h"
@@ -114,6 +115,7 @@ nlohmann::json run(const Arguments& arguments, const Input& input) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  orbitutte::keep_freed_memory();
   Arguments arguments;
   CLI::App app{"Times embeddings beside T0, one factorisation of the mesh's Laplacian by CHOLMOD"};
   app.add_option("mesh", arguments.mesh, "figure:FACES, mask:FACES, or a mesh file")->required();

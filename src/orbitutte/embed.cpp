@@ -12,6 +12,7 @@
 #include "orbitutte/mesh/extremities.h"
 #include "orbitutte/mesh/inspection.h"
 #include "orbitutte/mesh/recognition.h"
+#include "orbitutte/parallel.h"
 #include "orbitutte/solve/ears.h"
 #include "orbitutte/solve/frame.h"
 #include "orbitutte/solve/initial_embedding.h"
@@ -133,7 +134,7 @@ std::vector<std::string> warnings_about(const EdgeWeights& weights, const std::v
 struct Preparation {
   std::optional<SoundSurface> surface;
   std::optional<EdgeWeights> weights;
-  std::shared_ptr<LaplacianReuse> laplacians;  // null where nothing will be used again
+  std::shared_ptr<LaplacianReuse> laplacians = reusable_laplacians();
 };
 
 EmbedResult embed_prepared(const Mesh& mesh, Preparation& prepared, const Orbifold& orbifold,
@@ -159,15 +160,20 @@ EmbedResult embed_prepared(const Mesh& mesh, Preparation& prepared, const Orbifo
                                                     : read_weights(options.weights_file, connectivity);
   });
   const EdgeWeights& weights = *prepared.weights;
-  const CutMesh cut =
-      stage("cut", [&] { return cut_to_disk(mesh, connectivity, marked_vertices, options.cut); });  // 4.1
+  CutMesh cut;
+  stage("cut", [&] {  // section 4.1; the elimination order is found at the same time
+    parallel_for(2, [&](int task) {
+      if (task == 0) cut = cut_to_disk(mesh, connectivity, marked_vertices, options.cut);
+      if (task == 1) order_ahead(*prepared.laplacians, connectivity.edges, static_cast<int>(mesh.V.rows()));
+    });
+  });
   Tile tile = basic_tile(orbifold, cut.arrangement);                         // appendix A
   BoundaryConditions boundary = glue(cut, tile, orbifold, marked_vertices);  // (3), (4), (7)
   const GluedEdges glued = glued_edges(cut, connectivity, boundary);
   require_apart(glued, boundary, orbifold);
   const SphericalEnergy energy(glued, weights, boundary);  // (2)
   LaplacianOptions laplacian_options = options.laplacian;
-  if (prepared.laplacians) laplacian_options.reuse = prepared.laplacians;
+  laplacian_options.reuse = prepared.laplacians;
   const LaplacianSolver laplacian =
       stage("factorize", [&] { return LaplacianSolver(cut, glued, weights, boundary, laplacian_options); });
   const Points start =
@@ -232,8 +238,7 @@ struct EmbeddingSolver::State {
 };
 
 EmbeddingSolver::EmbeddingSolver(Mesh mesh, EmbedOptions options)
-    : state_(std::make_unique<State>(
-          State{std::move(mesh), std::move(options), {{}, {}, reusable_laplacians()}})) {}
+    : state_(std::make_unique<State>(State{std::move(mesh), std::move(options), {}})) {}
 EmbeddingSolver::~EmbeddingSolver() = default;
 EmbeddingSolver::EmbeddingSolver(EmbeddingSolver&&) noexcept = default;
 

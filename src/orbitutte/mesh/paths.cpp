@@ -6,13 +6,53 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
-#include <queue>
+#include <numeric>
 #include <unordered_map>
 
 namespace orbitutte {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// A priority queue of nodes for distances that never exceed the least one by more than the length of an arc:
+// buckets of equal width, used again from the first on (E. Denardo, B. Fox, "Shortest-route methods: 1",
+// Operations Research 27 (1979)), the first of them a heap.
+class Queue {
+ public:
+  using Entry = std::pair<double, int>;  // distance, node
+
+  Queue(double width, double longest_arc)
+      : width_(width), buckets_(static_cast<std::size_t>(longest_arc / width) + 2) {}
+
+  void push(const Entry& entry) {
+    const std::size_t number = std::max(first_, static_cast<std::size_t>(entry.first / width_));
+    std::vector<Entry>& bucket = buckets_[number % buckets_.size()];
+    bucket.push_back(entry);
+    if (number == first_) std::push_heap(bucket.begin(), bucket.end(), std::greater<>());
+    ++size_;
+  }
+
+  bool empty() const { return size_ == 0; }
+
+  Entry pop() {
+    if (first().empty()) {
+      while (first().empty()) ++first_;
+      std::make_heap(first().begin(), first().end(), std::greater<>());
+    }
+    std::pop_heap(first().begin(), first().end(), std::greater<>());
+    const Entry entry = first().back();
+    first().pop_back();
+    --size_;
+    return entry;
+  }
+
+ private:
+  std::vector<Entry>& first() { return buckets_[first_ % buckets_.size()]; }
+
+  double width_;
+  std::vector<std::vector<Entry>> buckets_;
+  std::size_t first_ = 0, size_ = 0;
+};
 
 // Dijkstra's algorithm over nodes 0 .. count - 1.
 struct Search {
@@ -24,25 +64,21 @@ struct Search {
   // for_each_arc(node, visit) calls visit(next node, length >= 0); the search ends when done(node) says so of
   // a settled node, which is returned, or -1.
   template <typename ForEachArc, typename Done>
-  int run(const std::vector<int>& sources, const ForEachArc& for_each_arc, const Done& done) {
-    using Entry = std::pair<double, int>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  int run(const std::vector<int>& sources, Queue queue, const ForEachArc& for_each_arc, const Done& done) {
     for (const int source : sources) {
       distance[source] = 0;
-      queue.emplace(0.0, source);
+      queue.push({0.0, source});
     }
     while (!queue.empty()) {
-      const double reached = queue.top().first;
-      const int node = queue.top().second;
-      queue.pop();
+      const auto [reached, node] = queue.pop();
       if (reached > distance[node]) continue;
       if (done(node)) return node;
-      for_each_arc(node, [&](int next, double length) {
+      for_each_arc(node, [&, reached = reached, node = node](int next, double length) {
         const double through = reached + length;
         if (!(through < distance[next])) return;
         distance[next] = through;
         previous[next] = node;
-        queue.emplace(through, next);
+        queue.push({through, next});
       });
     }
     return -1;
@@ -63,55 +99,67 @@ auto arcs_of(const EdgeGraph& graph) {
   };
 }
 
-// The residual graph after one unit has gone along `first`: node 2 v is the entry of vertex v, 2 v + 1 its
-// exit. Lengths are reduced by the potentials, so none is negative.
+// A queue for arcs up to `factor` times as long as the graph's edges.
+Queue queue_for(const EdgeGraph& graph, double factor = 1) {
+  const double total = std::accumulate(graph.length.begin(), graph.length.end(), 0.0);
+  if (!(total > 0)) return {1, 0};
+  const double mean = total / static_cast<double>(graph.length.size());
+  const double longest = factor * *std::max_element(graph.length.begin(), graph.length.end());
+  return {std::max(mean / 2, longest / 10000), longest};
+}
+
+// The residual graph after one unit has gone along `first`. Its vertices have an entry and an exit, nodes v
+// and, for the k-th, n + k; all others are one node, v. Lengths are reduced by the potentials, so none is
+// negative.
 class Residual {
  public:
   Residual(const EdgeGraph& graph, const Path& first, const std::vector<double>& potential)
-      : graph_(graph), potential_(potential), source_(first.front()) {
-    for (std::size_t k = 1; k < first.size(); ++k) before_[first[k]] = first[k - 1];
-    for (std::size_t k = 0; k + 1 < first.size(); ++k) after_[first[k]] = first[k + 1];
+      : graph_(graph), first_(first), potential_(potential), place_(graph.vertex_count(), -1) {
+    for (std::size_t k = 0; k < first.size(); ++k) place_[first[k]] = static_cast<int>(k);
   }
+
+  int node_count() const { return exit(static_cast<int>(first_.size())); }
+  int source() const { return exit(0); }
+  int vertex(int node) const { return node < exit(0) ? node : first_[node - exit(0)]; }
 
   template <typename Visit>
   void operator()(int node, const Visit& visit) const {
-    const int v = node / 2;
-    const bool entry = node % 2 == 0;
-    const auto before = before_.find(v);
-    if (entry && before == before_.end()) {
-      visit(2 * v + 1, 0.0);
-    } else if (entry) {
-      visit(2 * before->second + 1,
-            0.0);  // takes back the edge of the first path, whose reduced length is zero
+    if (node >= exit(0)) {
+      const int k = node - exit(0);
+      if (k > 0) visit(first_[k], 0.0);  // takes back the passage through the vertex
+      const bool last = k + 1 == static_cast<int>(first_.size());
+      visit_edges(first_[k], last ? -1 : first_[k + 1], visit);
+    } else if (const int k = place_[node]; k < 0) {
+      visit_edges(node, -1, visit);
     } else {
-      visit_edges(v, visit);
+      visit(exit(k - 1), 0.0);  // takes back the edge of the first path, whose reduced length is zero
     }
   }
 
  private:
+  int exit(int k) const { return graph_.vertex_count() + k; }
+
   template <typename Visit>
-  void visit_edges(int v, const Visit& visit) const {
-    if (before_.count(v)) visit(2 * v, 0.0);  // takes back the passage through v
-    const auto after = after_.find(v);
+  void visit_edges(int v, int except, const Visit& visit) const {
     arcs_of(graph_)(v, [&](int next, double length) {
-      if (next == source_ || (after != after_.end() && after->second == next)) return;
-      visit(2 * next, std::max(0.0, length + potential_[v] - potential_[next]));
+      if (next != first_.front() && next != except)
+        visit(next, std::max(0.0, length + potential_[v] - potential_[next]));
     });
   }
 
   const EdgeGraph& graph_;
+  const Path& first_;
   const std::vector<double>& potential_;
-  int source_;
-  std::unordered_map<int, int> before_, after_;  // along the first path
+  std::vector<int> place_;  // of every vertex on the first path, -1 elsewhere
 };
 
 // The edges of both paths, those that one takes and the other takes back left out, followed from the source.
-std::array<Path, 2> untangle(const Path& first, const Path& second_nodes, const std::array<int, 2>& to) {
+std::array<Path, 2> untangle(const Path& first, const Path& second, const std::array<int, 2>& to) {
   std::unordered_map<int, std::vector<int>> next;
   for (std::size_t k = 1; k < first.size(); ++k) next[first[k - 1]].push_back(first[k]);
-  for (std::size_t k = 1; k < second_nodes.size(); ++k) {
-    const int u = second_nodes[k - 1] / 2, v = second_nodes[k] / 2;
-    if (u == v) continue;
+  for (std::size_t k = 1; k < second.size(); ++k) {
+    const int u = second[k - 1], v = second[k];
+    if (u == v) continue;  // from an exit to its entry
     auto& back = next[v];
     const auto reverse = std::find(back.begin(), back.end(), u);
     if (reverse != back.end()) {
@@ -134,20 +182,20 @@ std::array<Path, 2> untangle(const Path& first, const Path& second_nodes, const 
 
 std::vector<double> distances(const EdgeGraph& graph, const std::vector<int>& sources) {
   Search search(graph.vertex_count());
-  search.run(sources, arcs_of(graph), [](int) { return false; });
+  search.run(sources, queue_for(graph), arcs_of(graph), [](int) { return false; });
   return std::move(search.distance);
 }
 
 Path shortest_path(const EdgeGraph& graph, int from, int to) {
   Search search(graph.vertex_count());
-  const int reached = search.run({from}, arcs_of(graph), [&](int v) { return v == to; });
+  const int reached = search.run({from}, queue_for(graph), arcs_of(graph), [&](int v) { return v == to; });
   return reached < 0 ? Path() : search.path_to(to);
 }
 
 std::array<Path, 2> disjoint_paths(const EdgeGraph& graph, int from, const std::array<int, 2>& to) {
   const auto is_target = [&](int v) { return v == to[0] || v == to[1]; };
   Search first(graph.vertex_count());
-  const int nearest = first.run({from}, arcs_of(graph), is_target);
+  const int nearest = first.run({from}, queue_for(graph), arcs_of(graph), is_target);
   if (nearest < 0) return {};
   const Path path = first.path_to(nearest);
   std::vector<double>& potential = first.distance;
@@ -155,11 +203,14 @@ std::array<Path, 2> disjoint_paths(const EdgeGraph& graph, int from, const std::
   for (double& p : potential) p = std::min(p, reach);
 
   const int other = nearest == to[0] ? to[1] : to[0];
-  Search second(2 * graph.vertex_count());
-  const int reached = second.run({2 * from + 1}, Residual(graph, path, potential),
-                                 [&](int node) { return node == 2 * other; });
+  const Residual residual(graph, path, potential);
+  Search second(residual.node_count());
+  const int reached =
+      second.run({residual.source()}, queue_for(graph, 2), residual, [&](int node) { return node == other; });
   if (reached < 0) return {};
-  return untangle(path, second.path_to(reached), to);
+  Path back = second.path_to(reached);
+  for (int& node : back) node = residual.vertex(node);
+  return untangle(path, back, to);
 }
 
 }  // namespace orbitutte

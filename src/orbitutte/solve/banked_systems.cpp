@@ -153,37 +153,57 @@ class BankedSystems : public LaplacianSystems {
     return boundary_.transform(disk_.bank(bank)) * boundary_.basis(source(bank));
   }
 
-  // Factorises N'(S x I3)N, where N takes the glued unknowns to the positions of all bank vertices.
-  void glue_banks() {
-    std::vector<int> count(boundary_.basis_of.size(), 0), order;
-    std::vector<Block> placements;
-    std::vector<std::vector<int>> copies;  // of every vertex in `order`
-    std::vector<int> place(count.size());
+  // Numbers the unknowns of the input vertices on the banks; the bank vertices that are copies of each.
+  std::vector<std::vector<int>> number_glued() {
+    std::vector<int> count(boundary_.basis_of.size(), 0), order, place(count.size());
+    std::vector<std::vector<int>> copies;
     for (int k = 0; k < disk_.banks(); ++k) {
       const int v = source(k);
-      placements.push_back(placement(k));
       if (count[v] == 0) {
         place[v] = static_cast<int>(order.size());
         order.push_back(v);
         copies.emplace_back();
       }
       copies[place[v]].push_back(k);
-      count[v] = static_cast<int>(placements[k].cols());
+      count[v] = static_cast<int>(boundary_.basis(v).cols());
     }
     glued_ = number_unknowns(order, std::move(count));
+    return copies;
+  }
+
+  // Factorises N'(S x I3)N, where N takes the glued unknowns to the positions of all bank vertices: 3 x k
+  // placements, few of which differ.
+  void glue_banks() {
+    const std::vector<std::vector<int>> copies = number_glued();
+    const int banks = disk_.banks();
+    std::vector<Block> distinct;
+    std::vector<int> kind(banks);
+    std::vector<long> row(banks);
+    for (int k = 0; k < banks; ++k) {
+      const Block here = placement(k);
+      const auto same = std::find_if(distinct.begin(), distinct.end(),
+                                     [&](const Block& b) { return b.cols() == here.cols() && b == here; });
+      kind[k] = static_cast<int>(same - distinct.begin());
+      if (same == distinct.end()) distinct.push_back(here);
+      row[k] = glued_.first[source(k)];
+    }
+    const auto kinds = static_cast<int>(distinct.size());
+    std::vector<Block> products;  // of the transpose of one with the other
+    for (const Block& left : distinct)
+      for (const Block& right : distinct) products.emplace_back(left.transpose() * right);
+
     const Eigen::MatrixXd& S = factor_->schur_complement();
-    glued_factor_ = Eigen::MatrixXd::Zero(glued_.total, glued_.total);
-    parallel_for(static_cast<int>(order.size()), [&](int column) {
-      const long first = glued_.first[order[column]];
-      for (const int k : copies[column]) {
-        for (int l = 0; l < disk_.banks(); ++l) {
-          const long row = glued_.first[source(l)];
-          if (row < first) continue;
-          const double s = S(l, k);
-          const Block &left = placements[l], &right = placements[k];
-          for (int c = 0; c < right.cols(); ++c)
-            for (int r = 0; r < left.cols(); ++r)
-              glued_factor_(row + r, first + c) += s * left.col(r).dot(right.col(c));
+    glued_factor_.resize(glued_.total, glued_.total);
+    parallel_for(static_cast<int>(copies.size()), [&](int at) {
+      const long first = glued_.first[glued_.order[at]];
+      glued_factor_.middleCols(first, glued_.count[glued_.order[at]]).setZero();
+      for (const int k : copies[at]) {
+        for (int l = 0; l < banks; ++l) {
+          if (row[l] < first) continue;
+          const Block& product = products[kind[l] * kinds + kind[k]];
+          for (int c = 0; c < product.cols(); ++c)
+            for (int r = 0; r < product.rows(); ++r)
+              glued_factor_(row[l] + r, first + c) += S(l, k) * product(r, c);
         }
       }
     });

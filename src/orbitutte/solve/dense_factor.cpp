@@ -66,6 +66,13 @@ void for_each_pair(const std::vector<Range>& rows, const Visit& visit) {
 
 }  // namespace
 
+Eigen::MatrixXd zero_lower_triangle(Eigen::Index n) {
+  Eigen::MatrixXd A(n, n);
+  // From the tile of the diagonal on: whole tiles are computed with.
+  for (Eigen::Index column = 0; column < n; ++column) A.col(column).tail(n - column / tile * tile).setZero();
+  return A;
+}
+
 void partial_cholesky(Eigen::MatrixXd& A, Eigen::Index own) {
   const int n = static_cast<int>(A.rows());
   const double one = 1, minus_one = -1;

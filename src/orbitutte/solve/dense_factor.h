@@ -6,6 +6,9 @@
 
 namespace orbitutte {
 
+/// A matrix that is zero in its lower triangle, and undefined above.
+Eigen::MatrixXd zero_lower_triangle(Eigen::Index n);
+
 /// With the symmetric A = [A_OO, A_BO'; A_BO, A_BB], O its first `own` rows, replaces A_OO by L_OO, A_OO =
 /// L_OO L_OO', A_BO by L_BO = A_BO L_OO^-T, and A_BB by the Schur complement A_BB - L_BO L_BO'. Reads and
 /// writes lower triangles; what lies above them means nothing afterwards. The same bits whatever the number

@@ -16,11 +16,11 @@ std::vector<char> vertices_inside(const CutMesh& cut, const BoundaryConditions& 
   return inside;
 }
 
-Neighbors neighbors_of(const GluedEdges& glued, int vertex_count) {
-  std::vector<std::array<int, 2>> ends;
-  ends.reserve(glued.edges.size());
-  for (const GluedEdge& edge : glued.edges) ends.push_back({edge.i, edge.j});
-  return neighbors(ends, vertex_count);
+std::vector<std::array<int, 2>> ends(const GluedEdges& glued) {
+  std::vector<std::array<int, 2>> result;
+  result.reserve(glued.edges.size());
+  for (const GluedEdge& edge : glued.edges) result.push_back({edge.i, edge.j});
+  return result;
 }
 
 // The banks' dense matrix has up to three rows per bank vertex. It stays cheap beside the sparse factor while
@@ -36,15 +36,18 @@ LaplacianSolver::LaplacianSolver(const CutMesh& cut, const GluedEdges& glued, co
                                  const BoundaryConditions& boundary, const LaplacianOptions& options)
     : cut_(cut), glued_(glued), w_(weights.w), inside_(vertices_inside(cut, boundary)) {
   const std::shared_ptr<LaplacianReuse> reuse = options.reuse ? options.reuse : reusable_laplacians();
-  if (!reuse->dissection)
-    reuse->dissection =
-        std::make_shared<Dissection>(dissect(neighbors_of(glued, static_cast<int>(inside_.size()))));
+  if (!reuse->dissection) order_ahead(*reuse, ends(glued), static_cast<int>(inside_.size()));
   const LaplacianProblem problem = {cut, glued, w_, boundary, inside_, *reuse->dissection};
   systems_ = banks_are_short(cut, inside_.size()) ? banked_systems(problem, options, *reuse)
                                                   : coupled_systems(problem, options.backend);
 }
 
 std::shared_ptr<LaplacianReuse> reusable_laplacians() { return std::make_shared<LaplacianReuse>(); }
+
+void order_ahead(LaplacianReuse& reuse, const std::vector<std::array<int, 2>>& edges, int vertex_count) {
+  if (!reuse.dissection)
+    reuse.dissection = std::make_shared<Dissection>(dissect(neighbors(edges, vertex_count)));
+}
 
 LaplacianSolver::~LaplacianSolver() = default;
 LaplacianSolver::LaplacianSolver(LaplacianSolver&&) noexcept = default;

@@ -28,6 +28,10 @@ struct LaplacianOptions {
 /// Something for LaplacianOptions::reuse that is still empty.
 std::shared_ptr<LaplacianReuse> reusable_laplacians();
 
+/// Finds the elimination order, which depends on nothing but the edges of the uncut mesh, where `reuse` does
+/// not have it yet: so that it can be done while the mesh is cut.
+void order_ahead(LaplacianReuse& reuse, const std::vector<std::array<int, 2>>& edges, int vertex_count);
+
 class LaplacianSystems;
 
 class LaplacianSolver {

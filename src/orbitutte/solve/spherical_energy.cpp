@@ -25,11 +25,12 @@ constexpr std::array<double, 9> series = [] {
     G[k] = G[k - 1] * static_cast<double>(2 * k) / static_cast<double>(2 * k + 1);
   return G;
 }();
-constexpr double series_bound = 1.0 / 64;  // its terms left out are below half a unit in the last place
 
+// The first terms of both series; the next one is below half a unit in the last place where they are used.
+template <std::size_t terms>
 Distance short_distance(double s) {
   double squared = 0, over_sine = 0;
-  for (std::size_t k = series.size(); k-- > 0;) {
+  for (std::size_t k = terms; k-- > 0;) {
     squared = squared * s + series[k] / static_cast<double>(k + 1);
     over_sine = over_sine * s + series[k];
   }
@@ -39,8 +40,9 @@ Distance short_distance(double s) {
 // At d = pi, d/sin d has a pole, where the shortest arc is not unique: the slope is then taken just before
 // it, large and finite, so that a line search turns back.
 Distance distance(const Vector3& p, const Vector3& q) {
-  const double squared_chord = (p - q).squaredNorm();
-  if (squared_chord < 4 * series_bound) return short_distance(squared_chord / 4);
+  const double squared_chord = (p - q).squaredNorm(), s = squared_chord / 4;
+  if (s < 0x1p-13) return short_distance<4>(s);
+  if (s < 0x1p-6) return short_distance<series.size()>(s);
   const double d = 2 * std::atan2(std::sqrt(squared_chord), (p + q).norm());
   return {d * d, d / std::max(std::sin(d), 1e-8)};
 }

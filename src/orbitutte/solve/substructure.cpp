@@ -122,7 +122,7 @@ void add_update(const Piece& from, const Place& place, Eigen::MatrixXd& A) {
 
 template <typename Piece>
 void factorize_dense(const SparseMatrix& lower, std::vector<Piece>& pieces, Piece& piece) {
-  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(piece.size(), piece.size());
+  Eigen::MatrixXd A = zero_lower_triangle(piece.size());
   for (long column = 0; column < piece.own(); ++column)
     for (SparseMatrix::InnerIterator entry(lower, piece.begin + column); entry; ++entry)
       A(piece.place(entry.row()), column) += entry.value();

@@ -242,17 +242,17 @@ Check cone_check(const Embedding& embedding) {
 
 // The largest difference between an angle sum and 2 pi/order (rotation) or pi/order (corner).
 Check angle_check(const Embedding& embedding) {
-  std::unordered_map<int, std::size_t> cone_of;
+  constexpr int no_cone = -1;
+  std::vector<int> cone_of(embedding.source_vertex.size(), no_cone);
   for (std::size_t k = 0; k < embedding.cones.size(); ++k)
-    for (const int v : embedding.cones[k].copies) cone_of[v] = k;
+    for (const int v : embedding.cones[k].copies) cone_of[v] = static_cast<int>(k);
   std::vector<double> angle(embedding.cones.size(), 0.0);
   const Faces& F = embedding.faces;
   for (int h = 0; h < static_cast<int>(F.size()); ++h) {
-    const auto at = cone_of.find(origin(F, h));
-    if (at == cone_of.end()) continue;
+    const int cone = cone_of[origin(F, h)];
+    if (cone == no_cone) continue;
     const Points& X = embedding.positions;
-    angle[at->second] +=
-        angle_at(X.row(origin(F, h)), X.row(target(F, h)), X.row(origin(F, previous_halfedge(h))));
+    angle[cone] += angle_at(X.row(origin(F, h)), X.row(target(F, h)), X.row(origin(F, previous_halfedge(h))));
   }
   double worst = 0;
   for (std::size_t k = 0; k < embedding.cones.size(); ++k) {
@@ -304,14 +304,13 @@ Check orientation_check(const Embedding& embedding, std::vector<int>& nonpositiv
 
 Check edge_length_check(const Embedding& embedding, double& longest) {
   const Points& X = embedding.positions;
-  double widest_chord = 0;
-  for (int h = 0; h < static_cast<int>(embedding.faces.size()); ++h) {
-    const auto p = X.row(origin(embedding.faces, h)), q = X.row(target(embedding.faces, h));
-    const double chord = (p - q).squaredNorm();
-    if (chord <= widest_chord) continue;
-    widest_chord = chord;
-    longest = arc_length(p, q);
-  }
+  const Faces& F = embedding.faces;
+  const int halfedges = static_cast<int>(F.size());
+  const auto squared_chord = [&](int h) { return (X.row(origin(F, h)) - X.row(target(F, h))).squaredNorm(); };
+  const double widest = parallel_max(halfedges, squared_chord);
+  longest = parallel_max(halfedges, [&](int h) {
+    return squared_chord(h) < widest ? 0.0 : arc_length(X.row(origin(F, h)), X.row(target(F, h)));
+  });
   Check check = {"edge_lengths", longest < pi, longest, pi, {}};
   if (!check.passed) check.detail = "an edge is not shorter than pi";
   return check;

@@ -65,9 +65,8 @@ Distortion::Histogram empty_histogram() {
   return histogram;
 }
 
-void count_in(Distortion::Histogram& histogram, double log2_ratio) {
-  const int bin = static_cast<int>(std::floor(std::clamp(4 * log2_ratio, -32.0, 31.0))) + 32;
-  ++histogram.counts[bin];
+int histogram_bin(double area_ratio) {
+  return static_cast<int>(std::floor(std::clamp(4 * std::log2(area_ratio), -32.0, 31.0))) + 32;
 }
 
 // The largest coordinate of an edge: areas in its square overflow nowhere.
@@ -82,8 +81,9 @@ double length_unit(const Mesh& mesh) {
 
 // A triangle's measures; zero where there is none.
 struct FaceDistortion {
-  double area_ratio = 0;  // its share of the image's area over its share of the source's
-  double angle = 0;       // the ratio of the singular values
+  double area = 0;   // max(A, 1/A), A its share of the image's area over its share of the source's
+  int bin = 0;       // of A in the histogram
+  double angle = 0;  // the ratio of the singular values
 };
 
 struct FaceAreas {
@@ -103,7 +103,8 @@ FaceDistortion face_distortion(const std::array<Vector3, 3>& source, const std::
     return result;
   const double ratio = (area.image / total.image) / (area.source / total.source);
   if (!(ratio > 0) || !std::isfinite(ratio)) return result;
-  result.area_ratio = ratio;
+  result.area = std::max(ratio, 1 / ratio);
+  result.bin = histogram_bin(ratio);
   const auto e = lay_out(lengths[0], lengths[1], lengths[2]), g = lay_out(arcs[0], arcs[1], arcs[2]);
   if (!e || !g) return result;
   const double angle = ratio_of_singular_values(*e, *g);
@@ -144,12 +145,13 @@ Distortion measure_distortion(const Mesh& mesh, const Embedding& embedding) {
   Distortion result;
   result.histogram = empty_histogram();
   std::vector<double> areas;
+  areas.reserve(m);
   double angle_sum = 0;
   int angles = 0;
   for (const FaceDistortion& face : of_face) {
-    if (face.area_ratio > 0) {
-      areas.push_back(std::max(face.area_ratio, 1 / face.area_ratio));
-      count_in(result.histogram, std::log2(face.area_ratio));
+    if (face.area > 0) {
+      areas.push_back(face.area);
+      ++result.histogram.counts[face.bin];
     }
     if (face.angle > 0) {
       angle_sum += face.angle;
