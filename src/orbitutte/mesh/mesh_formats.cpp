@@ -7,6 +7,15 @@
 
 namespace orbitutte {
 
+std::string room_for_text(const Mesh& mesh) {
+  constexpr std::string_view longest_number = "-2.2250738585072014e-308", longest_index = "-2147483648";
+  constexpr std::string_view around_three_numbers = "v   \n", around_three_indices = "3    \n";
+  std::string text;
+  text.reserve(mesh.V.rows() * (3 * longest_number.size() + around_three_numbers.size()) +
+               mesh.F.rows() * (3 * longest_index.size() + around_three_indices.size()));
+  return text;
+}
+
 int checked_count(std::size_t count, std::string_view things) {
   constexpr int most = std::numeric_limits<int>::max();
   if (count <= most) return static_cast<int>(count);

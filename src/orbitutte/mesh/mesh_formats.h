@@ -20,6 +20,10 @@ std::string write_off(const Mesh& mesh);
 std::string write_ply(const Mesh& mesh);
 std::string write_stl(const Mesh& mesh);  ///< throws MeshError where a face names a vertex that is not there
 
+/// An empty text with room for a line of each vertex and face. What is not needed is never touched, so that
+/// it takes no memory.
+std::string room_for_text(const Mesh& mesh);
+
 /// The count as an int. Throws MeshError naming the things where it does not fit.
 int checked_count(std::size_t count, std::string_view things);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // OFF, after the Geomview manual, section 4.2.5.
+#include <fmt/compile.h>
 #include <fmt/format.h>
 
 #include <iterator>
@@ -90,6 +91,7 @@ Points read_points(TextScanner& in, int count) {
 
 void read_faces(TextScanner& in, int count, PolygonMesh& mesh) {
   mesh.face_start.reserve(count + std::size_t{1});
+  mesh.corners.reserve(3 * static_cast<std::size_t>(count));
   for (int f = 0; f < count; ++f) {
     const TextItem face = {"face", static_cast<std::size_t>(f)};
     find_line(in, face, count);
@@ -117,13 +119,15 @@ PolygonMesh read_off(std::string_view text) {
 }
 
 std::string write_off(const Mesh& mesh) {
-  std::string text;
+  std::string text = room_for_text(mesh);
   const auto out = std::back_inserter(text);
   fmt::format_to(out, "OFF\n{} {} 0\n", mesh.V.rows(), mesh.F.rows());
   for (const auto& position : mesh.V.rowwise()) {
-    fmt::format_to(out, "{} {} {}\n", position[0], position[1], position[2]);
+    fmt::format_to(out, FMT_COMPILE("{} {} {}\n"), position[0], position[1], position[2]);
   }
-  for (const auto& face : mesh.F.rowwise()) fmt::format_to(out, "3 {} {} {}\n", face[0], face[1], face[2]);
+  for (const auto& face : mesh.F.rowwise()) {
+    fmt::format_to(out, FMT_COMPILE("3 {} {} {}\n"), face[0], face[1], face[2]);
+  }
   return text;
 }
 

@@ -20,17 +20,22 @@ namespace {
 constexpr std::size_t title_size = 80;
 constexpr std::size_t header_size = title_size + sizeof(std::uint32_t);
 constexpr std::size_t vector_size = 3 * sizeof(float);
-constexpr std::size_t facet_size = 4 * vector_size + sizeof(std::uint16_t);  // normal, corners, attribute
+constexpr std::uint16_t no_attribute = 0;
+constexpr std::size_t facet_size = 4 * vector_size + sizeof(no_attribute);  // normal, corners, attribute
 
 using Position = std::array<double, 3>;
 
 /// Numbers positions in the order of their first use. A hash table with open addressing over the positions.
 class Welder {
  public:
+  explicit Welder(std::size_t expected_vertices = 0) : slots_(slots_for(expected_vertices), empty) {
+    coordinates_.reserve(3 * expected_vertices);
+  }
+
   /// The number of the vertex at exactly this position; -0 is 0.
   int vertex_at(Position position) {
     for (double& x : position) x += 0.0;  // turns -0 into 0
-    if (2 * (vertex_count() + 1) > slots_.size()) grow();
+    if (slots_for(vertex_count() + 1) > slots_.size()) grow();
     int& slot = slot_of(position);
     if (slot == empty) {
       slot = static_cast<int>(vertex_count());
@@ -43,6 +48,11 @@ class Welder {
 
  private:
   static constexpr int empty = -1;
+
+  /// A power of two, of which the vertices take half at most.
+  static std::size_t slots_for(std::size_t vertices) {
+    return std::bit_ceil(std::max<std::size_t>(32, vertices) * 2);
+  }
 
   std::size_t vertex_count() const { return coordinates_.size() / 3; }
 
@@ -77,12 +87,12 @@ class Welder {
   }
 
   void grow() {
-    slots_.assign(std::max<std::size_t>(64, 2 * slots_.size()), empty);
+    slots_.assign(2 * slots_.size(), empty);
     for (int v = 0; v < static_cast<int>(vertex_count()); ++v) slot_of(position(v)) = v;
   }
 
   std::vector<double> coordinates_;
-  std::vector<int> slots_;  ///< a power of two, at most half of them taken
+  std::vector<int> slots_;
 };
 
 bool equal_in_any_case(std::string_view word, std::string_view lower_case) {
@@ -191,8 +201,10 @@ Position load_position(const char* bytes) {
 PolygonMesh read_binary(std::string_view bytes) {
   check_size(bytes);
   PolygonMesh mesh;
-  Welder welder;
-  mesh.face_start.reserve(promised_facets(bytes) + std::size_t{1});
+  const std::size_t count = promised_facets(bytes);
+  Welder welder(count / 2);  // as many as closed surfaces have
+  mesh.corners.reserve(3 * count);
+  mesh.face_start.reserve(count + 1);
   for (std::string_view facets = bytes.substr(header_size); !facets.empty();
        facets.remove_prefix(facet_size)) {
     for (int corner = 1; corner <= 3; ++corner) {  // the normal stands before them
@@ -205,7 +217,7 @@ PolygonMesh read_binary(std::string_view bytes) {
 }
 
 void append_vector(std::string& bytes, const Eigen::Vector3f& vector) {
-  for (const float x : vector) append_little_endian(bytes, x);
+  append_little_endian(bytes, vector[0], vector[1], vector[2]);
 }
 
 void check_corners(const Mesh& mesh) {
@@ -229,12 +241,13 @@ std::string write_stl(const Mesh& mesh) {
   std::string bytes = "orbitutte";
   bytes.resize(title_size, ' ');
   append_little_endian(bytes, static_cast<std::uint32_t>(mesh.F.rows()));
+  bytes.reserve(header_size + facet_size * mesh.F.rows());
   for (const auto& face : mesh.F.rowwise()) {
     const Vector3 a = mesh.V.row(face[0]), b = mesh.V.row(face[1]), c = mesh.V.row(face[2]);
     const Vector3 normal = (b - a).cross(c - a).stableNormalized();
     append_vector(bytes, normal.cast<float>());
-    for (const Vector3& corner : {a, b, c}) append_vector(bytes, corner.cast<float>());
-    bytes.append(sizeof(std::uint16_t), '\0');
+    for (const Vector3* corner : {&a, &b, &c}) append_vector(bytes, corner->cast<float>());
+    append_little_endian(bytes, no_attribute);
   }
   return bytes;
 }

@@ -51,6 +51,11 @@ TextScanner::TextScanner(std::string_view text, Syntax syntax, int first_line)
   text = without_byte_order_mark(text);
   at_ = text.data();
   end_ = at_ + text.size();
+  for (std::size_t k = 0; k < may_end_word_.size(); ++k) {
+    const char c = static_cast<char>(k);
+    may_end_word_[k] =
+        is_blank(c) || is_line_end(c) || c == syntax.comment || (c == '\\' && syntax.backslash_continues);
+  }
 }
 
 bool TextScanner::find_word() {
@@ -92,13 +97,12 @@ std::string_view TextScanner::rest_of_line() {
   return {begin, static_cast<std::size_t>(at_ - begin)};
 }
 
-bool TextScanner::at_word_end() const {
-  if (at_ == end_ || is_blank(*at_) || is_line_end(*at_) || *at_ == syntax_.comment) return true;
+bool TextScanner::at_continuation() const {
   return *at_ == '\\' && syntax_.backslash_continues && at_ + 1 != end_ && is_line_end(at_[1]);
 }
 
 bool TextScanner::skip_continuation() {
-  if (*at_ != '\\' || !at_word_end()) return false;
+  if (!at_continuation()) return false;
   ++at_;
   skip_line_break();
   return true;

@@ -3,6 +3,7 @@
 // names the line.
 #pragma once
 
+#include <array>
 #include <charconv>
 #include <string>
 #include <string_view>
@@ -68,11 +69,25 @@ class TextScanner {
   /// Takes everything up to the next line break, comments and backslashes included.
   std::string_view rest_of_line();
 
+  /// Takes the next word of this line if it is a number as std::from_chars reads it, as nearly all are;
+  /// otherwise takes nothing.
+  template <class T>
+  bool take_plain_number(T& value) {
+    if (!find_word_in_line()) return false;
+    const char* const begin = at_;
+    const auto [rest, error] = std::from_chars(begin, end_, value);
+    at_ = rest;
+    if (error == std::errc() && at_word_end()) return true;
+    at_ = begin;
+    return false;
+  }
+
   /// Takes the next word of this line, which has to be a number: the `what` of `item`. Throws MeshError.
   template <class T>
   T number(const TextItem& item, std::string_view what) {
-    const std::string_view text = word();
     T value{};
+    if (take_plain_number(value)) return value;
+    const std::string_view text = word();
     const NumberError error = parse_number(text, value);
     if (error != NumberError::none) refuse_number(error, std::is_integral_v<T>, text, item, what);
     return value;
@@ -89,13 +104,20 @@ class TextScanner {
   std::size_t bytes_left() const { return static_cast<std::size_t>(end_ - at_); }
 
  private:
-  bool at_word_end() const;
+  bool at_word_end() const {
+    if (at_ == end_) return true;
+    if (!may_end_word_[static_cast<unsigned char>(*at_)]) return false;
+    return *at_ != '\\' || at_continuation();
+  }
+  bool at_continuation() const;
   bool skip_continuation();
   void skip_line_break();
 
   const char* at_;
   const char* end_;
   Syntax syntax_;
+  std::array<bool, 256>
+      may_end_word_;  ///< by character: blanks, ends of lines, the comment, a backslash that continues
   int line_;
 };
 
