@@ -97,15 +97,27 @@ EmbedOptions options_from(const EmbedArguments& arguments) {
 }
 
 // The mesh as triangles. Where a face is none, a worse defect is told first.
-Mesh triangles_of(const std::string& path, const PolygonMesh& polygons) {
+Mesh triangles_of(PolygonMesh polygons) {
+  const int faces = polygons.face_count();
+  for (int f = 0; f < faces; ++f) {
+    if (polygons.face_degree(f) == 3) continue;
+    require_embeddable(inspect(polygons));
+    break;
+  }
+  return to_triangle_mesh(std::move(polygons));
+}
+
+// Reads the mesh, and notes what the report says of its file.
+Mesh read_input(const std::string& path, RunRecord& run) {
+  const Stopwatch reading;
+  const MeshFormat format = mesh_format(path);
+  const std::string bytes = read_file(path);
+  run.mesh_path = path;
+  run.input_sha256 = sha256(bytes);
   try {
-    const int faces = polygons.face_count();
-    for (int f = 0; f < faces; ++f) {
-      if (polygons.face_degree(f) == 3) continue;
-      require_embeddable(inspect(polygons));
-      break;
-    }
-    return to_triangle_mesh(polygons);
+    Mesh mesh = triangles_of(parse_mesh(bytes, format));
+    run.read_seconds = reading.seconds();
+    return mesh;
   } catch (const MeshError& error) {
     throw MeshError(fmt::format("{}: {}", path, error.what()));
   }
@@ -142,11 +154,7 @@ int embed_command(const EmbedArguments& arguments) {
   std::vector<int> cones = automatic ? std::vector<int>() : parse_cones(arguments.cones);
 
   RunRecord run;
-  const Stopwatch reading;
-  const Mesh mesh = triangles_of(arguments.mesh, read_mesh(arguments.mesh));
-  run.mesh_path = arguments.mesh;
-  run.input_sha256 = sha256(read_file(arguments.mesh));
-  run.read_seconds = reading.seconds();
+  const Mesh mesh = read_input(arguments.mesh, run);
 
   if (automatic) {
     cones = choose_marked_vertices(mesh, orbifold);

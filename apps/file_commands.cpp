@@ -71,9 +71,9 @@ void print_checks(const std::vector<Check>& checks, bool bijective, bool json) {
 int verify_command(const VerifyArguments& arguments) {
   const Report report = read_report(arguments.report);
   const Embedding embedding = read_embedding(arguments.embedding, report);
-  const PolygonMesh polygons = read_mesh(arguments.mesh);
+  PolygonMesh polygons = read_mesh(arguments.mesh);
   require_embeddable(inspect(polygons));
-  const Mesh mesh = to_triangle_mesh(polygons);
+  const Mesh mesh = to_triangle_mesh(std::move(polygons));
 
   const Certificate certificate = certify(mesh, embedding);
   std::vector<Check> checks = certificate.checks;
