@@ -27,6 +27,7 @@ struct Arguments {
   int subdivisions = 0;
   int repetitions = 3;
   int threads = 0;
+  int block_size = LaplacianOptions().block_size;
 };
 
 // Every triangle in four, at the midpoints of its edges. The vertices keep their numbers.
@@ -88,6 +89,7 @@ nlohmann::json run(const Arguments& arguments, const Input& input) {
   const benchmarks::Yardstick yardstick = benchmarks::measure_yardstick(input.mesh);
   EmbedOptions options;
   options.threads = arguments.threads;
+  options.laplacian.block_size = arguments.block_size;
   reset_peak_memory();
   const auto start = std::chrono::steady_clock::now();
   const EmbedResult result = embed(input.mesh, parse_orbifold(arguments.orbifold), input.cones, options);
@@ -125,6 +127,7 @@ int main(int argc, char** argv) {
   app.add_option("--subdivide", arguments.subdivisions, "Midpoint subdivisions first")->capture_default_str();
   app.add_option("--repeat", arguments.repetitions, "Repetitions")->capture_default_str();
   app.add_option("--threads", arguments.threads, "0: as many as the machine has")->capture_default_str();
+  app.add_option("--block-size", arguments.block_size, "LaplacianOptions::block_size")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   try {
     const Input input = load(arguments);

@@ -496,5 +496,51 @@ TEST(Embed, ChosenMarksAreDifferentAndOnTheBoundaryOfADisk) {
   EXPECT_THROW(choose_marked_vertices(test::round_disk(2), parse_orbifold("532")), MeshError);
 }
 
+// --- many embeddings of one mesh, any number of threads
+
+bool same(const EmbedResult& a, const EmbedResult& b) {
+  return a.embedding.positions == b.embedding.positions && a.embedding.faces == b.embedding.faces &&
+         a.minimum.energy == b.minimum.energy && a.certificate.bijective == b.certificate.bijective &&
+         a.distortion.area.mean == b.distortion.area.mean &&
+         a.distortion.angle.mean == b.distortion.angle.mean;
+}
+
+TEST(EmbeddingSolver, GivesWhatSeparateEmbeddingsGive) {
+  const Mesh sphere = test::perturbed(test::icosphere(4), 0.02, 5);
+  EmbedOptions options;
+  options.laplacian.block_size = 300;  // several blocks, some of which the cuts below do not meet
+  EmbeddingSolver solver(sphere, options);
+  const std::vector<int> marks = choose_marked_vertices(sphere, parse_orbifold("432"));
+  const std::vector<int> others = {marks[0], marks[1], sphere.F(700, 0)};
+  for (const auto& [signature, cones] :
+       {std::pair("432", marks), std::pair("532", marks), std::pair("432", others), std::pair("222", others),
+        std::pair("432", marks)})
+    EXPECT_TRUE(same(solver.embed(parse_orbifold(signature), cones),
+                     embed(sphere, parse_orbifold(signature), cones, options)))
+        << signature;
+}
+
+TEST(EmbeddingSolver, TellsOfADefectEveryTime) {
+  EmbeddingSolver solver(test::torus(8, 6));
+  for (int k = 0; k < 2; ++k) EXPECT_THROW(solver.embed(parse_orbifold("432"), {0, 1, 2}), MeshError);
+}
+
+TEST(Embed, DoesNotDependOnTheNumberOfThreads) {
+  for (const std::string signature : {"432", "22", "*532"}) {
+    const Orbifold orbifold = parse_orbifold(signature);
+    const Mesh mesh = orbifold.topology == Topology::sphere ? test::perturbed(test::icosphere(5), 0.01, 6)
+                                                            : test::perturbed(test::round_disk(50), 0.01, 6);
+    const std::vector<int> marks = choose_marked_vertices(mesh, orbifold);
+    EmbedOptions options;
+    options.laplacian.block_size = 2000;
+    options.threads = 1;
+    const EmbedResult one = embed(mesh, orbifold, marks, options);
+    for (const int threads : {2, 3}) {
+      options.threads = threads;
+      EXPECT_TRUE(same(one, embed(mesh, orbifold, marks, options))) << signature << ' ' << threads;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace orbitutte

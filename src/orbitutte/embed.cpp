@@ -2,7 +2,6 @@
 #include "orbitutte/embed.h"
 
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <Eigen/Geometry>
 #include <chrono>
@@ -53,20 +52,6 @@ class Stages {
 
   const ProgressCallback& progress_;
   Timings& timings_;
-};
-
-// The number of OpenMP threads while it lives.
-class ThreadCount {
- public:
-  explicit ThreadCount(int threads) : before_(omp_get_max_threads()) {
-    if (threads > 0) omp_set_num_threads(threads);
-  }
-  ~ThreadCount() { omp_set_num_threads(before_); }
-  ThreadCount(const ThreadCount&) = delete;
-  ThreadCount& operator=(const ThreadCount&) = delete;
-
- private:
-  int before_;
 };
 
 void require_topology(Topology topology, const Orbifold& orbifold) {
@@ -134,19 +119,17 @@ std::vector<std::string> warnings_about(const EdgeWeights& weights, const std::v
 struct Preparation {
   std::optional<SoundSurface> surface;
   std::optional<EdgeWeights> weights;
-  std::shared_ptr<LaplacianReuse> laplacians = reusable_laplacians();
+  std::shared_ptr<LaplacianReuse> laplacians = reusable_laplacians(Kept::order);
 };
 
-EmbedResult embed_prepared(const Mesh& mesh, Preparation& prepared, const Orbifold& orbifold,
-                           const std::vector<int>& marked_vertices, const EmbedOptions& options) {
-  if (options.threads < 0) throw ArgumentError("the number of threads must not be negative");
+EmbedResult embed_here(const Mesh& mesh, Preparation& prepared, const Orbifold& orbifold,
+                       const std::vector<int>& marked_vertices, const EmbedOptions& options) {
   if (marked_vertices.size() != orbifold.marks.size())
     throw MeshError(fmt::format("{} needs {} marked vertices, not {}", orbifold.signature,
                                 orbifold.marks.size(), marked_vertices.size()));
   EmbedResult result;
   Stages stage(options.progress, result.timings);
-  const ThreadCount threads(options.threads);
-  result.threads = omp_get_max_threads();
+  result.threads = thread_count();
   result.backend = options.laplacian.backend;
 
   stage("validate", [&] {
@@ -223,6 +206,13 @@ EmbedResult embed_prepared(const Mesh& mesh, Preparation& prepared, const Orbifo
   return result;
 }
 
+EmbedResult embed_prepared(const Mesh& mesh, Preparation& prepared, const Orbifold& orbifold,
+                           const std::vector<int>& marked_vertices, const EmbedOptions& options) {
+  if (options.threads < 0) throw ArgumentError("the number of threads must not be negative");
+  return with_threads(options.threads,
+                      [&] { return embed_here(mesh, prepared, orbifold, marked_vertices, options); });
+}
+
 }  // namespace
 
 EmbedResult embed(const Mesh& mesh, const Orbifold& orbifold, const std::vector<int>& marked_vertices,
@@ -238,7 +228,9 @@ struct EmbeddingSolver::State {
 };
 
 EmbeddingSolver::EmbeddingSolver(Mesh mesh, EmbedOptions options)
-    : state_(std::make_unique<State>(State{std::move(mesh), std::move(options), {}})) {}
+    : state_(std::make_unique<State>(State{std::move(mesh), std::move(options), {}})) {
+  state_->prepared.laplacians = reusable_laplacians(Kept::factors);
+}
 EmbeddingSolver::~EmbeddingSolver() = default;
 EmbeddingSolver::EmbeddingSolver(EmbeddingSolver&&) noexcept = default;
 

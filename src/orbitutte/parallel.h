@@ -1,28 +1,53 @@
 // SPDX-License-Identifier: MIT
-// Loops over all threads whose results do not depend on how many there are.
+// Loops over all threads (oneTBB) whose results do not depend on how many there are.
 #pragma once
+
+#include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <exception>
+#include <mutex>
 #include <vector>
 
 namespace orbitutte {
 
+/// How many threads the loops below use here.
+inline int thread_count() { return tbb::this_task_arena::max_concurrency(); }
+
+/// Calls work(), whose loops use so many threads (0: as many as the machine has), and returns what it
+/// returns.
+template <typename Work>
+auto with_threads(int threads, const Work& work) {
+  if (threads == 0) return tbb::task_arena().execute(work);
+  const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(std::max(threads, 2)));
+  return tbb::task_arena(threads).execute(work);
+}
+
 /// Calls body(i) for i = 0 .. count - 1, in any order and on any thread; each call may write only what is its
-/// own. Of the exceptions that calls throw, the one of the lowest i is rethrown. Serial inside another
-/// parallel loop.
+/// own. Of the exceptions that calls throw, the one of the lowest i is rethrown. Loops may stand within
+/// loops.
 template <typename Body>
 void parallel_for(int count, const Body& body) {
+  std::mutex mutex;
   std::exception_ptr failure;
   int failed = count;
-#pragma omp parallel for schedule(dynamic) if (count > 1)
-  for (int i = 0; i < count; ++i) {
+  const auto guarded = [&](int i) {
     try {
       body(i);
     } catch (...) {
-#pragma omp critical(orbitutte_parallel_for)
+      const std::lock_guard lock(mutex);
       if (i < failed) failed = i, failure = std::current_exception();
     }
+  };
+  if (count == 1) {
+    guarded(0);
+  } else {
+    tbb::parallel_for(0, count, guarded, tbb::simple_partitioner());
   }
   if (failure) std::rethrow_exception(failure);
 }
@@ -55,10 +80,13 @@ double parallel_sum(int count, const Term& term) {
 /// The largest term(i) over i = 0 .. count - 1, and 0 at least; a NaN counts for nothing.
 template <typename Term>
 double parallel_max(int count, const Term& term) {
-  double largest = 0;
-#pragma omp parallel for schedule(static) reduction(max : largest)
-  for (int i = 0; i < count; ++i) largest = std::max(largest, term(i));
-  return largest;
+  return tbb::parallel_reduce(
+      tbb::blocked_range<int>(0, count, 8192), 0.0,
+      [&](const tbb::blocked_range<int>& range, double largest) {
+        for (int i = range.begin(); i != range.end(); ++i) largest = std::max(largest, term(i));
+        return largest;
+      },
+      [](double a, double b) { return std::max(a, b); });
 }
 
 }  // namespace orbitutte

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "orbitutte/mesh/connectivity.h"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
@@ -22,7 +20,7 @@ int halfedge(Key k) { return static_cast<int>(k & 0xffffffffu); }
 // belongs to its vertices.
 template <typename Visit>
 void for_vertex_ranges(int vertex_count, const Visit& visit) {
-  const int ranges = std::max(1, std::min(omp_get_max_threads(), vertex_count / 10000));
+  const int ranges = std::max(1, std::min(thread_count(), vertex_count / 10000));
   const auto bound = [&](int r) {
     return static_cast<int>(static_cast<long long>(vertex_count) * r / ranges);
   };

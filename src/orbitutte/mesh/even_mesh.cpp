@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "orbitutte/mesh/connectivity.h"
+#include "orbitutte/parallel.h"
 
 namespace orbitutte {
 namespace {
@@ -16,10 +17,9 @@ constexpr int most_grown_faces = 10'000;       // a mesh with more is divided in
 constexpr int most_flipped_faces = 1'000'000;  // beyond, triangles have taken their shapes
 constexpr double growth = 0.15;                // so many of the edges, the longest ones, are split at a time
 constexpr int flip_passes = 30;
-constexpr int growing_rounds = 3;        // of relaxation after every growth
-constexpr int final_rounds = 40;         // and after the last one
-constexpr int dividing_rounds = 2;       // and after every division
-constexpr int serial_vertices = 20'000;  // fewer are not worth waking threads for
+constexpr int growing_rounds = 3;   // of relaxation after every growth
+constexpr int final_rounds = 40;    // and after the last one
+constexpr int dividing_rounds = 2;  // and after every division
 
 int face_count(const Mesh& mesh) { return static_cast<int>(mesh.F.rows()); }
 int vertex_count(const Mesh& mesh) { return static_cast<int>(mesh.V.rows()); }
@@ -210,12 +210,13 @@ Points centres(const Mesh& mesh, const Connectivity& connectivity, const std::ve
 Points centred(const Mesh& mesh, const SmoothSurface& surface, const Connectivity& connectivity) {
   const std::vector<char> on_rim = boundary_vertices(mesh, connectivity);
   Points result = centres(mesh, connectivity, on_rim);
-#pragma omp parallel for if (vertex_count(mesh) > serial_vertices)
-  for (int v = 0; v < vertex_count(mesh); ++v) {
-    const Vector3 p = mesh.V.row(v), n = normal_at(surface, p), move = result.row(v).transpose() - p;
-    const Vector3 moved = p + move - n.dot(move) * n;
-    result.row(v) = on_rim[v] ? drawn_to_rim(surface, moved) : drawn(surface, moved);
-  }
+  parallel_ranges(vertex_count(mesh), [&](int begin, int end) {
+    for (int v = begin; v < end; ++v) {
+      const Vector3 p = mesh.V.row(v), n = normal_at(surface, p), move = result.row(v).transpose() - p;
+      const Vector3 moved = p + move - n.dot(move) * n;
+      result.row(v) = on_rim[v] ? drawn_to_rim(surface, moved) : drawn(surface, moved);
+    }
+  });
   return result;
 }
 
@@ -274,11 +275,12 @@ Mesh divided(const Mesh& mesh, const SmoothSurface& surface) {
   Mesh result;
   result.V.resize(n + edges, 3);
   result.V.topRows(n) = mesh.V;
-#pragma omp parallel for if (n > serial_vertices)
-  for (int e = 0; e < edges; ++e) {
-    const auto& [i, j] = connectivity.edges[e];
-    result.V.row(n + e) = drawn_midpoint(mesh, surface, i, j, connectivity.opposite[halfedge[e]] < 0);
-  }
+  parallel_ranges(edges, [&](int begin, int end) {
+    for (int e = begin; e < end; ++e) {
+      const auto [i, j] = connectivity.edges[e];
+      result.V.row(n + e) = drawn_midpoint(mesh, surface, i, j, connectivity.opposite[halfedge[e]] < 0);
+    }
+  });
   result.F.resize(4 * mesh.F.rows(), 3);
   for (int f = 0; f < face_count(mesh); ++f) {
     const int a = mesh.F(f, 0), b = mesh.F(f, 1), c = mesh.F(f, 2);

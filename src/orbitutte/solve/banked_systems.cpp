@@ -101,8 +101,15 @@ class BankedSystems : public LaplacianSystems {
  public:
   BankedSystems(const LaplacianProblem& problem, const LaplacianOptions& options, LaplacianReuse& reuse)
       : cut_(problem.cut), boundary_(problem.boundary), disk_(disk_unknowns(problem, options.block_size)) {
-    factorize_disk(problem, options.backend, reuse);
+    const std::shared_ptr<Substructure> factor =
+        factorize_disk(problem, options.backend, reuse.disk_factor.get());
+    factor_ = factor;
     glue_banks();
+    if (reuse.kept == Kept::factors) {
+      reuse.disk_factor = factor;
+    } else {
+      factor->release_what_solving_does_not_need();
+    }
   }
 
   Eigen::MatrixXd solve_disk(const Eigen::MatrixXd& f) const override {
@@ -136,11 +143,10 @@ class BankedSystems : public LaplacianSystems {
   }
 
  private:
-  void factorize_disk(const LaplacianProblem& problem, Backend backend, LaplacianReuse& reuse) {
+  std::shared_ptr<Substructure> factorize_disk(const LaplacianProblem& problem, Backend backend,
+                                               const Substructure* earlier) const {
     try {
-      factor_ = std::make_shared<Substructure>(disk_laplacian(problem, disk_), disk_.blocks, backend,
-                                               reuse.disk_factor.get());
-      reuse.disk_factor = factor_;
+      return std::make_shared<Substructure>(disk_laplacian(problem, disk_), disk_.blocks, backend, earlier);
     } catch (const NotPositiveDefinite& error) {
       throw not_tied(error.column < 0 ? -1 : disk_.vertex[error.column]);
     }

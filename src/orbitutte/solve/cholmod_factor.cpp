@@ -5,7 +5,7 @@
 #ifdef ORBITUTTE_HAS_CHOLMOD
 
 #include <cholmod.h>
-#include <omp.h>
+#include <dlfcn.h>
 
 #include <algorithm>
 #include <new>
@@ -19,21 +19,24 @@ namespace {
 
 static_assert(sizeof(SuiteSparse_long) == sizeof(SparseMatrix::StorageIndex));
 
-// CHOLMOD opens a parallel region of its own for every supernode, which costs more than it gains; while this
-// lives, such regions run on the calling thread. Inside a parallel loop they do so anyway.
+// CHOLMOD opens an OpenMP region of its own for every supernode, which costs more than it gains; while this
+// lives, such regions run on the calling thread alone. OpenMP is there only where CHOLMOD brought it along.
 class SerialRegions {
  public:
-  SerialRegions() : before_(omp_get_max_active_levels()) {
-    if (omp_get_active_level() == 0) omp_set_max_active_levels(0);
+  SerialRegions() {
+    if (get_) before_ = get_();
+    if (set_) set_(0);
   }
   ~SerialRegions() {
-    if (omp_get_active_level() == 0) omp_set_max_active_levels(before_);
+    if (set_) set_(before_);
   }
   SerialRegions(const SerialRegions&) = delete;
   SerialRegions& operator=(const SerialRegions&) = delete;
 
  private:
-  int before_;
+  int (*get_)() = reinterpret_cast<int (*)()>(dlsym(RTLD_DEFAULT, "omp_get_max_active_levels"));
+  void (*set_)(int) = reinterpret_cast<void (*)(int)>(dlsym(RTLD_DEFAULT, "omp_set_max_active_levels"));
+  int before_ = 1;
 };
 
 cholmod_dense dense_view(const Eigen::MatrixXd& matrix) {

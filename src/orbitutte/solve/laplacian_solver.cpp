@@ -35,14 +35,19 @@ bool banks_are_short(const CutMesh& cut, std::size_t vertex_count) {
 LaplacianSolver::LaplacianSolver(const CutMesh& cut, const GluedEdges& glued, const EdgeWeights& weights,
                                  const BoundaryConditions& boundary, const LaplacianOptions& options)
     : cut_(cut), glued_(glued), w_(weights.w), inside_(vertices_inside(cut, boundary)) {
-  const std::shared_ptr<LaplacianReuse> reuse = options.reuse ? options.reuse : reusable_laplacians();
+  const std::shared_ptr<LaplacianReuse> reuse =
+      options.reuse ? options.reuse : reusable_laplacians(Kept::order);
   if (!reuse->dissection) order_ahead(*reuse, ends(glued), static_cast<int>(inside_.size()));
   const LaplacianProblem problem = {cut, glued, w_, boundary, inside_, *reuse->dissection};
   systems_ = banks_are_short(cut, inside_.size()) ? banked_systems(problem, options, *reuse)
                                                   : coupled_systems(problem, options.backend);
 }
 
-std::shared_ptr<LaplacianReuse> reusable_laplacians() { return std::make_shared<LaplacianReuse>(); }
+std::shared_ptr<LaplacianReuse> reusable_laplacians(Kept kept) {
+  auto reuse = std::make_shared<LaplacianReuse>();
+  reuse->kept = kept;
+  return reuse;
+}
 
 void order_ahead(LaplacianReuse& reuse, const std::vector<std::array<int, 2>>& edges, int vertex_count) {
   if (!reuse.dissection)

@@ -18,15 +18,19 @@ struct LaplacianOptions {
 
   /// Parts of the mesh with at most so many vertices are factorised each on its own, at the same time as
   /// others.
-  int block_size = 60000;
+  int block_size = 30000;
 
   /// What earlier solvers of the same mesh and weights left behind, to be used again where it fits; none
   /// where null. Results do not depend on it.
   std::shared_ptr<LaplacianReuse> reuse;
 };
 
+/// What solvers leave behind for later ones: the elimination order alone, or factors of the last cut mesh,
+/// too, which take memory.
+enum class Kept { order, factors };
+
 /// Something for LaplacianOptions::reuse that is still empty.
-std::shared_ptr<LaplacianReuse> reusable_laplacians();
+std::shared_ptr<LaplacianReuse> reusable_laplacians(Kept kept);
 
 /// Finds the elimination order, which depends on nothing but the edges of the uncut mesh, where `reuse` does
 /// not have it yet: so that it can be done while the mesh is cut.

@@ -14,6 +14,7 @@ class Substructure;
 /// What does not depend on cones and orders, or may turn out not to.
 class LaplacianReuse {
  public:
+  Kept kept = Kept::order;
   std::shared_ptr<const Dissection> dissection;
   std::shared_ptr<const Substructure> disk_factor;  ///< of the last cut disk
 };

@@ -13,17 +13,23 @@ namespace orbitutte {
 namespace {
 
 // Vectors are read once for all their inner products, range by range: they are far larger than any cache.
-using Vectors = std::vector<const Points*>;
+template <typename Vector>
+using Vectors = std::vector<const Vector*>;
 
-// <v, a_i> for every i.
-std::vector<double> inner_products(const Vectors& vectors, const Points& a) {
+// <v, a_i> for every i, summed in double precision.
+template <typename Vector>
+std::vector<double> inner_products(const Vectors<Vector>& vectors, const Points& a) {
   constexpr int length = 2048;  // rows
   const int rows = static_cast<int>(a.rows()), ranges = (rows + length - 1) / length;
   std::vector<std::vector<double>> partial(ranges, std::vector<double>(vectors.size()));
   parallel_for(ranges, [&](int r) {
     const int begin = r * length, count = std::min(length, rows - begin);
     for (std::size_t k = 0; k < vectors.size(); ++k)
-      partial[r][k] = vectors[k]->middleRows(begin, count).cwiseProduct(a.middleRows(begin, count)).sum();
+      partial[r][k] = vectors[k]
+                          ->middleRows(begin, count)
+                          .template cast<double>()
+                          .cwiseProduct(a.middleRows(begin, count))
+                          .sum();
   });
   std::vector<double> result(vectors.size(), 0.0);
   for (const std::vector<double>& products : partial)
@@ -31,25 +37,32 @@ std::vector<double> inner_products(const Vectors& vectors, const Points& a) {
   return result;
 }
 
-double dot(const Points& a, const Points& b) { return inner_products({&a}, b).front(); }
-
-// sum of c_i a_i.
-Points combination(const Vectors& vectors, const std::vector<double>& coefficients) {
-  Points result(vectors.front()->rows(), 3);
-  parallel_ranges(static_cast<int>(result.rows()), [&](int begin, int end) {
-    auto rows = result.middleRows(begin, end - begin);
-    rows = coefficients[0] * vectors[0]->middleRows(begin, end - begin);
-    for (std::size_t k = 1; k < vectors.size(); ++k)
-      rows += coefficients[k] * vectors[k]->middleRows(begin, end - begin);
-  });
-  return result;
-}
+double dot(const Points& a, const Points& b) { return inner_products<Points>({&a}, b).front(); }
 
 double max_norm(const Points& a) {
   return parallel_max(static_cast<int>(a.rows()), [&](int v) { return a.row(v).cwiseAbs().maxCoeff(); });
 }
 
-Points difference(const Points& a, const Points& b) { return combination({&a, &b}, {1, -1}); }
+Points difference(const Points& a, const Points& b) {
+  Points result(a.rows(), 3);
+  parallel_ranges(static_cast<int>(a.rows()), [&](int begin, int end) {
+    result.middleRows(begin, end - begin) =
+        a.middleRows(begin, end - begin) - b.middleRows(begin, end - begin);
+  });
+  return result;
+}
+
+// What is remembered of a pair, in single precision: it shapes the direction in which a minimum is looked
+// for, not the minimum. This halves the memory of large meshes.
+using Remembered = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
+Remembered remembered(const Points& a) {
+  Remembered result(a.rows(), 3);
+  parallel_ranges(static_cast<int>(a.rows()), [&](int begin, int end) {
+    result.middleRows(begin, end - begin) = a.middleRows(begin, end - begin).cast<float>();
+  });
+  return result;
+}
 
 // H g of the quasi-Newton matrix whose initial one is gamma P, gamma = s'y/(y' P y) of the newest pair. P g
 // and the P y are given, and P is linear, so that each iteration solves with the Laplacian once. The two
@@ -62,7 +75,7 @@ class InverseHessian {
   // -H g.
   Points descent(const Points& gradient, const Points& preconditioned) const {
     const std::size_t count = pairs_.size();
-    Vectors vectors;
+    Vectors<Remembered> vectors;
     for (const Pair& pair : pairs_) vectors.push_back(&pair.s);
     for (const Pair& pair : pairs_) vectors.push_back(&pair.Py);
     const std::vector<double> products = inner_products(vectors, gradient);  // s_k' g, and y_k' P g
@@ -81,25 +94,28 @@ class InverseHessian {
     }
     for (const double a : along_s) coefficients.push_back(-a);
     for (const double a : alpha) coefficients.push_back(gamma_ * a);
-    vectors.push_back(&preconditioned);
-    coefficients.push_back(-gamma_);
-    return combination(vectors, coefficients);
+    Points direction(gradient.rows(), 3);
+    parallel_ranges(static_cast<int>(direction.rows()), [&](int begin, int end) {
+      auto rows = direction.middleRows(begin, end - begin);
+      rows = -gamma_ * preconditioned.middleRows(begin, end - begin);
+      for (std::size_t k = 0; k < vectors.size(); ++k)
+        rows += coefficients[k] * vectors[k]->middleRows(begin, end - begin).cast<double>();
+    });
+    return direction;
   }
 
   // Keeps the pair unless its curvature is not positive.
-  void update(Points s, Points y, Points Py) {
-    pairs_.push_back({std::move(s), std::move(y), std::move(Py)});
-    const Pair& newest = pairs_.back();
-    Vectors all_s, all_y, all_Py;
+  void update(const Points& s, const Points& y, const Points& Py) {
+    pairs_.push_back({remembered(s), remembered(y), remembered(Py)});
+    Vectors<Remembered> all_s, all_y, all_Py;
     for (const Pair& pair : pairs_) {
       all_s.push_back(&pair.s);
       all_y.push_back(&pair.y);
       all_Py.push_back(&pair.Py);
     }
     all_y.pop_back();
-    std::vector<double> row = inner_products(all_y, newest.s);
-    const std::vector<double> column = inner_products(all_s, newest.y),
-                              products = inner_products(all_Py, newest.y);
+    const std::vector<double> row = inner_products(all_y, s), column = inner_products(all_s, y),
+                              products = inner_products(all_Py, y);
     if (!(column.back() > 0) || !(products.back() > 0)) {
       pairs_.pop_back();
       return;
@@ -109,8 +125,8 @@ class InverseHessian {
       sy_[k].push_back(column[k]);
       yPy_[k].push_back(products[k]);
     }
-    row.push_back(column.back());
     sy_.emplace_back(row.begin(), row.end());
+    sy_.back().push_back(column.back());
     yPy_.emplace_back(products.begin(), products.end());
     if (pairs_.size() > memory_) drop_oldest();
   }
@@ -126,7 +142,7 @@ class InverseHessian {
 
  private:
   struct Pair {
-    Points s, y, Py;  // step, difference of gradients, its image under the preconditioner
+    Remembered s, y, Py;  // step, difference of gradients, its image under the preconditioner
   };
   using Table = std::deque<std::deque<double>>;
 
@@ -242,7 +258,8 @@ Minimum minimize(const SphericalEnergy& energy, const LaplacianSolver& laplacian
   };
   record();
   for (;;) {
-    const Points direction = inverse_hessian.descent(state.value.gradient, preconditioned);
+    Points direction = inverse_hessian.descent(state.value.gradient, preconditioned);
+    energy.make_feasible(direction);  // but for the single precision of what is remembered, it is
     const double step_tolerance = std::max(options.tolerance, 1e-12);
     if (gradient_vanishes(state.value.gradient, energy.rounding_floor(), options.tolerance) &&
         max_norm(direction) <= step_tolerance) {
@@ -265,10 +282,10 @@ Minimum minimize(const SphericalEnergy& energy, const LaplacianSolver& laplacian
       continue;
     }
     ++result.iterations;
-    Points s = difference(next.x, state.x);
+    const Points s = difference(next.x, state.x);
     last_step = max_norm(s);
     Points next_preconditioned = laplacian.precondition(next.value.gradient);
-    inverse_hessian.update(std::move(s), difference(next.value.gradient, state.value.gradient),
+    inverse_hessian.update(s, difference(next.value.gradient, state.value.gradient),
                            difference(next_preconditioned, preconditioned));
     preconditioned = std::move(next_preconditioned);
     std::swap(state, next);

@@ -133,6 +133,11 @@ void SphericalEnergy::evaluate(const Points& positions, Value& value) const {
                  });
 }
 
+void SphericalEnergy::make_feasible(Points& vectors) const {
+  for (int v = 0; v < static_cast<int>(vectors.rows()); ++v)
+    if (basis_of_[v] != 0) vectors.row(v) = projectors_[basis_of_[v]] * Vector3(vectors.row(v));
+}
+
 void SphericalEnergy::relax(Points& p, int v) const {
   const Vector3 here = p.row(v);
   Vector3 pull = Vector3::Zero();

@@ -47,6 +47,9 @@ class SphericalEnergy {
   /// The same, into a value whose memory is used again.
   void evaluate(const Points& positions, Value& value) const;
 
+  /// Projects vectors (n x 3) onto the room of their vertices: along mirrors; zero where held.
+  void make_feasible(Points& vectors) const;
+
   /// The vertex with the shortest edge, and that edge's length.
   std::pair<int, double> smallest_spot(const Points& positions) const;
 

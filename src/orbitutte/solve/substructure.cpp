@@ -191,6 +191,11 @@ Substructure::Substructure(const SparseMatrix& lower, const std::vector<Eliminat
   schur_complement_.triangularView<Eigen::StrictlyUpper>() = schur_complement_.transpose();
 }
 
+void Substructure::release_what_solving_does_not_need() {
+  for (Piece& piece : pieces_) piece.equations = SparseMatrix();
+  schur_complement_.resize(0, 0);
+}
+
 Substructure::~Substructure() = default;
 Substructure::Substructure(Substructure&&) noexcept = default;
 

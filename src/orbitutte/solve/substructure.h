@@ -41,6 +41,9 @@ class Substructure {
   /// K_BB - L_BI L_BI', whole.
   const Eigen::MatrixXd& schur_complement() const { return schur_complement_; }
 
+  /// Frees what serves only later substructures, and the Schur complement.
+  void release_what_solving_does_not_need();
+
  private:
   struct Piece;
   std::vector<Piece> pieces_;               // one for each block
