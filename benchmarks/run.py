@@ -1,0 +1,212 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""Runs the benchmarks and writes their tables into docs/benchmarks.md and the plot of growth beside it.
+
+Builds into build/benchmark, runs every case in a process of its own, and keeps all rows, as JSON, in build/benchmark/rows.jsonl.
+Figures are medians over the repetitions; ratios are formed within one run. Cases on real meshes are left out, saying so, where the
+folder with them (../shared) is missing. The plot needs gnuplot (./setup --benchmarks installs it).
+
+  run.py            everything, about 20 minutes on two cores and up to 8 GiB
+  run.py --quick    up to 400K triangles, printed only
+"""
+import argparse
+import datetime
+import json
+import math
+import os
+import pathlib
+import platform
+import re
+import shutil
+import statistics
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+BUILD = ROOT / 'build' / 'benchmark'
+MESHES = ROOT.parent / 'shared' / 'meshes'
+PAGE = ROOT / 'docs' / 'benchmarks.md'
+PLOT = ROOT / 'docs' / 'growth.svg'
+STAGES = ['validate', 'weights', 'cut', 'factorize', 'initialize', 'optimize', 'certify']
+
+# (mesh, orbifold, midpoint subdivisions, repetitions)
+LADDER = [('figure:100000', '432', 0, 7), ('figure:400000', '432', 0, 5), ('figure:1600000', '432', 0, 4), ('figure:6400000', '432', 0, 3),
+          ('mask:100000', '*432', 0, 7), ('mask:400000', '*432', 0, 5), ('mask:1600000', '*432', 0, 4),
+          ('igea.ply', '432', 0, 5), ('igea.ply', '432', 1, 4), ('armadillo.obj', '432', 0, 7), ('armadillo.obj', '432', 2, 4),
+          ('cortex_icbm152_lh.off', '432', 0, 7), ('cortex_icbm152_lh.off', '432', 2, 4), ('face.obj', '*432', 2, 5)]
+
+# The paper's Table 1: what stands for its models here. Of its times only the longest is known to us (MATLAB, one thread).
+TABLE_1 = [('Moon', 'itokawa.off', '432', 0, None), ('Fandisk', 'fandisk.off', '*432', 0, None), ('David', 'david_50k.off', '432', 0, None),
+           ('Bunny', 'bunny.off', '432', 0, None), ('Armadillo', 'armadillo.obj', '432', 1, None),
+           ('2M triangles', 'figure:2000000', '432', 0, 362)]
+
+
+def cones_of(mesh):
+    """The marked vertices of a shared mesh; none for samples, which know their own."""
+    if ':' in mesh:
+        return None
+    for line in (MESHES / 'cones.tsv').read_text(encoding='utf-8').splitlines():
+        columns = line.split('\t')
+        if columns[0] == mesh:
+            return columns[4]
+    raise KeyError(mesh)
+
+
+def run(program, *arguments):
+    """The rows that one process prints."""
+    print('running', program, *arguments, file=sys.stderr)
+    output = subprocess.run([BUILD / 'benchmarks' / program, *map(str, arguments)], check=True, stdout=subprocess.PIPE, text=True).stdout
+    with (BUILD / 'rows.jsonl').open('a', encoding='utf-8') as kept:
+        kept.write(output)
+    return [json.loads(line) for line in output.splitlines()]
+
+
+def run_embedding(mesh, *arguments):
+    """The rows of one mesh; none where it is missing."""
+    if ':' not in mesh and not (MESHES / mesh).exists():
+        print(f'left out: {mesh} (no {MESHES.name} folder beside the repository)', file=sys.stderr)
+        return []
+    cones = cones_of(mesh)
+    return run('embedding_benchmark', mesh if cones is None else MESHES / mesh, *arguments, *(['--cones', cones] if cones else []))
+
+
+def median(rows, *keys):
+    def value(row):
+        for key in keys:
+            row = row[key]
+        return row
+    return statistics.median(value(row) for row in rows)
+
+
+def table(head, rows):
+    lines = ['| ' + ' | '.join(head) + ' |', '|' + '---|' * len(head)]
+    return '\n'.join(lines + ['| ' + ' | '.join(row) + ' |' for row in rows])
+
+
+def size(faces):
+    return f'{faces / 1e6:.2f}M' if faces >= 999500 else f'{faces / 1e3:.0f}K'
+
+
+def seconds(value):
+    return f'{value:.3f}' if value < 1 else f'{value:.2f}'
+
+
+def embedding_rows(cases):
+    return [(case, rows) for case in cases
+            if (rows := run_embedding(case[0], '--orbifold', case[1], '--subdivide', case[2], '--repeat', case[3]))]
+
+
+def ladder_table(measured):
+    rows = []
+    for (mesh, orbifold, subdivisions, _), runs in measured:
+        name = mesh.split(':')[0] if ':' in mesh else f"{mesh}{', subdivided' * bool(subdivisions)}"
+        rows.append([name, size(runs[0]['faces']), orbifold, *(seconds(median(runs, 'stages', stage)) for stage in STAGES),
+                     seconds(median(runs, 'total')), seconds(median(runs, 'T0')), f"**{median(runs, 'ratio'):.2f}**",
+                     f"{runs[0]['iterations']}/{runs[0]['evaluations']}", f"{median(runs, 'peak_memory_bytes') / 2**30:.2f}",
+                     'yes' if all(run['certified'] for run in runs) else 'NO'])
+    return table(['mesh', 'triangles', 'orbifold', *STAGES, 'total', 'T0', 'total/T0', 'iterations/evaluations', 'GiB', 'certified'], rows)
+
+
+def table_1():
+    rows = []
+    for model, mesh, orbifold, subdivisions, paper in TABLE_1:
+        runs = run_embedding(mesh, '--orbifold', orbifold, '--subdivide', subdivisions, '--repeat', 3)
+        if runs:
+            stands_for = mesh.split(':')[0] + (', subdivided once' if subdivisions else '')
+            rows.append([model, stands_for, f"{runs[0]['faces']:,}", orbifold, str(paper) if paper else '',
+                         seconds(median(runs, 'total')), str(runs[0]['iterations'])])
+    return table(['model', 'measured on', 'triangles', 'orbifold', 'the paper, s', 'here, s', 'iterations'], rows)
+
+
+def again_table(sizes):
+    rows = []
+    for faces in sizes:
+        runs = run_embedding(f'figure:{faces}', '--orbifold', '432', '--again', '532', '--repeat', 4)[1:]
+        first = median(runs, 'first', 'total')
+        for name, what in [('first', '432'), ('other_orders', '532, the same cones'), ('other_cones', '432, another third cone')]:
+            rows.append([size(runs[0]['faces']), what, seconds(median(runs, name, 'total')), f"{median(runs, name, 'total') / first:.2f}",
+                         *(seconds(median(runs, name, 'stages', stage)) for stage in ['cut', 'factorize', 'optimize'])])
+    return table(['triangles', 'embedding', 'seconds', 'of the first', 'cut', 'factorize', 'optimize'], rows)
+
+
+def io_table():
+    rows = [[row['file'], row['direction'], f"{row['bytes'] / 1e6:.0f}", f"{row['seconds']:.3f}", f"{row['MB_per_second']:.0f}"]
+            for row in run('io_benchmark', 1600000)]
+    return table(['file', 'direction', 'MB', 'seconds', 'MB/s'], rows)
+
+
+def growth_exponents(measured):
+    """log(time ratio)/log(size ratio) from the smallest to the largest of the sample meshes."""
+    lines = []
+    for kind in ['figure', 'mask']:
+        runs = [rows for (mesh, *_), rows in measured if mesh.startswith(kind + ':')]
+        if len(runs) < 2:
+            continue
+        small, large = runs[0], runs[-1]
+        exponent = math.log(median(large, 'total') / median(small, 'total')) / math.log(large[0]['faces'] / small[0]['faces'])
+        lines.append(f"- {kind}: from {size(small[0]['faces'])} to {size(large[0]['faces'])} triangles time grows as n^{exponent:.2f}")
+    return '\n'.join(lines)
+
+
+def plot(measured):
+    if not shutil.which('gnuplot'):
+        print('no plot: gnuplot is missing (./setup --benchmarks installs it)', file=sys.stderr)
+        return
+    blocks, plots = [], []
+    for kind, orbifold in [('figure', '432'), ('mask', '*432')]:
+        runs = [rows for (mesh, *_), rows in measured if mesh.startswith(kind + ':')]
+        for key, label in [('total', f'embedding, {orbifold}'), ('T0', f'T0 of the same mesh ({kind})')]:
+            index = len(blocks)
+            blocks.append('\n'.join(f"{rows[0]['faces']} {median(rows, key)}" for rows in runs))
+            plots.append(f'$data index {index} with linespoints title "{label}"')
+    data = '$data << EOD\n' + '\n\n\n'.join(blocks) + '\nEOD\n'
+    script = data + f'''set terminal svg size 720,480 background rgb "white"
+set output "{PLOT}"
+set logscale xy
+set grid
+set key left top
+set xlabel "triangles"
+set ylabel "seconds"
+set format x "10^{{%T}}"
+plot {", ".join(plots)}
+'''
+    subprocess.run(['gnuplot'], input=script, text=True, check=True)
+
+
+def machine():
+    cpu = next((line.split(':')[1].strip() for line in open('/proc/cpuinfo', encoding='utf-8') if line.startswith('model name')), '')
+    commit = subprocess.run(['git', '-C', ROOT, 'describe', '--always', '--dirty'], stdout=subprocess.PIPE, text=True, check=False).stdout
+    return f"{datetime.date.today().isoformat()}, commit {commit.strip()}: {os.cpu_count()} cores of {cpu or platform.machine()}, shared with others"
+
+
+def replace_section(text, name, content):
+    begin, end = f'<!-- {name}: written by benchmarks/run.py -->', f'<!-- end of {name} -->'
+    pattern = re.compile(re.escape(begin) + '.*?' + re.escape(end), re.S)
+    assert pattern.search(text), f'{PAGE} has no section {name}'
+    return pattern.sub(lambda _: f'{begin}\n{content}\n{end}', text)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument('--quick', action='store_true')
+    quick = parser.parse_args().quick
+    subprocess.run(['cmake', '--preset', 'benchmark'], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(['cmake', '--build', '--preset', 'benchmark', '--parallel', str(os.cpu_count())], cwd=ROOT, check=True,
+                   stdout=subprocess.DEVNULL)
+    (BUILD / 'rows.jsonl').write_text('', encoding='utf-8')
+    if quick:
+        measured = embedding_rows([case for case in LADDER if ':' in case[0] and int(case[0].split(':')[1]) <= 400000])
+        print(ladder_table(measured))
+        return
+    measured = embedding_rows(LADDER)
+    sections = {'machine': machine(), 'ladder': ladder_table(measured), 'growth': growth_exponents(measured), 'table 1': table_1(),
+                'again': again_table([100000, 1600000]), 'files': io_table()}
+    plot(measured)
+    page = PAGE.read_text(encoding='utf-8')
+    for name, content in sections.items():
+        page = replace_section(page, name, content)
+    PAGE.write_text(page, encoding='utf-8')
+
+
+if __name__ == '__main__':
+    main()
