@@ -30,7 +30,7 @@ PLOT = ROOT / 'docs' / 'growth.svg'
 STAGES = ['validate', 'weights', 'cut', 'factorize', 'initialize', 'optimize', 'certify']
 
 # (mesh, orbifold, midpoint subdivisions, repetitions)
-LADDER = [('figure:100000', '432', 0, 7), ('figure:400000', '432', 0, 5), ('figure:1600000', '432', 0, 4), ('figure:6400000', '432', 0, 3),
+LADDER = [('figure:100000', '432', 0, 7), ('figure:400000', '432', 0, 5), ('figure:1600000', '432', 0, 4), ('figure:6400000', '432', 0, 5),
           ('mask:100000', '*432', 0, 7), ('mask:400000', '*432', 0, 5), ('mask:1600000', '*432', 0, 4),
           ('igea.ply', '432', 0, 5), ('igea.ply', '432', 1, 4), ('armadillo.obj', '432', 0, 7), ('armadillo.obj', '432', 2, 4),
           ('cortex_icbm152_lh.off', '432', 0, 7), ('cortex_icbm152_lh.off', '432', 2, 4), ('face.obj', '*432', 2, 5)]

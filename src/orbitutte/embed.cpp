@@ -115,10 +115,12 @@ std::vector<std::string> warnings_about(const EdgeWeights& weights, const std::v
   return warnings;
 }
 
-// What is known of a mesh before its cones are.
+// What is known of a mesh before its cones are, and its last cut.
 struct Preparation {
   std::optional<SoundSurface> surface;
   std::optional<EdgeWeights> weights;
+  std::vector<int> cut_through;  // the marked vertices of `cut`
+  CutMesh cut;
   std::shared_ptr<LaplacianReuse> laplacians = reusable_laplacians(Kept::order);
 };
 
@@ -143,13 +145,16 @@ EmbedResult embed_here(const Mesh& mesh, Preparation& prepared, const Orbifold& 
                                                     : read_weights(options.weights_file, connectivity);
   });
   const EdgeWeights& weights = *prepared.weights;
-  CutMesh cut;
   stage("cut", [&] {  // section 4.1; the elimination order is found at the same time
+    if (prepared.cut_through == marked_vertices) return;
+    prepared.cut_through.clear();
     parallel_for(2, [&](int task) {
-      if (task == 0) cut = cut_to_disk(mesh, connectivity, marked_vertices, options.cut);
+      if (task == 0) prepared.cut = cut_to_disk(mesh, connectivity, marked_vertices, options.cut);
       if (task == 1) order_ahead(*prepared.laplacians, connectivity.edges, static_cast<int>(mesh.V.rows()));
     });
+    prepared.cut_through = marked_vertices;
   });
+  const CutMesh& cut = prepared.cut;
   Tile tile = basic_tile(orbifold, cut.arrangement);                         // appendix A
   BoundaryConditions boundary = glue(cut, tile, orbifold, marked_vertices);  // (3), (4), (7)
   const GluedEdges glued = glued_edges(cut, connectivity, boundary);

@@ -101,11 +101,17 @@ class BankedSystems : public LaplacianSystems {
  public:
   BankedSystems(const LaplacianProblem& problem, const LaplacianOptions& options, LaplacianReuse& reuse)
       : cut_(problem.cut), boundary_(problem.boundary), disk_(disk_unknowns(problem, options.block_size)) {
-    const std::shared_ptr<Substructure> factor =
-        factorize_disk(problem, options.backend, reuse.disk_factor.get());
+    SparseMatrix K = disk_laplacian(problem, disk_);
+    if (reuse.disk_factor && reuse.disk_factor->border() == disk_.banks() && equal(K, reuse.disk_laplacian)) {
+      factor_ = reuse.disk_factor;
+      glue_banks();
+      return;
+    }
+    const std::shared_ptr<Substructure> factor = factorized(K, options.backend, reuse.disk_factor.get());
     factor_ = factor;
     glue_banks();
     if (reuse.kept == Kept::factors) {
+      reuse.disk_laplacian = std::move(K);
       reuse.disk_factor = factor;
     } else {
       factor->release_what_solving_does_not_need();
@@ -143,10 +149,10 @@ class BankedSystems : public LaplacianSystems {
   }
 
  private:
-  std::shared_ptr<Substructure> factorize_disk(const LaplacianProblem& problem, Backend backend,
-                                               const Substructure* earlier) const {
+  std::shared_ptr<Substructure> factorized(const SparseMatrix& K, Backend backend,
+                                           const Substructure* earlier) const {
     try {
-      return std::make_shared<Substructure>(disk_laplacian(problem, disk_), disk_.blocks, backend, earlier);
+      return std::make_shared<Substructure>(K, disk_.blocks, backend, earlier);
     } catch (const NotPositiveDefinite& error) {
       throw not_tied(error.column < 0 ? -1 : disk_.vertex[error.column]);
     }

@@ -16,7 +16,8 @@ class LaplacianReuse {
  public:
   Kept kept = Kept::order;
   std::shared_ptr<const Dissection> dissection;
-  std::shared_ptr<const Substructure> disk_factor;  ///< of the last cut disk
+  SparseMatrix disk_laplacian;  ///< of the last cut disk
+  std::shared_ptr<const Substructure> disk_factor;
 };
 
 /// The cut disk with its gluing, as the systems see it.

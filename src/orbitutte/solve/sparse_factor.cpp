@@ -54,6 +54,14 @@ class EigenFactor : public SparseFactor {
 
 }  // namespace
 
+bool equal(const SparseMatrix& A, const SparseMatrix& B) {
+  const long columns = A.cols(), nonzeros = A.nonZeros();
+  return columns == B.cols() && nonzeros == B.nonZeros() &&
+         std::equal(A.outerIndexPtr(), A.outerIndexPtr() + columns, B.outerIndexPtr()) &&
+         std::equal(A.innerIndexPtr(), A.innerIndexPtr() + nonzeros, B.innerIndexPtr()) &&
+         std::equal(A.valuePtr(), A.valuePtr() + nonzeros, B.valuePtr());
+}
+
 std::string name(Backend backend) { return backend == Backend::cholmod ? "cholmod" : "eigen"; }
 
 std::vector<Backend> available_backends() {

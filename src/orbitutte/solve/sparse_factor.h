@@ -13,6 +13,9 @@ namespace orbitutte {
 
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, long>;
 
+/// Have both the same entries, stored in the same order?
+bool equal(const SparseMatrix& A, const SparseMatrix& B);
+
 enum class Backend { cholmod, eigen };
 
 /// "cholmod" or "eigen".

@@ -76,14 +76,6 @@ SparseMatrix piece_matrix(const SparseMatrix& lower, const Piece& piece) {
   return A;
 }
 
-bool equal(const SparseMatrix& A, const SparseMatrix& B) {
-  const long columns = A.cols(), nonzeros = A.nonZeros();
-  return columns == B.cols() && nonzeros == B.nonZeros() &&
-         std::equal(A.outerIndexPtr(), A.outerIndexPtr() + columns, B.outerIndexPtr()) &&
-         std::equal(A.innerIndexPtr(), A.innerIndexPtr() + nonzeros, B.innerIndexPtr()) &&
-         std::equal(A.valuePtr(), A.valuePtr() + nonzeros, B.valuePtr());
-}
-
 // Eliminates a block that has no children. K's own entries on the border are its parents'; in their place
 // stands a diagonal that keeps the matrix definite, twice the sum of what couples, and is taken off
 // afterwards.
@@ -144,7 +136,7 @@ void factorize_dense(const SparseMatrix& lower, std::vector<Piece>& pieces, Piec
 
 Substructure::Substructure(const SparseMatrix& lower, const std::vector<EliminationBlock>& blocks,
                            Backend backend, const Substructure* earlier)
-    : border_begin_(blocks.empty() ? 0 : blocks.back().end) {
+    : border_begin_(blocks.empty() ? 0 : blocks.back().end), border_(lower.rows() - border_begin_) {
   use_one_blas_thread();
   const int count = static_cast<int>(blocks.size());
   pieces_.resize(count);
@@ -178,9 +170,8 @@ Substructure::Substructure(const SparseMatrix& lower, const std::vector<Eliminat
     parallel_for(static_cast<int>(level.size()), eliminate);
   }
 
-  const long border = lower.rows() - border_begin_;
-  schur_complement_ = Eigen::MatrixXd::Zero(border, border);
-  for (long column = 0; column < border; ++column)
+  schur_complement_ = Eigen::MatrixXd::Zero(border_, border_);
+  for (long column = 0; column < border_; ++column)
     for (SparseMatrix::InnerIterator entry(lower, border_begin_ + column); entry; ++entry)
       schur_complement_(entry.row() - border_begin_, column) += entry.value();
   if (!pieces_.empty() && !pieces_.back().border.empty()) {

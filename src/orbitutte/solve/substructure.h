@@ -41,6 +41,9 @@ class Substructure {
   /// K_BB - L_BI L_BI', whole.
   const Eigen::MatrixXd& schur_complement() const { return schur_complement_; }
 
+  /// The number of unknowns in B.
+  long border() const { return border_; }
+
   /// Frees what serves only later substructures, and the Schur complement.
   void release_what_solving_does_not_need();
 
@@ -48,7 +51,7 @@ class Substructure {
   struct Piece;
   std::vector<Piece> pieces_;               // one for each block
   std::vector<std::vector<int>> by_depth_;  // pieces, those of the last depth first
-  long border_begin_ = 0;
+  long border_begin_ = 0, border_ = 0;
   Eigen::MatrixXd schur_complement_;
 };
 
