@@ -61,6 +61,23 @@ DiskUnknowns disk_unknowns(const LaplacianProblem& problem, int block_size) {
   return unknowns;
 }
 
+// Sorts the entries of every column by their rows, as Eigen and CHOLMOD expect them.
+void sort_columns(SparseMatrix& K) {
+  parallel_ranges(static_cast<int>(K.cols()), [&](int begin, int end) {
+    std::vector<std::pair<long, double>> column;
+    for (int k = begin; k < end; ++k) {
+      const long first = K.outerIndexPtr()[k], last = K.outerIndexPtr()[k + 1];
+      column.clear();
+      for (long at = first; at < last; ++at) column.emplace_back(K.innerIndexPtr()[at], K.valuePtr()[at]);
+      std::sort(column.begin(), column.end());
+      for (long at = first; at < last; ++at) {
+        K.innerIndexPtr()[at] = column[at - first].first;
+        K.valuePtr()[at] = column[at - first].second;
+      }
+    }
+  });
+}
+
 // The lower triangle of the cut disk's Laplacian. An edge along the cut has two images there; the whole
 // weight goes to one, since gluing adds them up.
 SparseMatrix disk_laplacian(const LaplacianProblem& problem, const DiskUnknowns& unknowns) {
@@ -94,6 +111,7 @@ SparseMatrix disk_laplacian(const LaplacianProblem& problem, const DiskUnknowns&
     }
     if (b >= 0) K.valuePtr()[start[b]] += w;
   }
+  sort_columns(K);
   return K;
 }
 

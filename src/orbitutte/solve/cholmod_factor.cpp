@@ -61,8 +61,7 @@ cholmod_sparse sparse_view(const SparseMatrix& lower) {
   view.itype = CHOLMOD_LONG;
   view.xtype = CHOLMOD_REAL;
   view.dtype = CHOLMOD_DOUBLE;
-  view.sorted = 0;
-  view.packed = 1;
+  view.sorted = view.packed = 1;
   return view;
 }
 
