@@ -86,8 +86,8 @@ class EmbeddingSolver {
   std::unique_ptr<State> state_;
 };
 
-/// Well separated extremities for the marks of the orbifold, on the boundary of a disk.
-/// Throws MeshError where the mesh is not what the orbifold needs.
+/// Well separated extremities for the marks of the orbifold, inside a disk or on its boundary as each has to
+/// be. Throws MeshError where the mesh is not what the orbifold needs.
 std::vector<int> choose_marked_vertices(const Mesh& mesh, const Orbifold& orbifold);
 
 }  // namespace orbitutte

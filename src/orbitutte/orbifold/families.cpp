@@ -57,11 +57,13 @@ TileSide meridian(const Vector3& from, double longitude, int mark) {
   return side;
 }
 
+void make_mirror(Tile& tile, int side) {
+  tile.sides[side].partner = side;
+  tile.sides[side].transform = reflection(tile.sides[side].pole());
+}
+
 void make_mirrors(Tile& tile) {
-  for (int k = 0; k < static_cast<int>(tile.sides.size()); ++k) {
-    tile.sides[k].partner = k;
-    tile.sides[k].transform = reflection(tile.sides[k].pole());
-  }
+  for (int k = 0; k < static_cast<int>(tile.sides.size()); ++k) make_mirror(tile, k);
 }
 
 void glue_sides(Tile& tile, int left, int right, const Matrix3& transform) {
@@ -93,6 +95,23 @@ Tile doubled_triangle(const std::vector<int>& n, const std::vector<int>& marks) 
   return tile;
 }
 
+// n*m: the triangle with angles pi/n, pi/2m and a right one, and its mirror image across the side p1 p3, cut
+// open from the cone p1 to the corner p2: both banks are glued by the rotation about p1, and the mirror runs
+// from the corner through p3 to the corner's image. For n* the corner is an ordinary point of the mirror, of
+// order m = 1: to hold it there only chooses one of all rotations about the axis, which change nothing.
+Tile mirrored_sector(const std::vector<int>& n, const std::vector<int>& marks) {
+  const std::vector<Vector3> p = triangle_corners({n[0], 2 * n[1], 2});
+  const Vector3 &p1 = p[0], &p2 = p[1], &p3 = p[2];
+  const Vector3 p2_image = reflection(p1.cross(p3).normalized()) * p2;
+  TileSide mirror = short_arc(p2, p3, marks[1]);
+  mirror.length = std::min(2 * mirror.length, pi);  // pi for n = 2, up to rounding
+  Tile tile;
+  tile.sides = {short_arc(p1, p2, marks[0]), mirror, short_arc(p2_image, p1, marks[1])};
+  glue_sides(tile, 0, 2, rotation(p1, -2 * pi / n[0]));
+  make_mirror(tile, 1);
+  return tile;
+}
+
 // The lune of the given angle: down the meridian of longitude 0, up that of longitude `angle`.
 Tile lune(double angle, const std::vector<int>& marks) {
   Tile tile;
@@ -116,11 +135,16 @@ constexpr int N = 0;  // the free order in a pattern
 
 ConwaySymbol rotations(std::vector<int> orders) { return {std::move(orders), {}, false, false}; }
 ConwaySymbol corners(std::vector<int> orders) { return {{}, std::move(orders), true, false}; }
+ConwaySymbol mixed(int rotation, std::vector<int> corners) {
+  return {{rotation}, std::move(corners), true, false};
+}
 
 const std::string three_vertices = "three vertices, in the order of the digits";
 const std::string two_vertices = "two vertices";
 const std::string three_boundary_vertices = "three boundary vertices, in the order of the digits";
 const std::string two_boundary_vertices = "two boundary vertices";
+const std::string vertex_on_each_side = "one inside, of the order before the star, then one on the boundary";
+const std::string one_vertex_inside = "one vertex inside";
 
 }  // namespace
 
@@ -136,6 +160,9 @@ const std::vector<Family>& family_table() {
       {"*332", "24", three_boundary_vertices, corners({2, 3, 3}), Topology::disk, mirrored_triangle},
       {"*22N", "4N", three_boundary_vertices, corners({2, 2, N}), Topology::disk, mirrored_triangle},
       {"*NN", "2N", two_boundary_vertices, corners({N, N}), Topology::disk, mirrored_lune},
+      {"3*2", "24", vertex_on_each_side, mixed(3, {2}), Topology::disk, mirrored_sector},
+      {"2*N", "4N", vertex_on_each_side, mixed(2, {N}), Topology::disk, mirrored_sector},
+      {"N*", "2N", one_vertex_inside, mixed(N, {}), Topology::disk, mirrored_sector, 1},
   };
   return table;
 }

@@ -17,7 +17,9 @@ struct Family {
   std::string marked_points;  ///< for people
   ConwaySymbol pattern;       ///< sorted orders, 0 for N
   Topology topology;
-  Tile (*tile)(const std::vector<int>& orders, const std::vector<int>& marks);  ///< null: not embedded yet
+  /// From the orders and the marks as the boundary meets them.
+  Tile (*tile)(const std::vector<int>& orders, const std::vector<int>& marks);
+  int anchors = 0;  ///< corners of the tile, besides the marks, at vertices that the cut chooses: of order 1
 };
 
 const std::vector<Family>& family_table();

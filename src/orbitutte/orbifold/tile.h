@@ -16,7 +16,7 @@ struct TileSide {
   Vector3 start;      ///< the corner where the side begins, unit
   Vector3 direction;  ///< unit tangent there
   double length = 0;  ///< radians, at most pi
-  int mark = -1;      ///< the marked point at the start, an index into Orbifold::marks
+  int mark = -1;      ///< the marked point at the start, an index into Orbifold::marks or one behind
   int partner = -1;
   Matrix3 transform = Matrix3::Identity();
 
@@ -35,9 +35,10 @@ struct Tile {
   Vector3 centroid() const;
 };
 
-/// The tile whose boundary meets the orbifold's marks in the order `arrangement` (a permutation of their
-/// indices; every other corner is a further image of one of them). Throws ArgumentError where it is no
-/// permutation.
+/// The tile whose boundary meets the orbifold's marks in the order `arrangement`: a permutation of their
+/// indices that begins at a rotation, if there is one; every other corner is a further image of one of them.
+/// Index marks.size() stands for the vertex on the mirror that N* has for a corner without being marked.
+/// Throws ArgumentError where it is no such permutation.
 Tile basic_tile(const Orbifold& orbifold, const std::vector<int>& arrangement);
 
 /// The same tile turned by a rotation.
