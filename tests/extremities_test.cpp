@@ -108,13 +108,6 @@ TEST(Extremities, InsideADiskAreFarFromItsBoundary) {
   }
 }
 
-TEST(Extremities, OnTheBoundaryCanBeReachedFromInside) {
-  const Mesh mesh = test::grid_disk(6, 6);  // two of its corners have a single face, and so no edge inside
-  const Connectivity connectivity = connect(mesh.F, vertex_count(mesh));
-  for (const int v : extremities(mesh, connectivity, 1, 20)) EXPECT_TRUE(v != 6 && v != 42) << v;
-  EXPECT_NO_THROW(cut_to_disk(mesh, connectivity, extremities(mesh, connectivity, 1, 1), 1));
-}
-
 TEST(Extremities, OfALongStripAreAtItsEnds) {
   const std::vector<int> chosen = extremities_of(test::grid_disk(20, 1), 2);
   EXPECT_EQ(std::abs(chosen[0] % 21 - chosen[1] % 21), 20);

@@ -15,8 +15,8 @@ struct SphericalOrbifold {
   bool star = false;
   std::vector<int> orders;  ///< of all marks, in the order of the symbol
   int group_order = 1;
-  int inside = 0;  ///< so many of the orders stand before the star
-  int mirrors = 0;
+  int inside = 0;   ///< so many of the orders stand before the star
+  int mirrors = 0;  ///< sides of the tile
 
   Topology topology() const { return star ? Topology::disk : Topology::sphere; }
 };
@@ -55,9 +55,9 @@ inline std::vector<SphericalOrbifold> spherical_orbifolds() {
       result.push_back({prefix + "NN", star, {N, N}, N * sheets, two, 2 - two});
     }
   }
-  result.push_back({"3*2", true, {3, 2}, 24, 1, 1});
+  result.push_back({"3*2", true, {3, 2}, 24, 1, 2});
   for (const int N : {2, 3, 4, 8, 12, 100}) {
-    result.push_back({"2*N", true, {2, N}, 4 * N, 1, 1});
+    result.push_back({"2*N", true, {2, N}, 4 * N, 1, 2});
     result.push_back({"N*", true, {N}, 2 * N, 1, 1});
   }
   return result;

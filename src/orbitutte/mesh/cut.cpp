@@ -104,21 +104,17 @@ void check_marks_of_disk(const std::vector<int>& marks, int inner_marks,
                     inner_marks, marks.size()));
 }
 
-// From the mark inside a disk to the marked vertex on its boundary, or to the nearest one there; a path that
-// met the boundary before its end would cut the disk into two.
+// From the mark inside a disk to the nearest vertex of the boundary that is not marked; a path that met the
+// boundary before its end would cut the disk into two.
 Path path_to_boundary(EdgeGraph graph, const std::vector<int>& marks, const std::vector<char>& on_boundary) {
-  std::vector<int> to(marks.begin() + 1, marks.end());
-  if (to.empty()) {
-    for (int v = 0; v < graph.vertex_count(); ++v)
-      if (on_boundary[v]) to.push_back(v);
-  }
+  std::vector<int> to;
+  for (int v = 0; v < graph.vertex_count(); ++v)
+    if (on_boundary[v] && std::find(marks.begin(), marks.end(), v) == marks.end()) to.push_back(v);
   graph.dead_end = on_boundary;
   Path path = shortest_path(graph, marks[0], to);
   if (path.empty())
     throw MeshError(fmt::format(
-        "no edge path joins the marked vertices {} and {} inside the disk without meeting its boundary "
-        "before; mark another vertex on the boundary, such as one with two faces or more",
-        marks.front(), marks.back()));
+        "no edge path leads from the marked vertex {} to the boundary; mark another vertex", marks[0]));
   return path;
 }
 
@@ -234,7 +230,7 @@ CutMesh cut_to_disk(const Mesh& mesh, const Connectivity& connectivity, const st
     const Path path = closed ? path_through(mesh, graph, marks, options.seed)
                              : path_to_boundary(std::move(graph), marks, on_boundary);
     open_path(path, outgoing, opposite, cut);
-    if (!closed && marks.size() == 1) cut.marks.push_back(path.back());
+    if (!closed) cut.marks.push_back(path.back());
   } else {
     cut.boundary = boundary_loop(outgoing[marks[0]], cut.F, opposite);
   }

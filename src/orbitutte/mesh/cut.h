@@ -16,7 +16,8 @@ struct CutMesh {
   std::vector<int> source_vertex;  ///< n_cut: the input vertex
   std::vector<int>
       boundary;  ///< cut vertices along the boundary's half-edges: counterclockwise, interior on the left
-  std::vector<int> marks;  ///< input vertices: the given marks, then the one that the cut chose, if it did
+  std::vector<int>
+      marks;  ///< input vertices: the given marks, then, of a disk that was cut, the end of the cut
   std::vector<int> arrangement;  ///< indices into marks, in the order in which the boundary first meets them;
                                  ///< it begins with the first
 
@@ -31,10 +32,9 @@ struct CutOptions {
 /// inside the surface, the others on its boundary.
 /// A sphere with two marks is cut along the shortest edge path between them; with three, along two disjoint
 /// paths from one of them to the other two. A disk whose marks are on its boundary is left as it is; one with
-/// a mark inside is cut along the shortest edge path from it to the mark on the boundary that meets the
-/// boundary nowhere else, or to the nearest vertex of the boundary where none is marked. Throws MeshError for
-/// marks that are not vertices of a face, repeated, too few or too many, or not where they have to be, and
-/// where there is no such path.
+/// a mark inside is cut along the shortest edge path from it to a vertex of the boundary that is not marked,
+/// and meets the boundary nowhere else. Throws MeshError for marks that are not vertices of a face, repeated,
+/// too few or too many, or not where they have to be.
 CutMesh cut_to_disk(const Mesh& mesh, const Connectivity& connectivity, const std::vector<int>& marks,
                     int inner_marks, const CutOptions& options = {});
 

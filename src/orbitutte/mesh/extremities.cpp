@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "orbitutte/mesh/cut.h"
 
@@ -15,19 +14,17 @@ namespace {
 // The vertices that faces use, ascending.
 struct Places {
   std::vector<int> inside, on_boundary;
-  std::vector<char> is_on_boundary;  // of every vertex
 };
 
 Places places(const Faces& F, const Connectivity& connectivity, int vertex_count) {
   Places result;
-  std::vector<char> used(vertex_count, 0);
-  result.is_on_boundary.assign(vertex_count, 0);
+  std::vector<char> used(vertex_count, 0), outer(vertex_count, 0);
   for (int h = 0; h < static_cast<int>(F.size()); ++h) {
     used[origin(F, h)] = 1;
-    if (connectivity.opposite[h] < 0) result.is_on_boundary[origin(F, h)] = 1;
+    if (connectivity.opposite[h] < 0) outer[origin(F, h)] = 1;
   }
   for (int v = 0; v < vertex_count; ++v)
-    if (used[v]) (result.is_on_boundary[v] ? result.on_boundary : result.inside).push_back(v);
+    if (used[v]) (outer[v] ? result.on_boundary : result.inside).push_back(v);
   return result;
 }
 
@@ -46,22 +43,15 @@ void require_enough(int wanted, const std::vector<int>& among) {
 std::vector<int> extremities(const Mesh& mesh, const Connectivity& connectivity, int inner, int outer) {
   const Places place = places(mesh.F, connectivity, static_cast<int>(mesh.V.rows()));
   require_enough(inner, place.inside);
-  EdgeGraph graph = edge_length_graph(mesh, connectivity);
+  require_enough(outer, place.on_boundary);
+  const EdgeGraph graph = edge_length_graph(mesh, connectivity);
   std::vector<int> result;
   const auto add = [&](const std::vector<int>& among, const std::vector<int>& first_from) {
     result.push_back(farthest(among, distances(graph, result.empty() ? first_from : result)));
   };
   for (int k = 0; k < inner; ++k)
     add(place.inside, place.on_boundary.empty() ? std::vector<int>{place.inside.front()} : place.on_boundary);
-  std::vector<int> reached = place.on_boundary;
-  if (inner > 0 && outer > 0) {
-    graph.dead_end = place.is_on_boundary;
-    const std::vector<double> distance = distances(graph, result);
-    std::erase_if(reached, [&](int v) { return !std::isfinite(distance[v]); });
-    graph.dead_end.clear();
-  }
-  require_enough(outer, reached);
-  for (int k = 0; k < outer; ++k) add(reached, {reached.front()});
+  for (int k = 0; k < outer; ++k) add(place.on_boundary, {place.on_boundary.front()});
   return result;
 }
 

@@ -10,8 +10,7 @@ namespace orbitutte {
 
 /// `inner` vertices inside the surface, then `outer` ones on its boundary: each the farthest from those
 /// before, along the edges; the first, from the boundary where it lies inside of one, otherwise from a vertex
-/// anywhere. Those on the boundary can be reached from those inside without meeting the boundary before.
-/// O((inner + outer) n log n). Throws MeshError where the mesh has fewer such vertices.
+/// anywhere. O((inner + outer) n log n). Throws MeshError where the mesh has fewer such vertices.
 std::vector<int> extremities(const Mesh& mesh, const Connectivity& connectivity, int inner, int outer);
 
 }  // namespace orbitutte

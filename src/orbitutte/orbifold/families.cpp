@@ -82,32 +82,46 @@ Tile mirrored_triangle(const std::vector<int>& n, const std::vector<int>& marks)
   return tile;
 }
 
-// n1 n2 n3: the triangle and its mirror image across the side p1 p3, glued by rotations about p1 and p3.
-Tile doubled_triangle(const std::vector<int>& n, const std::vector<int>& marks) {
+// The triangle and its mirror image across the side p1 p3: p1, p2, p3 and the image of p2, no side glued yet.
+Tile kite(const std::vector<int>& n, const std::vector<int>& marks) {
   const std::vector<Vector3> p = triangle_corners({n[0], n[2], n[1]});  // p1, p3, p2'
   const Vector3 &p1 = p[0], &p3 = p[1], &p2_image = p[2];
   const Vector3 p2 = reflection(p1.cross(p3).normalized()) * p2_image;
   Tile tile;
   tile.sides = {short_arc(p1, p2, marks[0]), short_arc(p2, p3, marks[1]), short_arc(p3, p2_image, marks[2]),
                 short_arc(p2_image, p1, marks[1])};
+  return tile;
+}
+
+// n1 n2 n3: the kite, glued by rotations about p1 and p3.
+Tile doubled_triangle(const std::vector<int>& n, const std::vector<int>& marks) {
+  Tile tile = kite(n, marks);
+  const Vector3 p1 = tile.sides[0].start, p3 = tile.sides[2].start;
   glue_sides(tile, 0, 3, rotation(p1, -2 * pi / n[0]));
   glue_sides(tile, 2, 1, rotation(p3, -2 * pi / n[2]));
   return tile;
 }
 
-// n*m: the triangle with angles pi/n, pi/2m and a right one, and its mirror image across the side p1 p3, cut
-// open from the cone p1 to the corner p2: both banks are glued by the rotation about p1, and the mirror runs
-// from the corner through p3 to the corner's image. For n* the corner is an ordinary point of the mirror, of
-// order m = 1: to hold it there only chooses one of all rotations about the axis, which change nothing.
-Tile mirrored_sector(const std::vector<int>& n, const std::vector<int>& marks) {
-  const std::vector<Vector3> p = triangle_corners({n[0], 2 * n[1], 2});
-  const Vector3 &p1 = p[0], &p2 = p[1], &p3 = p[2];
-  const Vector3 p2_image = reflection(p1.cross(p3).normalized()) * p2;
-  TileSide mirror = short_arc(p2, p3, marks[1]);
-  mirror.length = std::min(2 * mirror.length, pi);  // pi for n = 2, up to rounding
+// n*m: the kite, cut open from the cone p1 to any point p2 of the mirror, where its angles are right; from
+// there one mirror leads to the corner p3, and one from the corner to the image of p2.
+Tile mirrored_kite(const std::vector<int>& n, const std::vector<int>& marks) {
+  Tile tile = kite({n[0], 2, 2 * n[2]}, marks);
+  glue_sides(tile, 0, 3, rotation(tile.sides[0].start, -2 * pi / n[0]));
+  for (const int k : {1, 2}) make_mirror(tile, k);
+  tile.sides[1].slides = tile.sides[3].slides = true;
+  return tile;
+}
+
+// N*: a sector of the hemisphere, cut open from the pole to any point of the equator, the mirror. To hold
+// that point only chooses one of all rotations about the axis, which change nothing.
+Tile sector(const std::vector<int>& n, const std::vector<int>& marks) {
+  const double angle = 2 * pi / n[0];
+  const Vector3 pole = Vector3::UnitZ(), start = Vector3::UnitX(), end = rotation(pole, angle) * start;
+  TileSide equator = short_arc(start, Vector3::UnitY(), marks[1]);
+  equator.length = angle;
   Tile tile;
-  tile.sides = {short_arc(p1, p2, marks[0]), mirror, short_arc(p2_image, p1, marks[1])};
-  glue_sides(tile, 0, 2, rotation(p1, -2 * pi / n[0]));
+  tile.sides = {short_arc(pole, start, marks[0]), equator, short_arc(end, pole, marks[1])};
+  glue_sides(tile, 0, 2, rotation(pole, -angle));
   make_mirror(tile, 1);
   return tile;
 }
@@ -160,9 +174,9 @@ const std::vector<Family>& family_table() {
       {"*332", "24", three_boundary_vertices, corners({2, 3, 3}), Topology::disk, mirrored_triangle},
       {"*22N", "4N", three_boundary_vertices, corners({2, 2, N}), Topology::disk, mirrored_triangle},
       {"*NN", "2N", two_boundary_vertices, corners({N, N}), Topology::disk, mirrored_lune},
-      {"3*2", "24", vertex_on_each_side, mixed(3, {2}), Topology::disk, mirrored_sector},
-      {"2*N", "4N", vertex_on_each_side, mixed(2, {N}), Topology::disk, mirrored_sector},
-      {"N*", "2N", one_vertex_inside, mixed(N, {}), Topology::disk, mirrored_sector, 1},
+      {"3*2", "24", vertex_on_each_side, mixed(3, {2}), Topology::disk, mirrored_kite, true},
+      {"2*N", "4N", vertex_on_each_side, mixed(2, {N}), Topology::disk, mirrored_kite, true},
+      {"N*", "2N", one_vertex_inside, mixed(N, {}), Topology::disk, sector, true},
   };
   return table;
 }

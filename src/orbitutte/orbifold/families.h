@@ -19,7 +19,7 @@ struct Family {
   Topology topology;
   /// From the orders and the marks as the boundary meets them.
   Tile (*tile)(const std::vector<int>& orders, const std::vector<int>& marks);
-  int anchors = 0;  ///< corners of the tile, besides the marks, at vertices that the cut chooses: of order 1
+  bool cut_to_mirror = false;  ///< the second corner of the tile is the end of the cut on the mirror
 };
 
 const std::vector<Family>& family_table();

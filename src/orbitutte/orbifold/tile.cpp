@@ -19,7 +19,7 @@ Vector3 Tile::centroid() const {
 
 Tile basic_tile(const Orbifold& orbifold, const std::vector<int>& arrangement) {
   const Family& family = *find_family(orbifold.symbol);
-  const int marks = static_cast<int>(orbifold.marks.size()), corners = marks + family.anchors;
+  const int marks = static_cast<int>(orbifold.marks.size()), corners = marks + family.cut_to_mirror;
   std::vector<int> orders;
   for (const int mark : arrangement) {
     if (mark < 0 || mark >= corners || std::count(arrangement.begin(), arrangement.end(), mark) != 1)
@@ -28,8 +28,8 @@ Tile basic_tile(const Orbifold& orbifold, const std::vector<int>& arrangement) {
   }
   if (static_cast<int>(arrangement.size()) != corners)
     throw ArgumentError("the arrangement leaves marks out");
-  if (orbifold.inner_marks > 0 && arrangement.front() >= orbifold.inner_marks)
-    throw ArgumentError("the arrangement does not begin at a rotation");
+  if (family.cut_to_mirror && (arrangement[0] != 0 || arrangement[1] != marks))
+    throw ArgumentError("the arrangement does not begin with the cone and the end of the cut");
   return family.tile(orders, arrangement);
 }
 

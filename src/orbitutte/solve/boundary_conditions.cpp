@@ -39,7 +39,7 @@ std::vector<ConeCopies> cones_of(const CutMesh& cut, const Orbifold& orbifold) {
 void hold_corners(const Tile& tile, int input_vertices, BoundaryConditions& conditions) {
   for (std::size_t k = 0; k < tile.sides.size(); ++k) {
     const int corner = conditions.sides[k].front();
-    if (corner >= input_vertices) continue;  // an image of a corner that is held
+    if (corner >= input_vertices || tile.sides[k].slides) continue;  // copies go where their source goes
     conditions.basis_of[corner] = held_in_place;
     conditions.held.row(corner) = tile.sides[k].start;
   }
@@ -79,7 +79,7 @@ void keep_on_mirrors(const std::vector<Seam>& seams, int input_vertices, Boundar
     if (seam.left != seam.right) continue;
     conditions.bases.push_back(mirror_plane(seam.transform));
     for (const int v : seam.left) {
-      if (v >= input_vertices) continue;  // an image of a corner that is held
+      if (v >= input_vertices) continue;  // a copy, at the end of the cut
       if (conditions.basis_of[v] != held_in_place)
         conditions.basis_of[v] = static_cast<int>(conditions.bases.size()) - 1;
     }

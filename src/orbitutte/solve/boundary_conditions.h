@@ -39,8 +39,7 @@ struct BoundaryConditions {
 int index_among(std::vector<Matrix3>& distinct, const Matrix3& matrix);
 
 /// Seams, cones and unknowns for a cut mesh whose boundary meets its marks as the tile's corners do. Vertices
-/// that no face uses are held at the north pole. So is, at its corner of the tile, a vertex that the cut
-/// chose on the boundary: that fixes the rotation about the axis, which no length depends on.
+/// that no face uses are held at the north pole.
 BoundaryConditions glue(const CutMesh& cut, const Tile& tile, const Orbifold& orbifold);
 
 }  // namespace orbitutte
