@@ -35,7 +35,7 @@ using ProgressCallback = std::function<bool(const Progress&)>;
 struct EmbedOptions {
   WeightOptions weights;
   std::string weights_file;    ///< lines `i j w` (read_weights); when not empty, instead of `weights`
-  CutOptions cut;              ///< which of all cuts; it does not change the result
+  CutOptions cut;              ///< which of all cuts; it changes no length (N* turns about its axis)
   LaplacianOptions laplacian;  ///< the linear solver
   double tolerance = 1e-9;     ///< LbfgsOptions::tolerance
   int max_iterations = 2000;

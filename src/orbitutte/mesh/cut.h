@@ -16,8 +16,7 @@ struct CutMesh {
   std::vector<int> source_vertex;  ///< n_cut: the input vertex
   std::vector<int>
       boundary;  ///< cut vertices along the boundary's half-edges: counterclockwise, interior on the left
-  std::vector<int>
-      marks;  ///< input vertices: the given marks, then, of a disk that was cut, the end of the cut
+  std::vector<int> marks;        ///< input vertices: the given ones, then the end of a disk's cut
   std::vector<int> arrangement;  ///< indices into marks, in the order in which the boundary first meets them;
                                  ///< it begins with the first
 

@@ -42,6 +42,8 @@ void require_enough(int wanted, const std::vector<int>& among) {
 
 std::vector<int> extremities(const Mesh& mesh, const Connectivity& connectivity, int inner, int outer) {
   const Places place = places(mesh.F, connectivity, static_cast<int>(mesh.V.rows()));
+  if (inner > 0 && place.inside.empty())
+    throw MeshError("no vertex lies inside the surface, where one has to be marked");
   require_enough(inner, place.inside);
   require_enough(outer, place.on_boundary);
   const EdgeGraph graph = edge_length_graph(mesh, connectivity);
