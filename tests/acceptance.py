@@ -31,14 +31,17 @@ PYTHON = sys.executable or '/usr/bin/python3'
 
 SPHERE_SIGNATURES = ['532', '432', '332', '222', '223', '224', '228', '2,2,12', '22', '33', '44', '88', '12,12']
 DISK_SIGNATURES = ['*' + signature for signature in SPHERE_SIGNATURES]
-ONE_OF_EACH_FAMILY = ['532', '432', '332', '223', '44', '*532', '*432', '*332', '*228', '*33']
+MIXED_SIGNATURES = ['3*2', '2*2', '2*3', '2*5', '2*8', '2*', '3*', '5*', '8*']  # a cone inside a disk
+ONE_OF_EACH_FAMILY = ['532', '432', '332', '223', '44', '*532', '*432', '*332', '*228', '*33'] + MIXED_SIGNATURES
 
 # The quick part: every family, each hard kind of mesh, golden runs on the smallest meshes.
 QUICK_MESHES = {'my_man_maxp.off': SPHERE_SIGNATURES, 'thingi_62415.obj': SPHERE_SIGNATURES, 'itokawa.off': ['532', '22'],
-                'octocat.off': ['532'], 'camelhead.off': DISK_SIGNATURES[::2] + ['*33'], 'fandisk.off': ['*432']}
+                'octocat.off': ['532'], 'camelhead.off': DISK_SIGNATURES[::2] + ['*33'] + MIXED_SIGNATURES[::2],
+                'fandisk.off': ['*432', '2*3', '8*']}
 QUICK_GOLDEN = ['my_man_maxp', 'fandisk_star243']
-QUICK_SEEDS = {'my_man_maxp.off': 6}
-ALL_SEEDS = {'my_man_maxp.off': 20, 'david_50k.off': 20}
+QUICK_SEEDS = {('my_man_maxp.off', '532'): 6, ('camelhead.off', '3*2'): 4, ('camelhead.off', '5*'): 4}
+ALL_SEEDS = {('my_man_maxp.off', '532'): 20, ('david_50k.off', '532'): 20, ('camelhead.off', '3*2'): 20,
+             ('fandisk.off', '2*5'): 20, ('camelhead.off', '5*'): 20, ('fandisk.off', '2*'): 20}
 
 # May fail to be bijective in double precision, saying so (exit code 5).
 KNOWN_HARD = {'octocat.off'}
@@ -161,11 +164,11 @@ class Suite:
         self.meshes = self.read_cones()
 
     def read_cones(self):
-        """mesh -> (topology, marked vertices)"""
+        """mesh -> (topology, marked vertices, on the boundary of a disk; a marked vertex inside of it or None)"""
         table = {}
         for line in (self.shared / 'meshes' / 'cones.tsv').read_text().splitlines()[1:]:
-            mesh, _, _, topology, marked, _ = line.split('\t')
-            table[mesh] = (topology, [int(v) for v in marked.split(',')])
+            mesh, _, _, topology, marked, interior = line.split('\t')
+            table[mesh] = (topology, [int(v) for v in marked.split(',')], None if interior == '-' else int(interior))
         return table
 
     # Running the program; the commands of a test are kept, to be shown where it fails.
@@ -191,9 +194,14 @@ class Suite:
         return result.returncode, ply, json.loads(report.read_text())
 
     def marked(self, mesh, signature):
-        symbol = signature.lstrip('*')
-        orders = symbol.split(',') if ',' in symbol else symbol
-        return self.meshes[mesh][1][:len(orders)]
+        def count(orders):
+            return len(orders.split(',') if ',' in orders else orders)
+
+        _, marked, interior = self.meshes[mesh]
+        before, star, after = signature.partition('*')
+        if not star:
+            return marked[:count(before)]
+        return ([interior] if before else []) + marked[:count(after)]
 
     def row(self, name, mesh, signature, report):
         timings = report['timings']
@@ -253,8 +261,7 @@ class Suite:
             expect(report['iterations'] <= MAX_ITERATIONS_THREE_CONES,
                    f"{report['iterations']} iterations, more than {MAX_ITERATIONS_THREE_CONES}")
 
-    def test_cut_seed(self, name, commands, folder, mesh, seeds):
-        signature = '532'
+    def test_cut_seed(self, name, commands, folder, mesh, signature, seeds):
         cones = self.marked(mesh, signature)
         reference, cuts = None, set()
         for seed in range(seeds):
@@ -297,13 +304,13 @@ class Suite:
             result[name] = lambda commands, folder: test(name, commands, folder, *arguments)
 
         # Long ones first, so that none is left alone at the end.
-        for mesh, seeds in (QUICK_SEEDS if quick else ALL_SEEDS).items():
-            add(f'cut-seed/{stem(mesh)}', self.test_cut_seed, mesh, seeds)
+        for (mesh, signature), seeds in (QUICK_SEEDS if quick else ALL_SEEDS).items():
+            add(f'cut-seed/{stem(mesh)}/{signature}', self.test_cut_seed, mesh, signature, seeds)
         if quick:
             chosen = QUICK_MESHES
         else:
-            chosen = {mesh: SPHERE_SIGNATURES if topology == 'sphere' else DISK_SIGNATURES
-                      for mesh, (topology, _) in self.meshes.items()}
+            chosen = {mesh: SPHERE_SIGNATURES if topology == 'sphere' else DISK_SIGNATURES + MIXED_SIGNATURES
+                      for mesh, (topology, _, _) in self.meshes.items()}
         for mesh in sorted(chosen, key=lambda mesh: -(self.shared / 'meshes' / mesh).stat().st_size):
             for signature in chosen[mesh]:
                 add(f'embed/{stem(mesh)}/{signature}', self.test_embed, mesh, signature)
@@ -313,10 +320,12 @@ class Suite:
                 continue
             add(f'golden/{folder.name}', self.test_golden, folder)
         for signature in ONE_OF_EACH_FAMILY:
-            add(f'tile/{signature}', self.test_tile, 'camelhead.off' if signature[0] == '*' else 'my_man_maxp.off', signature)
-        for mesh, signature in [('my_man_maxp.off', '532'), ('my_man_maxp.off', '33'), ('camelhead.off', '*432')]:
+            add(f'tile/{signature}', self.test_tile, 'camelhead.off' if '*' in signature else 'my_man_maxp.off', signature)
+        for mesh, signature in [('my_man_maxp.off', '532'), ('my_man_maxp.off', '33'), ('camelhead.off', '*432'),
+                                ('camelhead.off', '3*2'), ('camelhead.off', '5*')]:
             add(f'repeat/{stem(mesh)}/{signature}', self.test_repeat, mesh, signature)
-        for mesh, signature in [('my_man_maxp.off', '432'), ('my_man_maxp.off', '33'), ('camelhead.off', '*432')]:
+        for mesh, signature in [('my_man_maxp.off', '432'), ('my_man_maxp.off', '33'), ('camelhead.off', '*432'),
+                                ('camelhead.off', '3*2'), ('camelhead.off', '5*')]:
             for plant in (move_across_edge, mirror_map, mirror_positions, claim_another_group_order, claim_another_signature,
                           claim_another_energy, exchange_seam_transform):
                 add(f'fault/{plant.__name__}/{signature}', self.test_fault, mesh, signature, plant)
@@ -369,8 +378,8 @@ def claim_another_group_order(ply, report):
 
 def claim_another_signature(ply, report):
     signature = report['orbifold']['signature']
-    other = {'432': '532', '33': '44', '*432': '*532'}[signature]
-    orders = {'532': 60, '44': 4, '*532': 120}
+    other = {'432': '532', '33': '44', '*432': '*532', '3*2': '2*6', '5*': '6*'}[signature]
+    orders = {'532': 60, '44': 4, '*532': 120, '2*6': 24, '6*': 12}
     report['orbifold'] = {'signature': other, 'group_order': orders[other]}
 
 

@@ -138,12 +138,12 @@ TEST(Certificate, EmbeddingsOfEveryFamilyAreBijective) {
 
 TEST(Certificate, RotatingTheSphereChangesNothing) {
   const Matrix3 R = hand_made::rotation({1, -2, 0.5}, 1.1);
-  for (const char* signature : {"532", "33", "*432", "*22"})
+  for (const char* signature : {"532", "33", "*432", "*22", "3*2", "5*"})
     EXPECT_TRUE(accepted(signature, [&](Embedding& e) { conjugate(e, R); })) << signature;
 }
 
 TEST(Certificate, SeamsMayBeGivenInAnyOrderAndDirectionAndFromEitherBank) {
-  for (const char* signature : {"532", "33", "*432"}) {
+  for (const char* signature : {"532", "33", "*432", "3*2", "5*"}) {
     EXPECT_TRUE(accepted(signature, [](Embedding& e) { std::reverse(e.seams.begin(), e.seams.end()); }));
     EXPECT_TRUE(accepted(signature, [](Embedding& e) {
       for (Seam& seam : e.seams) {
@@ -161,7 +161,7 @@ TEST(Certificate, SeamsMayBeGivenInAnyOrderAndDirectionAndFromEitherBank) {
 }
 
 TEST(Certificate, ASeamMayComeInTwoPieces) {
-  for (const char* signature : {"33", "*432"}) {
+  for (const char* signature : {"33", "*432", "3*2", "5*"}) {
     EXPECT_TRUE(accepted(signature, [](Embedding& e) {
       Seam &whole = e.seams[0], rest = whole;
       rest.left.erase(rest.left.begin());
@@ -176,7 +176,7 @@ TEST(Certificate, ASeamMayComeInTwoPieces) {
 // Triangles that are not positive
 
 TEST(Certificate, InnerVertexMovedAcrossAnEdgeIsSeen) {
-  for (const char* signature : {"532", "223", "33", "*432", "*22"}) {
+  for (const char* signature : {"532", "223", "33", "*432", "*22", "3*2", "5*"}) {
     Embedding embedding = sample(signature).embedding();
     const Corner at = inner_corner(embedding);
     embedding.positions.row(embedding.faces(at.face, at.corner)) =
@@ -187,7 +187,7 @@ TEST(Certificate, InnerVertexMovedAcrossAnEdgeIsSeen) {
 }
 
 TEST(Certificate, SeamVertexMovedAcrossAnEdgeOnBothBanksIsSeen) {
-  for (const char* signature : {"532", "223", "33"}) {
+  for (const char* signature : {"532", "223", "33", "3*2", "2*5", "5*"}) {
     Embedding embedding = sample(signature).embedding();
     const Seam& seam = embedding.seams[0];
     ASSERT_GT(seam.left.size(), 2u) << signature;
@@ -214,7 +214,7 @@ TEST(Certificate, BoundaryVertexThatOvertakesItsNeighbourOnTheMirrorIsSeen) {
 }
 
 TEST(Certificate, VertexPutOntoItsNeighbourLeavesAFaceWithoutArea) {
-  for (const char* signature : {"532", "33", "*432", "*22"}) {
+  for (const char* signature : {"532", "33", "*432", "*22", "3*2", "5*"}) {
     Embedding embedding = sample(signature).embedding();
     const Corner at = inner_corner(embedding);
     embedding.positions.row(embedding.faces(at.face, 0)) =
@@ -226,7 +226,7 @@ TEST(Certificate, VertexPutOntoItsNeighbourLeavesAFaceWithoutArea) {
 
 TEST(Certificate, MirroredMapIsSeen) {
   const Matrix3 M = hand_made::reflection({1, 2, -0.7});
-  for (const char* signature : {"532", "22", "33", "*432", "*22"}) {
+  for (const char* signature : {"532", "22", "33", "*432", "*22", "3*2", "5*"}) {
     EXPECT_THAT(rejection(signature, [&](Embedding& e) { conjugate(e, M); }),
                 UnorderedElementsAre("positive_faces", "signed_area", "cone_angles"))
         << signature;
@@ -311,6 +311,47 @@ INSTANTIATE_TEST_SUITE_P(Certificate, WrappedLune,
                          ::testing::Values(std::pair("33", 2), std::pair("55", 2), std::pair("55", 3),
                                            std::pair("22", 3), std::pair("33", 4)));
 
+// The northern half of the orange, its equator in the plane of the mirror of N*.
+Mesh half_orange() {
+  const Mesh whole = orange();
+  std::vector<int> southern;
+  for (int f = 0; f < test::face_count(whole); ++f) {
+    double height = 0;
+    for (const int v : whole.F.row(f)) height += whole.V(v, 2);
+    if (height < 0) southern.push_back(f);
+  }
+  return test::without_faces(whole, southern);
+}
+
+TEST(Certificate, SectorOfNWrappedTwiceIsSeenByItsAreaAndItsAngle) {
+  const Mesh mesh = half_orange();
+  Embedding embedding = embed(mesh, parse_orbifold("5*"), {0}).embedding;
+  ASSERT_TRUE(certify(mesh, embedding).bijective);
+  wrap(embedding, 2);
+  EXPECT_THAT(rejection(mesh, embedding), UnorderedElementsAre("signed_area", "cone_angles"));
+  EXPECT_NEAR(certify(mesh, embedding).signed_area, 2 * 4 * pi / embedding.group_order, 1e-9);
+}
+
+TEST(Certificate, ConeClaimedOnTheWrongSideOfTheStarIsSeen) {
+  // 2*3 and 3*2 differ in where the orders lie; 4*, 2*2 have groups of order 8 both.
+  EXPECT_THAT(rejection("2*3", [](Embedding& e) { e.signature = "3*2"; }), Contains("cones"));
+  EXPECT_THAT(rejection("2*2",
+                        [](Embedding& e) {
+                          e.signature = "4*";
+                          e.cones.pop_back();
+                          e.cones[0].order = 4;
+                        }),
+              Contains("cone_angles"));
+}
+
+TEST(Certificate, MirrorTakenForTheRotationIsSeen) {
+  for (const char* signature : {"3*2", "2*5", "5*"})
+    EXPECT_THAT(
+        rejection(signature, [](Embedding& e) { std::swap(e.seams[0].transform, e.seams[1].transform); }),
+        Contains("seam_gluing"))
+        << signature;
+}
+
 TEST(Certificate, LuneOfNWrappedTwiceHasAGroupOfOrderHalfN) {
   const Mesh mesh = orange();
   Embedding embedding = embed(mesh, parse_orbifold("66"), {0, 1}).embedding;
@@ -379,7 +420,7 @@ test::SampleEmbedding with_a_sphere_too_many(const test::SampleEmbedding& origin
 }
 
 TEST(Certificate, SphereTooManyIsSeenByItsAreaAlone) {
-  for (const char* signature : {"22", "332", "*22", "*332"}) {
+  for (const char* signature : {"22", "332", "*22", "*332", "2*3", "3*"}) {
     const test::SampleEmbedding twofold = with_a_sphere_too_many(sample(signature));
     EXPECT_THAT(rejection(twofold.mesh, twofold.embedding()), UnorderedElementsAre("signed_area"))
         << signature;
@@ -414,7 +455,7 @@ TEST(Certificate, SeamThatFoldsTheMapIsSeen) {
 // Seams, cones and signature
 
 TEST(Certificate, SeamsThatDoNotGlueTheWholeBoundaryAreSeen) {
-  for (const char* signature : {"532", "33", "*432", "*22"}) {
+  for (const char* signature : {"532", "33", "*432", "*22", "3*2", "5*"}) {
     const auto seam_fault = [&](const std::function<void(Embedding&)>& plant) {
       EXPECT_THAT(rejection(signature, plant), Contains("seam_gluing")) << signature;
     };
@@ -475,7 +516,7 @@ TEST(Certificate, SeamWithTheWrongTransformIsSeen) {
 }
 
 TEST(Certificate, TransformThatIsNoSymmetryIsSeen) {
-  for (const char* signature : {"532", "33", "*432", "*22"}) {
+  for (const char* signature : {"532", "33", "*432", "*22", "3*2", "5*"}) {
     const auto transform_fault = [&](const std::function<void(Matrix3&)>& plant) {
       EXPECT_THAT(rejection(signature, [&](Embedding& e) { plant(e.seams[0].transform); }),
                   Contains("seam_transforms"))
@@ -507,7 +548,7 @@ TEST(Certificate, MirrorThatIsNoReflectionIsSeen) {
 }
 
 TEST(Certificate, RotationReplacedByAReflectionIsSeen) {
-  for (const char* signature : {"532", "33"}) {
+  for (const char* signature : {"532", "33", "3*2", "5*"}) {
     EXPECT_THAT(
         rejection(signature,
                   [](Embedding& e) {
@@ -522,7 +563,7 @@ TEST(Certificate, RotationReplacedByAReflectionIsSeen) {
 }
 
 TEST(Certificate, ConesThatTheSignatureDoesNotAskForAreSeen) {
-  for (const char* signature : {"532", "33", "*432", "*22"}) {
+  for (const char* signature : {"532", "33", "*432", "*22", "3*2"}) {
     const auto cone_fault = [&](const std::function<void(std::vector<ConeCopies>&)>& plant) {
       EXPECT_THAT(rejection(signature, [&](Embedding& e) { plant(e.cones); }), Contains("cones"))
           << signature;
@@ -579,7 +620,7 @@ TEST(Certificate, ConesAtTheWrongVerticesAreSeenByTheirAngles) {
 }
 
 TEST(Certificate, WrongGroupOrderIsSeen) {
-  for (const char* signature : {"532", "33", "*432", "*22"}) {
+  for (const char* signature : {"532", "33", "*432", "*22", "3*2", "5*"}) {
     const int order = sample(signature).embedding().group_order;
     for (const int wrong : {0, 1, -order, order / 2, order - 1, order + 1, 2 * order, INT_MAX, INT_MIN})
       EXPECT_THAT(rejection(signature, [&](Embedding& e) { e.group_order = wrong; }), Contains("group_order"))
@@ -588,7 +629,7 @@ TEST(Certificate, WrongGroupOrderIsSeen) {
 }
 
 TEST(Certificate, WrongSignatureIsSeen) {
-  for (const char* signature : {"532", "33", "*432", "*22"})
+  for (const char* signature : {"532", "33", "*432", "*22", "3*2", "5*"})
     for (const char* wrong :
          {"432", "22", "*532", "*33", "352", "333", "", "*", "x", "1", "abc", "5", "2,,3", "\xff",
           "99999999999999999999", "99999,99999,99999,99999,99999,99999,99999",
@@ -608,7 +649,7 @@ TEST(Certificate, WrongSignatureIsSeen) {
 // The cut mesh
 
 TEST(Certificate, FacesThatAreNotTheInputsAreSeen) {
-  for (const char* signature : {"532", "*432"}) {
+  for (const char* signature : {"532", "*432", "2*3"}) {
     const auto cut_fault = [&](const std::function<void(Embedding&)>& plant) {
       EXPECT_THAT(rejection(signature, plant), UnorderedElementsAre("cut_mesh")) << signature;
     };
@@ -660,7 +701,7 @@ void split(Embedding& embedding, const std::vector<Corner>& corners) {
 }
 
 TEST(Certificate, MeshThatIsCutOnceMoreIsSeen) {
-  for (const char* signature : {"532", "33", "*432"}) {
+  for (const char* signature : {"532", "33", "*432", "2*3"}) {
     // A slit of two edges inside.
     EXPECT_THAT(rejection(signature, [](Embedding& e) { split(e, {inner_corner(e)}); }),
                 Contains("seam_gluing"))
@@ -707,7 +748,7 @@ TEST(Certificate, PositionsOffTheSphereAreSeen) {
 }
 
 TEST(Certificate, IndicesOutOfRangeAreRejectedWithoutACrash) {
-  for (const char* signature : {"532", "33", "*432", "*22"}) {
+  for (const char* signature : {"532", "33", "*432", "*22", "3*2", "5*"}) {
     const Embedding& good = sample(signature).embedding();
     std::mt19937 random(11);
     for (int k = 0; k < 300; ++k) {

@@ -24,12 +24,18 @@ namespace {
 using test::face_count;
 using test::vertex_count;
 
+/// With all marks on the boundary, or all inside where there is none.
 CutMesh cut_open(const Mesh& mesh, const std::vector<int>& marks, std::uint64_t seed = 0) {
-  return cut_to_disk(mesh, connect(mesh.F, vertex_count(mesh)), marks, {seed});
+  return cut_to_disk(mesh, connect(mesh.F, vertex_count(mesh)), marks, 0, {seed});
+}
+
+/// With the first mark inside a disk.
+CutMesh cut_inside(const Mesh& mesh, const std::vector<int>& marks, std::uint64_t seed = 0) {
+  return cut_to_disk(mesh, connect(mesh.F, vertex_count(mesh)), marks, 1, {seed});
 }
 
 bool same(const CutMesh& a, const CutMesh& b) {
-  return a.F == b.F && a.source_vertex == b.source_vertex && a.boundary == b.boundary &&
+  return a.F == b.F && a.source_vertex == b.source_vertex && a.boundary == b.boundary && a.marks == b.marks &&
          a.arrangement == b.arrangement;
 }
 
@@ -326,6 +332,127 @@ RC_GTEST_PROP(Cut, OfADiskArrangesAnyMarksAlongTheBoundary, (std::uint32_t seed)
   RC_ASSERT(cut.arrangement.front() == 0);
 }
 
+// ------------------------------------------------------------------------------ disks with a mark inside
+
+std::vector<char> on_boundary(const Mesh& mesh) {
+  std::vector<char> result(vertex_count(mesh), 0);
+  const Connectivity connectivity = connect(mesh.F, vertex_count(mesh));
+  for (int h = 0; h < mesh.F.size(); ++h)
+    if (connectivity.opposite[h] < 0) result[origin(mesh.F, h)] = 1;
+  return result;
+}
+
+/// The boundary begins at the mark inside and goes along one bank, around the mesh's own boundary from the
+/// cut's end to its copy, and back along the other bank.
+std::string fault_in_round_trip(const Mesh& mesh, const CutMesh& cut) {
+  const std::vector<char> outer = on_boundary(mesh);
+  const int b = static_cast<int>(cut.boundary.size()), n = vertex_count(mesh);
+  const auto source = [&](int k) { return cut.source_vertex[cut.boundary[(k + b) % b]]; };
+  int end = 0;
+  while (end < b && !outer[source(end)]) ++end;
+  if (cut.boundary[0] != cut.marks[0] || end == 0) return "the boundary does not begin at the mark inside";
+  if (source(end) != cut.marks.back()) return "the cut does not end where it says";
+  for (int k = 0; k <= end; ++k) {
+    if (source(k) != source(-k)) return "the banks are not copies of each other";
+    if (cut.boundary[k] >= n) return "the first bank has copies";
+    if (k > 0 && cut.boundary[b - k] < n) return "the second bank has no copies";
+  }
+  for (int k = end; k <= b - end; ++k)
+    if (!outer[source(k)]) return "the boundary of the mesh is left on the way round";
+  const int round = static_cast<int>(std::count(outer.begin(), outer.end(), 1));
+  return b - 2 * end == round ? "" : "the boundary of the mesh is not all there";
+}
+
+std::string fault_in_opened_disk(const Mesh& mesh, const std::vector<int>& marks, std::uint64_t seed) {
+  const CutMesh cut = cut_inside(mesh, marks, seed);
+  std::string fault = fault_in_faces(mesh, cut);
+  if (fault.empty()) fault = fault_in_disk(mesh, cut);
+  if (fault.empty()) fault = fault_in_arrangement(cut, cut.marks);
+  if (fault.empty()) fault = fault_in_round_trip(mesh, cut);
+  if (fault.empty() && cut.marks.size() != marks.size() + 1)
+    fault = "the end of the cut is not among the marks";
+  if (fault.empty() && !std::equal(marks.begin(), marks.end(), cut.marks.begin())) fault = "other marks";
+  if (fault.empty() && cut.arrangement[1] != static_cast<int>(marks.size())) fault = "the end is not second";
+  if (fault.empty() && !same(cut, cut_inside(mesh, marks, seed))) fault = "a second cut is different";
+  return fault;
+}
+
+TEST(Cut, FromAnyVertexInsideADiskWithAnyMarkOnItsBoundaryGivesADisk) {
+  for (const Mesh& mesh : {test::grid_disk(4, 3), test::round_disk(3)}) {
+    const std::vector<char> outer = on_boundary(mesh);
+    for (int a = 0; a < vertex_count(mesh); ++a) {
+      if (outer[a]) continue;
+      for (const std::uint64_t seed : {0, 1, 2}) {
+        EXPECT_EQ(fault_in_opened_disk(mesh, {a}, seed), "");
+        for (int b = 0; b < vertex_count(mesh); ++b) {
+          if (!outer[b]) continue;
+          EXPECT_EQ(fault_in_opened_disk(mesh, {a, b}, seed), "") << a << " " << b;
+        }
+      }
+    }
+  }
+}
+
+TEST(Cut, FromAMarkInsideEndsAtTheNearestVertexOfTheBoundaryThatIsNotMarked) {
+  const Mesh mesh = test::perturbed(test::round_disk(6), 0.03, 4);
+  const std::vector<char> outer = on_boundary(mesh);
+  const EdgeGraph graph = edge_length_graph(mesh, connect(mesh.F, vertex_count(mesh)));
+  for (const int a : {0, 7, 20, 45}) {
+    const std::vector<double> d = distances(graph, {a});
+    const int nearest = cut_inside(mesh, {a}).marks.back(),
+              next = cut_inside(mesh, {a, nearest}).marks.back();
+    EXPECT_NE(next, nearest);
+    for (int v = 0; v < vertex_count(mesh); ++v) {
+      if (!outer[v]) continue;
+      EXPECT_GE(d[v], d[nearest]);
+      EXPECT_TRUE(v == nearest || d[v] >= d[next]);
+    }
+  }
+}
+
+TEST(Cut, SeedsGiveOtherCutsOfADisk) {
+  const Mesh mesh = test::round_disk(7);
+  std::set<std::vector<int>> with_mark, alone;
+  std::set<int> ends;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    EXPECT_EQ(fault_in_opened_disk(mesh, {0, 130}, seed), "") << "seed " << seed;
+    EXPECT_EQ(fault_in_opened_disk(mesh, {0}, seed), "") << "seed " << seed;
+    with_mark.insert(cut_inside(mesh, {0, 130}, seed).boundary);
+    alone.insert(cut_inside(mesh, {0}, seed).boundary);
+    ends.insert(cut_inside(mesh, {0}, seed).marks.back());
+  }
+  EXPECT_GT(with_mark.size(), 5u);
+  EXPECT_GT(alone.size(), 10u);
+  EXPECT_GT(ends.size(), 5u);
+}
+
+/// A random sphere without one of its faces, or without all around a vertex.
+Mesh random_disk(std::uint32_t seed) {
+  const Mesh sphere = test::random_sphere(seed, static_cast<int>(5 + seed % 25));
+  std::vector<int> gone = {static_cast<int>(seed % sphere.F.rows())};
+  if (seed % 2) {
+    gone.clear();
+    for (int f = 0; f < face_count(sphere); ++f)
+      if ((sphere.F.row(f).array() == 0).any()) gone.push_back(f);
+  }
+  return test::without_faces(sphere, gone);
+}
+
+RC_GTEST_PROP(Cut, OfAnyTriangulatedDiskIsADisk, (std::uint32_t seed, std::uint64_t cut_seed)) {
+  const Mesh mesh = random_disk(seed);
+  const std::vector<char> outer = on_boundary(mesh);
+  std::vector<char> used(outer.size(), 0);
+  for (const int v : mesh.F.reshaped()) used[v] = 1;
+  std::vector<int> inside, around;
+  for (const int v : test::permutation(vertex_count(mesh), seed + 1)) {
+    if (used[v]) (outer[v] ? around : inside).push_back(v);
+  }
+  RC_PRE(!inside.empty());
+  RC_ASSERT(fault_in_opened_disk(mesh, {inside[0]}, 0) == "");
+  RC_ASSERT(fault_in_opened_disk(mesh, {inside[0]}, cut_seed) == "");
+  for (const int v : around) RC_ASSERT(fault_in_opened_disk(mesh, {inside[0], v}, cut_seed) == "");
+}
+
 // ------------------------------------------------------------------------------------------------- lengths
 
 TEST(Cut, EdgeLengthsArePositiveAndAlmostThoseInSpace) {
@@ -344,9 +471,9 @@ TEST(Cut, EdgeLengthsArePositiveAndAlmostThoseInSpace) {
 
 // ------------------------------------------------------------------------------------------------ refusals
 
-std::string refusal(const Mesh& mesh, const std::vector<int>& marks) {
+std::string refusal(const Mesh& mesh, const std::vector<int>& marks, int inner_marks = 0) {
   try {
-    cut_open(mesh, marks);
+    cut_to_disk(mesh, connect(mesh.F, vertex_count(mesh)), marks, inner_marks);
     return {};
   } catch (const MeshError& error) {
     return error.what();
@@ -378,6 +505,25 @@ TEST(Cut, MarksInsideADiskAreRefused) {
   const std::string inside = "the marked vertex 0 is inside the disk; mark a vertex on its boundary";
   EXPECT_EQ(refusal(test::round_disk(2), {0}), inside);
   EXPECT_EQ(refusal(test::round_disk(2), {7, 0, 9}), inside);
+}
+
+TEST(Cut, MarksOnTheBoundaryThatHaveToBeInsideAreRefused) {
+  const std::string outside = " is on the boundary of the disk; mark a vertex inside";
+  EXPECT_EQ(refusal(test::round_disk(2), {9}, 1), "the marked vertex 9" + outside);
+  EXPECT_EQ(refusal(test::round_disk(2), {9, 0}, 1), "the marked vertex 9" + outside);
+  EXPECT_EQ(refusal(test::round_disk(2), {0, 1}, 1),
+            "the marked vertex 1 is inside the disk; mark a vertex on its boundary");
+}
+
+TEST(Cut, MoreMarksInsideADiskThanOneAreRefused) {
+  const std::string too_many = " are inside the disk; mark one inside, and at most one on the boundary";
+  EXPECT_EQ(refusal(test::round_disk(2), {0, 1}, 2), "2 of 2 marked vertices" + too_many);
+  EXPECT_EQ(refusal(test::round_disk(2), {0, 9, 10}, 1), "1 of 3 marked vertices" + too_many);
+}
+
+TEST(Cut, MarksThatNoPathJoinsToTheBoundaryAreRefused) {
+  EXPECT_EQ(refusal(test::united(test::octahedron(), test::round_disk(2)), {0}, 1),
+            "no edge path leads from the marked vertex 0 to the boundary; mark another vertex");
 }
 
 TEST(Cut, OneMarkOrFourOnASphereAreRefused) {

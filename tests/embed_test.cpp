@@ -3,9 +3,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 
@@ -195,10 +199,73 @@ TEST(Embed, CornersMayBeGivenInEitherDirection) {
   }
 }
 
+// A cone inside a disk
+
+TEST(Embed, ConeNextToTheBoundaryIsEmbedded) {
+  const Mesh mesh = test::sample_mesh_for(parse_orbifold("3*2"));
+  const std::vector<std::array<int, 2>> edges = connect(mesh.F, test::vertex_count(mesh)).edges;
+  int found = 0;
+  for (std::size_t e = 0; e < edges.size() && found < 3; e += 7) {
+    const auto [inner, outer] = edges[e];
+    if (inner >= 169 || outer < 169) continue;
+    ++found;
+    for (const char* signature : {"3*2", "2*2", "2*7"})
+      expect_certified(embedded(mesh, signature, {inner, outer}), signature);
+    for (const char* signature : {"2*", "7*"})
+      expect_certified(embedded(mesh, signature, {inner}), signature);
+  }
+  EXPECT_EQ(found, 3);
+}
+
+TEST(Embed, SmallestDiskWithAVertexInsideIsEmbedded) {
+  const Mesh mesh =
+      test::mesh({{1, 0, 0}, {-1, 1, 0}, {-1, -1, 0}, {0, 0, 0}}, {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
+  for (const char* signature : {"3*2", "2*2", "2*3", "2*5", "2*12"})
+    expect_certified(embedded(mesh, signature, {3, 1}), signature);
+  for (const char* signature : {"2*", "3*", "5*", "12*"})
+    expect_certified(embedded(mesh, signature, {3}), signature);
+}
+
+RC_GTEST_PROP(Embed, AnyConeInsideAndAnyCornerAreEmbedded, (std::uint32_t seed)) {
+  const Mesh& mesh =
+      test::sample_embedding("3*2").mesh;  // every vertex of its boundary has two faces or more
+  const int cone = static_cast<int>(seed % 169), corner = 169 + static_cast<int>(seed / 169 % 48);
+  const std::vector<std::string> signatures = {"3*2", "2*2", "2*3", "2*5", "2*8", "2*", "3*", "5*", "8*"};
+  const std::string& signature = signatures[seed / 8112 % signatures.size()];
+  const Orbifold orbifold = parse_orbifold(signature);
+  std::vector<int> marks = {cone, corner};
+  marks.resize(orbifold.marks.size());
+  EmbedOptions options = one_thread();
+  options.cut.seed = seed % 5;
+  const EmbedResult result = embed(mesh, orbifold, marks, options);
+  RC_ASSERT(result.minimum.termination == Termination::converged);
+  RC_ASSERT(result.certificate.bijective);
+}
+
+TEST(Embed, CornerWithASingleFaceIsEmbedded) {
+  const Mesh mesh = test::grid_disk(6, 6);  // corners 6 and 42 have a single face
+  for (const char* signature : {"3*2", "2*2", "2*5"}) {
+    const EmbedResult result = embedded(mesh, signature, {24, 6});
+    expect_certified(result, signature);
+    ASSERT_EQ(result.warnings.size(), 1u);  // of the other one
+    EXPECT_THAT(result.warnings[0], HasSubstr("1 triangles"));
+  }
+}
+
+TEST(Embed, DiskWithoutVerticesInsideHasNoConeToChoose) {
+  try {
+    choose_marked_vertices(test::grid_disk(5, 1), parse_orbifold("3*2"));
+    FAIL();
+  } catch (const MeshError& error) {
+    EXPECT_STREQ(error.what(), "no vertex lies inside the surface, where one has to be marked");
+  }
+}
+
 // Invariance
 
 TEST(Embed, TheCutChangesNothing) {
-  for (const char* signature : {"532", "332", "222", "225", "22", "33", "12,12"}) {
+  for (const char* signature :
+       {"532", "332", "222", "225", "22", "33", "12,12", "3*2", "2*2", "2*5", "2*", "5*", "12*"}) {
     const test::SampleEmbedding& sample = test::sample_embedding(signature);
     const Eigen::VectorXd before = test::edge_lengths(sample.mesh, sample.embedding());
     for (const std::uint64_t seed : {1, 2, 3}) {
@@ -214,7 +281,7 @@ TEST(Embed, TheCutChangesNothing) {
 }
 
 TEST(Embed, MovingAndScalingTheMeshChangesNothing) {
-  for (const char* signature : {"532", "22", "*432", "*22"}) {
+  for (const char* signature : {"532", "22", "*432", "*22", "3*2", "5*"}) {
     const test::SampleEmbedding& sample = test::sample_embedding(signature);
     const Eigen::VectorXd before = test::edge_lengths(sample.mesh, sample.embedding());
     for (const double scale : {1e-100, 1e-3, 1.0, 1e5, 1e100}) {
@@ -230,7 +297,7 @@ TEST(Embed, MovingAndScalingTheMeshChangesNothing) {
 }
 
 TEST(Embed, RenumberingVerticesAndFacesChangesNothing) {
-  for (const char* signature : {"532", "22", "*432", "*22"}) {
+  for (const char* signature : {"532", "22", "*432", "*22", "3*2", "5*"}) {
     const test::SampleEmbedding& sample = test::sample_embedding(signature);
     const std::vector<int> new_number = test::permutation(test::vertex_count(sample.mesh), 17);
     const std::vector<int> old_face = test::permutation(test::face_count(sample.mesh), 18);
@@ -282,7 +349,7 @@ TEST(Embed, ScalingTheWeightsChangesNoPosition) {
 }
 
 TEST(Embed, TwoRunsAndAnyNumberOfThreadsGiveTheSameBytes) {
-  for (const char* signature : {"532", "22", "*432"}) {
+  for (const char* signature : {"532", "22", "*432", "2*3", "5*"}) {
     const test::SampleEmbedding& sample = test::sample_embedding(signature);
     const std::string before = serialize_embedding(sample.embedding());
     for (const int threads : {1, 2}) {
@@ -297,7 +364,7 @@ TEST(Embed, TwoRunsAndAnyNumberOfThreadsGiveTheSameBytes) {
 }
 
 TEST(Embed, BackendsAgree) {
-  for (const char* signature : {"532", "22", "*432", "*22"}) {
+  for (const char* signature : {"532", "22", "*432", "*22", "3*2", "2*"}) {
     const test::SampleEmbedding& sample = test::sample_embedding(signature);
     for (const Backend backend : available_backends()) {
       EmbedOptions options = one_thread();
@@ -408,6 +475,13 @@ TEST(Embed, WrongMarksAreNamed) {
   EXPECT_THAT(refusal(sphere, "532", {0, 5, 5}), AllOf(HasSubstr("5"), HasSubstr("twice")));
   EXPECT_THAT(refusal(disk, "*532", {20, 0, 30}), AllOf(HasSubstr("0"), HasSubstr("inside the disk")));
   EXPECT_THAT(refusal(disk, "*22", {36, 37}), HasSubstr("out of range"));
+  const std::string outside = " is on the boundary of the disk; mark a vertex inside";
+  EXPECT_EQ(refusal(disk, "3*2", {20, 0}), "the marked vertex 20" + outside);
+  EXPECT_EQ(refusal(disk, "5*", {30}), "the marked vertex 30" + outside);
+  EXPECT_EQ(refusal(disk, "2*3", {0, 1}),
+            "the marked vertex 1 is inside the disk; mark a vertex on its boundary");
+  EXPECT_THAT(refusal(disk, "5*", {0, 20}), AllOf(HasSubstr("5*"), HasSubstr("not 2")));
+  EXPECT_THAT(refusal(disk, "3*2", {0, 37}), HasSubstr("out of range"));
   Mesh spare = sphere;
   spare.V.conservativeResize(43, 3);
   spare.V.row(42).setZero();
@@ -432,7 +506,7 @@ TEST(Embed, OptionsOutOfRangeAreRefused) {
 // Odd meshes
 
 TEST(Embed, UnreferencedVerticesKeepTheirIndexAtTheNorthPole) {
-  for (const char* signature : {"532", "22", "*432"}) {
+  for (const char* signature : {"532", "22", "*432", "3*2", "5*"}) {
     const test::SampleEmbedding& sample = test::sample_embedding(signature);
     const int n = test::vertex_count(sample.mesh);
     Mesh mesh = sample.mesh;  // one in front, one in the middle, one behind
@@ -461,7 +535,7 @@ TEST(Embed, UnreferencedVerticesKeepTheirIndexAtTheNorthPole) {
 
 // A vertex in the middle of the opposite edge, up to rounding, and then on top of its neighbour.
 TEST(Embed, FacesWithoutAreaSurvive) {
-  for (const char* signature : {"532", "22", "*432"}) {
+  for (const char* signature : {"532", "22", "*432", "2*3", "3*"}) {
     const test::SampleEmbedding& sample = test::sample_embedding(signature);
     for (const int face : {0, 5, 20, 40, 60, 80}) {
       Mesh mesh = sample.mesh;
@@ -482,16 +556,17 @@ TEST(Embed, FacesWithoutAreaSurvive) {
   }
 }
 
-TEST(Embed, ChosenMarksAreDifferentAndOnTheBoundaryOfADisk) {
+TEST(Embed, ChosenMarksAreDifferentAndWhereTheyHaveToBe) {
   for (const std::string& signature : test::sample_signatures()) {
     const Orbifold orbifold = parse_orbifold(signature);
     std::vector<int> marks = test::sample_embedding(signature).marks;
     EXPECT_EQ(marks.size(), orbifold.marks.size());
+    if (orbifold.topology == Topology::disk) {
+      for (int k = 0; k < static_cast<int>(marks.size()); ++k)
+        EXPECT_EQ(marks[k] < 169, k < orbifold.inner_marks) << signature;  // 169 begins the last ring
+    }
     std::sort(marks.begin(), marks.end());
     EXPECT_EQ(std::adjacent_find(marks.begin(), marks.end()), marks.end());
-    if (orbifold.topology == Topology::disk) {
-      EXPECT_GE(marks.front(), 169);  // the last ring
-    }
   }
   EXPECT_THROW(choose_marked_vertices(test::round_disk(2), parse_orbifold("532")), MeshError);
 }
@@ -520,13 +595,37 @@ TEST(EmbeddingSolver, GivesWhatSeparateEmbeddingsGive) {
         << signature;
 }
 
+TEST(EmbeddingSolver, GivesWhatSeparateEmbeddingsOfADiskGive) {
+  const Mesh disk = test::perturbed(test::round_disk(20), 0.01, 5);
+  EmbedOptions options;
+  options.laplacian.block_size = 300;
+  EmbeddingSolver solver(disk, options);
+  const std::vector<int> around = choose_marked_vertices(disk, parse_orbifold("*432"));
+  const std::vector<int> cones = choose_marked_vertices(disk, parse_orbifold("3*2"));
+  for (const auto& [signature, marks] :
+       {std::pair("3*2", cones), std::pair("*432", around), std::pair("2*5", cones),
+        std::pair("5*", std::vector<int>{cones[0]}), std::pair("3*2", cones)})
+    EXPECT_TRUE(same(solver.embed(parse_orbifold(signature), marks),
+                     embed(disk, parse_orbifold(signature), marks, options)))
+        << signature;
+}
+
+TEST(EmbeddingSolver, ChecksTheSameMarksForEveryOrbifold) {
+  EmbeddingSolver solver(test::round_disk(8));
+  const std::vector<int> inside_and_outside =
+      choose_marked_vertices(test::round_disk(8), parse_orbifold("2*3"));
+  EXPECT_TRUE(solver.embed(parse_orbifold("2*3"), inside_and_outside).certificate.bijective);
+  EXPECT_THROW(solver.embed(parse_orbifold("*33"), inside_and_outside), MeshError);
+  EXPECT_TRUE(solver.embed(parse_orbifold("3*2"), inside_and_outside).certificate.bijective);
+}
+
 TEST(EmbeddingSolver, TellsOfADefectEveryTime) {
   EmbeddingSolver solver(test::torus(8, 6));
   for (int k = 0; k < 2; ++k) EXPECT_THROW(solver.embed(parse_orbifold("432"), {0, 1, 2}), MeshError);
 }
 
 TEST(Embed, DoesNotDependOnTheNumberOfThreads) {
-  for (const std::string signature : {"432", "22", "*532"}) {
+  for (const std::string signature : {"432", "22", "*532", "3*2", "5*"}) {
     const Orbifold orbifold = parse_orbifold(signature);
     const Mesh mesh = orbifold.topology == Topology::sphere ? test::perturbed(test::icosphere(5), 0.01, 6)
                                                             : test::perturbed(test::round_disk(50), 0.01, 6);

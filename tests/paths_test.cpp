@@ -160,7 +160,7 @@ RC_GTEST_PROP(Paths, ShortestPathsHaveTheLengthOfTheDistance, ()) {
   const auto expected = all_distances(graph);
   for (int a = 0; a < graph.size(); ++a) {
     for (int b = 0; b < graph.size(); ++b) {
-      const Path path = shortest_path(graph.graph, a, b);
+      const Path path = shortest_path(graph.graph, a, {b});
       RC_ASSERT(path.empty() == (expected[a][b] == infinity));
       if (path.empty()) continue;
       RC_ASSERT(is_path(graph, path, a, b));
@@ -169,8 +169,45 @@ RC_GTEST_PROP(Paths, ShortestPathsHaveTheLengthOfTheDistance, ()) {
   }
 }
 
+RC_GTEST_PROP(Paths, ThePathToTheNearestOfManyIsTheShortest, ()) {
+  const Graph graph = random_graph(2, 9, *rc::gen::inRange(1, 4));
+  const auto expected = all_distances(graph);
+  const int a = *rc::gen::inRange(0, graph.size());
+  const std::vector<int> to = {*rc::gen::inRange(0, graph.size()), *rc::gen::inRange(0, graph.size())};
+  const Path path = shortest_path(graph.graph, a, to);
+  const double distance = std::min(expected[a][to[0]], expected[a][to[1]]);
+  RC_ASSERT(path.empty() == (distance == infinity));
+  if (path.empty()) return;
+  RC_ASSERT(path.back() == to[0] || path.back() == to[1]);
+  RC_ASSERT(is_path(graph, path, a, path.back()));
+  RC_ASSERT(graph.length(path) == distance);
+}
+
+RC_GTEST_PROP(Paths, PassThroughNoDeadEnd, ()) {
+  Graph graph = random_graph(3, 9, *rc::gen::inRange(1, 4));
+  const int n = graph.size();
+  std::vector<char> dead_end(n, 0);
+  for (int v = 1; v < n; ++v) dead_end[v] = static_cast<char>(*rc::gen::inRange(0, 2));
+  // Without them but for the target, the path is the shortest.
+  const int to = *rc::gen::inRange(1, n);
+  Graph rest;
+  for (std::size_t e = 0; e < graph.edges.size(); ++e) {
+    const auto [i, j] = graph.edges[e];
+    if ((dead_end[i] && i != to) || (dead_end[j] && j != to)) continue;
+    rest.edges.push_back(graph.edges[e]);
+    rest.graph.length.push_back(graph.graph.length[e]);
+  }
+  rest.graph.neighbors = neighbors(rest.edges, n);
+  const double expected = all_distances(rest)[0][to];
+  graph.graph.dead_end = dead_end;
+  RC_ASSERT(distances(graph.graph, {0})[to] == expected);
+  const Path path = shortest_path(graph.graph, 0, {to});
+  RC_ASSERT(path.empty() == (expected == infinity));
+  for (std::size_t k = 0; k + 1 < path.size(); ++k) RC_ASSERT(!dead_end[path[k]]);
+}
+
 TEST(Paths, TheShortestPathToItselfIsTheVertex) {
-  EXPECT_EQ(shortest_path(graph_of(test::octahedron()).graph, 3, 3), Path{3});
+  EXPECT_EQ(shortest_path(graph_of(test::octahedron()).graph, 3, {3}), Path{3});
 }
 
 // ------------------------------------------------------------------------------------------ disjoint paths

@@ -22,6 +22,7 @@ namespace orbitutte {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::AnyOf;
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -104,7 +105,7 @@ TEST(Report, HoldsEveryKeyWithItsType) {
     EXPECT_EQ(json.at("mesh").at("path"), "mesh.ply");
     EXPECT_EQ(json.at("mesh").at("vertices"), test::vertex_count(test::sample_embedding(signature).mesh));
     EXPECT_EQ(json.at("mesh").at("faces"), test::face_count(test::sample_embedding(signature).mesh));
-    EXPECT_EQ(json.at("mesh").at("topology"), signature[0] == '*' ? "disk" : "sphere");
+    EXPECT_EQ(json.at("mesh").at("topology"), signature.find('*') == std::string::npos ? "sphere" : "disk");
     EXPECT_EQ(json.at("orbifold").at("signature"), signature);
     EXPECT_TRUE(json.at("orbifold").at("group_order").is_number_integer());
 
@@ -112,13 +113,13 @@ TEST(Report, HoldsEveryKeyWithItsType) {
     for (const Json& cone : json.at("cones")) {
       EXPECT_TRUE(cone.at("vertex").is_number_integer());
       EXPECT_TRUE(cone.at("order").is_number_integer());
-      EXPECT_EQ(cone.at("kind"), signature[0] == '*' ? "corner" : "rotation");
+      EXPECT_THAT(cone.at("kind"), AnyOf("corner", "rotation"));
       EXPECT_TRUE(all(cone.at("copies"), is_integer));
     }
     ASSERT_TRUE(json.at("seams").is_array());
     EXPECT_FALSE(json.at("seams").empty());
     for (const Json& seam : json.at("seams")) {
-      EXPECT_EQ(seam.at("kind"), signature[0] == '*' ? "reflection" : "rotation");
+      EXPECT_THAT(seam.at("kind"), AnyOf("reflection", "rotation"));
       EXPECT_TRUE(all(seam.at("left"), is_integer));
       EXPECT_TRUE(all(seam.at("right"), is_integer));
       EXPECT_EQ(seam.at("left") == seam.at("right"), seam.at("kind") == "reflection");

@@ -15,7 +15,8 @@ namespace orbitutte::test {
 /// All families that are embedded, with the free order N in {2, 3, 5, 12}.
 inline std::vector<std::string> sample_signatures() {
   return {"532",  "432",  "332",  "222",  "223",  "225",  "2,2,12",  "22",  "33",  "55",  "12,12",
-          "*532", "*432", "*332", "*222", "*223", "*225", "*2,2,12", "*22", "*33", "*55", "*12,12"};
+          "*532", "*432", "*332", "*222", "*223", "*225", "*2,2,12", "*22", "*33", "*55", "*12,12",
+          "3*2",  "2*2",  "2*3",  "2*5",  "2*12", "2*",   "3*",      "5*",  "12*"};
 }
 
 /// An irregular sphere of 320 faces, or a bent disk of 384, whichever the orbifold needs.

@@ -35,17 +35,18 @@ inline std::unique_ptr<SolveCase> solve_case(const std::string& signature, const
   result->marks = choose_marked_vertices(result->mesh, result->orbifold);
   result->connectivity = connect(result->mesh.F, vertex_count(result->mesh));
   result->weights = edge_weights(result->mesh, result->connectivity, {});
-  result->cut = cut_to_disk(result->mesh, result->connectivity, result->marks, options);
+  result->cut =
+      cut_to_disk(result->mesh, result->connectivity, result->marks, result->orbifold.inner_marks, options);
   result->tile = basic_tile(result->orbifold, result->cut.arrangement);
-  result->boundary = glue(result->cut, result->tile, result->orbifold, result->marks);
+  result->boundary = glue(result->cut, result->tile, result->orbifold);
   result->glued = glued_edges(result->cut, result->connectivity, result->boundary);
   return result;
 }
 
 /// One or two of each family.
 inline std::vector<std::string> signatures() {
-  return {"532",  "432",  "332",  "222",  "225",  "22",  "55",
-          "*532", "*432", "*332", "*222", "*225", "*22", "*55"};
+  return {"532",  "432",  "332", "222", "225", "22",  "55",  "*532", "*432", "*332",
+          "*222", "*225", "*22", "*55", "3*2", "2*2", "2*5", "2*",   "5*"};
 }
 
 /// A feasible direction: a random vector in the room of every vertex.

@@ -22,6 +22,7 @@
 #include "orbitutte/mesh/file.h"
 #include "orbitutte/mesh/ply.h"
 #include "orbitutte/output/palette.h"
+#include "sample_embeddings.h"
 
 namespace orbitutte {
 namespace {
@@ -169,6 +170,19 @@ TEST(Tiling, SectorsWithRotationAndMirror) {
 }
 
 TEST(Tiling, HemisphereWithTheAntipodalMap) { expect_tiles_sphere(antipodal_hemisphere(3)); }
+
+TEST(Tiling, EmbeddingsWithRotationAndMirror) {
+  for (const char* signature : {"3*2", "2*2", "2*3", "2*5", "2*12", "2*", "3*", "5*", "12*"}) {
+    SCOPED_TRACE(signature);
+    const Embedding& embedding = test::sample_embedding(signature).embedding();
+    const Tiling tiling = tile_sphere(embedding);
+    EXPECT_EQ(tiling.tiles, embedding.group_order);
+    expect_closed_sphere(tiling.mesh);
+    expect_covers_sphere_once(tiling.mesh);
+    expect_copies_of_source(tiling, embedding);
+    expect_neighbours_coloured_differently(tiling);
+  }
+}
 
 TEST(Tiling, BanksAreWeldedWhereverThePositionsAre) {
   Embedding embedding = rotation_lune(5, 1, 4);

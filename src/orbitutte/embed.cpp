@@ -119,7 +119,8 @@ std::vector<std::string> warnings_about(const EdgeWeights& weights, const std::v
 struct Preparation {
   std::optional<SoundSurface> surface;
   std::optional<EdgeWeights> weights;
-  std::vector<int> cut_through;  // the marked vertices of `cut`
+  std::optional<std::pair<std::vector<int>, int>>
+      cut_through;  // the marked vertices of `cut`, and how many lie inside
   CutMesh cut;
   std::shared_ptr<LaplacianReuse> laplacians = reusable_laplacians(Kept::order);
 };
@@ -146,17 +147,19 @@ EmbedResult embed_here(const Mesh& mesh, Preparation& prepared, const Orbifold& 
   });
   const EdgeWeights& weights = *prepared.weights;
   stage("cut", [&] {  // section 4.1; the elimination order is found at the same time
-    if (prepared.cut_through == marked_vertices) return;
-    prepared.cut_through.clear();
+    const std::pair through(marked_vertices, orbifold.inner_marks);
+    if (prepared.cut_through == through) return;
+    prepared.cut_through.reset();
     parallel_for(2, [&](int task) {
-      if (task == 0) prepared.cut = cut_to_disk(mesh, connectivity, marked_vertices, options.cut);
+      if (task == 0)
+        prepared.cut = cut_to_disk(mesh, connectivity, marked_vertices, orbifold.inner_marks, options.cut);
       if (task == 1) order_ahead(*prepared.laplacians, connectivity.edges, static_cast<int>(mesh.V.rows()));
     });
-    prepared.cut_through = marked_vertices;
+    prepared.cut_through = through;
   });
   const CutMesh& cut = prepared.cut;
-  Tile tile = basic_tile(orbifold, cut.arrangement);                         // appendix A
-  BoundaryConditions boundary = glue(cut, tile, orbifold, marked_vertices);  // (3), (4), (7)
+  Tile tile = basic_tile(orbifold, cut.arrangement);        // appendix A
+  BoundaryConditions boundary = glue(cut, tile, orbifold);  // (3), (4), (7)
   const GluedEdges glued = glued_edges(cut, connectivity, boundary);
   require_apart(glued, boundary, orbifold);
   const SphericalEnergy energy(glued, weights, boundary);  // (2)
@@ -180,7 +183,7 @@ EmbedResult embed_here(const Mesh& mesh, Preparation& prepared, const Orbifold& 
   fix_gauge(tile, positions);
   if (const std::optional<Matrix3> frame = resolving_frame(energy, positions)) {
     tile = rotated(tile, *frame);
-    boundary = glue(cut, tile, orbifold, marked_vertices);
+    boundary = glue(cut, tile, orbifold);
     const SphericalEnergy there(glued_edges(cut, connectivity, boundary), weights, boundary);
     positions = settle_in_frame(positions, *frame, there, boundary);
   }
@@ -246,7 +249,8 @@ EmbedResult EmbeddingSolver::embed(const Orbifold& orbifold, const std::vector<i
 std::vector<int> choose_marked_vertices(const Mesh& mesh, const Orbifold& orbifold) {
   const SoundSurface surface = require_surface(mesh);
   require_topology(surface.topology, orbifold);
-  return extremities(mesh, surface.connectivity, static_cast<int>(orbifold.marks.size()));
+  return extremities(mesh, surface.connectivity, orbifold.inner_marks,
+                     static_cast<int>(orbifold.marks.size()) - orbifold.inner_marks);
 }
 
 }  // namespace orbitutte

@@ -35,7 +35,7 @@ using ProgressCallback = std::function<bool(const Progress&)>;
 struct EmbedOptions {
   WeightOptions weights;
   std::string weights_file;    ///< lines `i j w` (read_weights); when not empty, instead of `weights`
-  CutOptions cut;              ///< which of all cuts; it does not change the result
+  CutOptions cut;              ///< which of all cuts; it changes no length (N* turns about its axis)
   LaplacianOptions laplacian;  ///< the linear solver
   double tolerance = 1e-9;     ///< LbfgsOptions::tolerance
   int max_iterations = 2000;
@@ -86,8 +86,8 @@ class EmbeddingSolver {
   std::unique_ptr<State> state_;
 };
 
-/// Well separated extremities for the marks of the orbifold, on the boundary of a disk.
-/// Throws MeshError where the mesh is not what the orbifold needs.
+/// Well separated extremities for the marks of the orbifold, inside a disk or on its boundary as each has to
+/// be. Throws MeshError where the mesh is not what the orbifold needs.
 std::vector<int> choose_marked_vertices(const Mesh& mesh, const Orbifold& orbifold);
 
 }  // namespace orbitutte

@@ -48,7 +48,7 @@ MeshError no_path(int i, int j) {
 Path path_through(const Mesh& mesh, const EdgeGraph& graph, const std::vector<int>& marks,
                   std::uint64_t seed) {
   if (marks.size() == 2) {
-    Path path = shortest_path(graph, marks[0], marks[1]);
+    Path path = shortest_path(graph, marks[0], {marks[1]});
     if (path.empty()) throw no_path(marks[0], marks[1]);
     return path;
   }
@@ -86,7 +86,39 @@ void check_marks(const std::vector<int>& marks, const std::vector<int>& outgoing
   }
 }
 
-// The half-edge from v to its neighbour w on a closed mesh.
+void check_marks_of_disk(const std::vector<int>& marks, int inner_marks,
+                         const std::vector<char>& on_boundary) {
+  if (marks.empty()) throw MeshError("no vertex is marked on the boundary of the disk; mark one or more");
+  for (int k = 0; k < static_cast<int>(marks.size()); ++k) {
+    if (k >= inner_marks && !on_boundary[marks[k]])
+      throw MeshError(
+          fmt::format("the marked vertex {} is inside the disk; mark a vertex on its boundary", marks[k]));
+    if (k < inner_marks && on_boundary[marks[k]])
+      throw MeshError(
+          fmt::format("the marked vertex {} is on the boundary of the disk; mark a vertex inside", marks[k]));
+  }
+  if (inner_marks > 1 || (inner_marks == 1 && marks.size() > 2))
+    throw MeshError(
+        fmt::format("{} of {} marked vertices are inside the disk; mark one inside, and at most one on the "
+                    "boundary",
+                    inner_marks, marks.size()));
+}
+
+// From the mark inside a disk to the nearest vertex of the boundary that is not marked; a path that met the
+// boundary before its end would cut the disk into two.
+Path path_to_boundary(EdgeGraph graph, const std::vector<int>& marks, const std::vector<char>& on_boundary) {
+  std::vector<int> to;
+  for (int v = 0; v < graph.vertex_count(); ++v)
+    if (on_boundary[v] && std::find(marks.begin(), marks.end(), v) == marks.end()) to.push_back(v);
+  graph.dead_end = on_boundary;
+  Path path = shortest_path(graph, marks[0], to);
+  if (path.empty())
+    throw MeshError(fmt::format(
+        "no edge path leads from the marked vertex {} to the boundary; mark another vertex", marks[0]));
+  return path;
+}
+
+// The half-edge from v, inside the surface, to its neighbour w.
 int halfedge_to(int v, int w, const Faces& F, const std::vector<int>& outgoing,
                 const std::vector<int>& opposite) {
   int h = outgoing[v];
@@ -102,20 +134,20 @@ std::vector<int> open_along(const std::vector<int>& halfedges, const std::vector
 }
 
 // Gives each sector of faces between opened edges around v its own copy of v. The sector that begins left of
-// the opened half-edge `begin` from v keeps the index.
+// the half-edge `begin` from v, opened or on the boundary, keeps the index.
 void split_vertex(int begin, const std::vector<int>& opened, const std::vector<int>& opposite, CutMesh& cut) {
   const int v = cut.F.data()[begin];
   int copy = v;
-  int h = begin;
-  do {
+  for (int h = begin;;) {
     cut.F.data()[h] = copy;
     const int arriving = previous_halfedge(h);
     h = opposite[arriving];
-    if (opened[arriving] < 0 && h != begin) {
+    if (h < 0 || h == begin) return;
+    if (opened[arriving] < 0) {
       copy = cut.vertex_count();
       cut.source_vertex.push_back(v);
     }
-  } while (h != begin);
+  }
 }
 
 std::vector<int> boundary_loop(int start, const Faces& F, const std::vector<int>& opened) {
@@ -151,11 +183,24 @@ CutMesh uncut(const Mesh& mesh) {
   return cut;
 }
 
+// Opens the mesh along a path, from whose first vertex the boundary then begins.
+void open_path(const Path& path, const std::vector<int>& outgoing, const std::vector<int>& opposite,
+               CutMesh& cut) {
+  std::vector<int> halfedges;
+  for (std::size_t k = 0; k + 1 < path.size(); ++k)
+    halfedges.push_back(halfedge_to(path[k], path[k + 1], cut.F, outgoing, opposite));
+  const std::vector<int> opened = open_along(halfedges, opposite);
+  for (const int h : halfedges) split_vertex(h, opened, opposite, cut);
+  if (const int h = outgoing[path.back()]; opposite[h] < 0) split_vertex(h, opened, opposite, cut);
+  cut.boundary = boundary_loop(halfedges.front(), cut.F, opened);
+}
+
 }  // namespace
 
 EdgeGraph edge_length_graph(const Mesh& mesh, const Connectivity& connectivity) {
   EdgeGraph graph = {neighbors(connectivity.edges, static_cast<int>(mesh.V.rows())),
-                     std::vector<double>(connectivity.edges.size())};
+                     std::vector<double>(connectivity.edges.size()),
+                     {}};
   const double total = parallel_sum(static_cast<int>(graph.length.size()), [&](int e) {
     const auto [i, j] = connectivity.edges[e];
     return graph.length[e] = straight_distance(mesh, i, j);
@@ -166,34 +211,30 @@ EdgeGraph edge_length_graph(const Mesh& mesh, const Connectivity& connectivity) 
 }
 
 CutMesh cut_to_disk(const Mesh& mesh, const Connectivity& connectivity, const std::vector<int>& marks,
-                    const CutOptions& options) {
+                    int inner_marks, const CutOptions& options) {
   const std::vector<int>& opposite = connectivity.opposite;
   const std::vector<int> outgoing = outgoing_halfedges(mesh.F, opposite, static_cast<int>(mesh.V.rows()));
   check_marks(marks, outgoing);
-  const bool closed = std::find(opposite.begin(), opposite.end(), -1) == opposite.end();
+  std::vector<char> on_boundary(outgoing.size(), 0);
+  for (std::size_t v = 0; v < outgoing.size(); ++v)
+    on_boundary[v] = outgoing[v] >= 0 && opposite[outgoing[v]] < 0;
+  const bool closed = std::find(on_boundary.begin(), on_boundary.end(), 1) == on_boundary.end();
   if (closed && marks.size() != 2 && marks.size() != 3)
     throw MeshError(fmt::format("{} marked vertices on a sphere; mark two or three", marks.size()));
+  if (!closed) check_marks_of_disk(marks, inner_marks, on_boundary);
   CutMesh cut = uncut(mesh);
-  if (closed) {
+  cut.marks = marks;
+  if (closed || inner_marks > 0) {
     EdgeGraph graph = edge_length_graph(mesh, connectivity);
     perturb_lengths(graph, options.seed);
-    const Path path = path_through(mesh, graph, marks, options.seed);
-    std::vector<int> halfedges;
-    for (std::size_t k = 0; k + 1 < path.size(); ++k)
-      halfedges.push_back(halfedge_to(path[k], path[k + 1], mesh.F, outgoing, opposite));
-    const std::vector<int> opened = open_along(halfedges, opposite);
-    for (const int h : halfedges) split_vertex(h, opened, opposite, cut);
-    cut.boundary = boundary_loop(halfedges.front(), cut.F, opened);
+    const Path path = closed ? path_through(mesh, graph, marks, options.seed)
+                             : path_to_boundary(std::move(graph), marks, on_boundary);
+    open_path(path, outgoing, opposite, cut);
+    if (!closed) cut.marks.push_back(path.back());
   } else {
-    if (marks.empty()) throw MeshError("no vertex is marked on the boundary of the disk; mark one or more");
-    for (const int v : marks) {
-      if (opposite[outgoing[v]] >= 0)
-        throw MeshError(
-            fmt::format("the marked vertex {} is inside the disk; mark a vertex on its boundary", v));
-    }
     cut.boundary = boundary_loop(outgoing[marks[0]], cut.F, opposite);
   }
-  cut.arrangement = order_met(cut.boundary, cut.source_vertex, marks);
+  cut.arrangement = order_met(cut.boundary, cut.source_vertex, cut.marks);
   return cut;
 }
 

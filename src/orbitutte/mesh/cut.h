@@ -16,8 +16,9 @@ struct CutMesh {
   std::vector<int> source_vertex;  ///< n_cut: the input vertex
   std::vector<int>
       boundary;  ///< cut vertices along the boundary's half-edges: counterclockwise, interior on the left
-  std::vector<int> arrangement;  ///< the marks in the order in which the boundary first meets them; it begins
-                                 ///< with the first
+  std::vector<int> marks;        ///< input vertices: the given ones, then the end of a disk's cut
+  std::vector<int> arrangement;  ///< indices into marks, in the order in which the boundary first meets them;
+                                 ///< it begins with the first
 
   int vertex_count() const { return static_cast<int>(source_vertex.size()); }
 };
@@ -26,15 +27,18 @@ struct CutOptions {
   std::uint64_t seed = 0;  ///< another seed takes another cut through the same marks; 0 takes the shortest
 };
 
-/// Cuts so that every marked vertex lies on the boundary of a disk.
+/// Cuts so that every marked vertex lies on the boundary of a disk. The first `inner_marks` of the marks lie
+/// inside the surface, the others on its boundary.
 /// A sphere with two marks is cut along the shortest edge path between them; with three, along two disjoint
-/// paths from one of them to the other two. A disk whose marks are on its boundary is left as it is. Throws
-/// MeshError for marks that are not vertices of a face, repeated, too few or too many, or inside a disk.
+/// paths from one of them to the other two. A disk whose marks are on its boundary is left as it is; one with
+/// a mark inside is cut along the shortest edge path from it to a vertex of the boundary that is not marked,
+/// and meets the boundary nowhere else. Throws MeshError for marks that are not vertices of a face, repeated,
+/// too few or too many, or not where they have to be.
 CutMesh cut_to_disk(const Mesh& mesh, const Connectivity& connectivity, const std::vector<int>& marks,
-                    const CutOptions& options = {});
+                    int inner_marks, const CutOptions& options = {});
 
 /// The edges with their lengths in space. Edges of length zero get a tiny length, so that paths stay short in
-/// edges too.
+/// edges too. Every path may pass through every vertex: no vertex is a dead end.
 EdgeGraph edge_length_graph(const Mesh& mesh, const Connectivity& connectivity);
 
 }  // namespace orbitutte

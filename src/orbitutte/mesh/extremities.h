@@ -8,9 +8,9 @@
 
 namespace orbitutte {
 
-/// `count` vertices of the surface, on its boundary where it has one: each the farthest from those before,
-/// along the edges; the first, from a vertex anywhere. O(count n log n). Throws MeshError where the mesh has
-/// fewer such vertices.
-std::vector<int> extremities(const Mesh& mesh, const Connectivity& connectivity, int count);
+/// `inner` vertices inside the surface, then `outer` ones on its boundary: each the farthest from those
+/// before, along the edges; the first, from the boundary where it lies inside of one, otherwise from a vertex
+/// anywhere. O((inner + outer) n log n). Throws MeshError where the mesh has fewer such vertices.
+std::vector<int> extremities(const Mesh& mesh, const Connectivity& connectivity, int inner, int outer);
 
 }  // namespace orbitutte

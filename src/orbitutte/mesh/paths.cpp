@@ -94,6 +94,7 @@ struct Search {
 
 auto arcs_of(const EdgeGraph& graph) {
   return [&graph](int v, const auto& visit) {
+    if (!graph.dead_end.empty() && graph.dead_end[v]) return;
     for (int k = graph.neighbors.start[v]; k < graph.neighbors.start[v + 1]; ++k)
       visit(graph.neighbors.neighbor[k], graph.length[graph.neighbors.edge[k]]);
   };
@@ -186,10 +187,13 @@ std::vector<double> distances(const EdgeGraph& graph, const std::vector<int>& so
   return std::move(search.distance);
 }
 
-Path shortest_path(const EdgeGraph& graph, int from, int to) {
+Path shortest_path(const EdgeGraph& graph, int from, const std::vector<int>& to) {
+  std::vector<char> is_target(graph.vertex_count(), 0);
+  for (const int v : to) is_target[v] = 1;
   Search search(graph.vertex_count());
-  const int reached = search.run({from}, queue_for(graph), arcs_of(graph), [&](int v) { return v == to; });
-  return reached < 0 ? Path() : search.path_to(to);
+  const int reached =
+      search.run({from}, queue_for(graph), arcs_of(graph), [&](int v) { return is_target[v] != 0; });
+  return reached < 0 ? Path() : search.path_to(reached);
 }
 
 std::array<Path, 2> disjoint_paths(const EdgeGraph& graph, int from, const std::array<int, 2>& to) {

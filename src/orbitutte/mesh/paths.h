@@ -13,6 +13,8 @@ namespace orbitutte {
 struct EdgeGraph {
   Neighbors neighbors;
   std::vector<double> length;  ///< per edge
+  std::vector<char>
+      dead_end;  ///< per vertex: 1 where a path may end but not go on; empty where there are none
 
   int vertex_count() const { return static_cast<int>(neighbors.start.size()) - 1; }
 };
@@ -22,8 +24,8 @@ using Path = std::vector<int>;  ///< vertices, each the neighbour of the one bef
 /// Distances from the sources along the edges; infinity where none leads. Dijkstra, O(n log n).
 std::vector<double> distances(const EdgeGraph& graph, const std::vector<int>& sources);
 
-/// The shortest path between two vertices, O(n log n). Empty where there is none.
-Path shortest_path(const EdgeGraph& graph, int from, int to);
+/// The shortest path from a vertex to the nearest of others, O(n log n). Empty where there is none.
+Path shortest_path(const EdgeGraph& graph, int from, const std::vector<int>& to);
 
 /// Two paths from one vertex to two others that share no vertex but the first, of least total length: a flow
 /// of two units through vertices of capacity one (Suurballe 1974), two Dijkstra sweeps. On a triangulated

@@ -57,11 +57,13 @@ TileSide meridian(const Vector3& from, double longitude, int mark) {
   return side;
 }
 
+void make_mirror(Tile& tile, int side) {
+  tile.sides[side].partner = side;
+  tile.sides[side].transform = reflection(tile.sides[side].pole());
+}
+
 void make_mirrors(Tile& tile) {
-  for (int k = 0; k < static_cast<int>(tile.sides.size()); ++k) {
-    tile.sides[k].partner = k;
-    tile.sides[k].transform = reflection(tile.sides[k].pole());
-  }
+  for (int k = 0; k < static_cast<int>(tile.sides.size()); ++k) make_mirror(tile, k);
 }
 
 void glue_sides(Tile& tile, int left, int right, const Matrix3& transform) {
@@ -80,16 +82,47 @@ Tile mirrored_triangle(const std::vector<int>& n, const std::vector<int>& marks)
   return tile;
 }
 
-// n1 n2 n3: the triangle and its mirror image across the side p1 p3, glued by rotations about p1 and p3.
-Tile doubled_triangle(const std::vector<int>& n, const std::vector<int>& marks) {
+// The triangle and its mirror image across the side p1 p3: p1, p2, p3 and the image of p2, no side glued yet.
+Tile kite(const std::vector<int>& n, const std::vector<int>& marks) {
   const std::vector<Vector3> p = triangle_corners({n[0], n[2], n[1]});  // p1, p3, p2'
   const Vector3 &p1 = p[0], &p3 = p[1], &p2_image = p[2];
   const Vector3 p2 = reflection(p1.cross(p3).normalized()) * p2_image;
   Tile tile;
   tile.sides = {short_arc(p1, p2, marks[0]), short_arc(p2, p3, marks[1]), short_arc(p3, p2_image, marks[2]),
                 short_arc(p2_image, p1, marks[1])};
+  return tile;
+}
+
+// n1 n2 n3: the kite, glued by rotations about p1 and p3.
+Tile doubled_triangle(const std::vector<int>& n, const std::vector<int>& marks) {
+  Tile tile = kite(n, marks);
+  const Vector3 p1 = tile.sides[0].start, p3 = tile.sides[2].start;
   glue_sides(tile, 0, 3, rotation(p1, -2 * pi / n[0]));
   glue_sides(tile, 2, 1, rotation(p3, -2 * pi / n[2]));
+  return tile;
+}
+
+// n*m: the kite, cut open from the cone p1 to any point p2 of the mirror, where its angles are right; from
+// there one mirror leads to the corner p3, and one from the corner to the image of p2.
+Tile mirrored_kite(const std::vector<int>& n, const std::vector<int>& marks) {
+  Tile tile = kite({n[0], 2, 2 * n[2]}, marks);
+  glue_sides(tile, 0, 3, rotation(tile.sides[0].start, -2 * pi / n[0]));
+  for (const int k : {1, 2}) make_mirror(tile, k);
+  tile.sides[1].slides = tile.sides[3].slides = true;
+  return tile;
+}
+
+// N*: a sector of the hemisphere, cut open from the pole to any point of the equator, the mirror. To hold
+// that point only chooses one of all rotations about the axis, which change nothing.
+Tile sector(const std::vector<int>& n, const std::vector<int>& marks) {
+  const double angle = 2 * pi / n[0];
+  const Vector3 pole = Vector3::UnitZ(), start = Vector3::UnitX(), end = rotation(pole, angle) * start;
+  TileSide equator = short_arc(start, Vector3::UnitY(), marks[1]);
+  equator.length = angle;
+  Tile tile;
+  tile.sides = {short_arc(pole, start, marks[0]), equator, short_arc(end, pole, marks[1])};
+  glue_sides(tile, 0, 2, rotation(pole, -angle));
+  make_mirror(tile, 1);
   return tile;
 }
 
@@ -116,11 +149,16 @@ constexpr int N = 0;  // the free order in a pattern
 
 ConwaySymbol rotations(std::vector<int> orders) { return {std::move(orders), {}, false, false}; }
 ConwaySymbol corners(std::vector<int> orders) { return {{}, std::move(orders), true, false}; }
+ConwaySymbol mixed(int rotation, std::vector<int> corners) {
+  return {{rotation}, std::move(corners), true, false};
+}
 
 const std::string three_vertices = "three vertices, in the order of the digits";
 const std::string two_vertices = "two vertices";
 const std::string three_boundary_vertices = "three boundary vertices, in the order of the digits";
 const std::string two_boundary_vertices = "two boundary vertices";
+const std::string vertex_on_each_side = "one inside, of the order before the star, then one on the boundary";
+const std::string one_vertex_inside = "one vertex inside";
 
 }  // namespace
 
@@ -136,6 +174,9 @@ const std::vector<Family>& family_table() {
       {"*332", "24", three_boundary_vertices, corners({2, 3, 3}), Topology::disk, mirrored_triangle},
       {"*22N", "4N", three_boundary_vertices, corners({2, 2, N}), Topology::disk, mirrored_triangle},
       {"*NN", "2N", two_boundary_vertices, corners({N, N}), Topology::disk, mirrored_lune},
+      {"3*2", "24", vertex_on_each_side, mixed(3, {2}), Topology::disk, mirrored_kite, true},
+      {"2*N", "4N", vertex_on_each_side, mixed(2, {N}), Topology::disk, mirrored_kite, true},
+      {"N*", "2N", one_vertex_inside, mixed(N, {}), Topology::disk, sector, true},
   };
   return table;
 }

@@ -17,7 +17,9 @@ struct Family {
   std::string marked_points;  ///< for people
   ConwaySymbol pattern;       ///< sorted orders, 0 for N
   Topology topology;
-  Tile (*tile)(const std::vector<int>& orders, const std::vector<int>& marks);  ///< null: not embedded yet
+  /// From the orders and the marks as the boundary meets them.
+  Tile (*tile)(const std::vector<int>& orders, const std::vector<int>& marks);
+  bool cut_to_mirror = false;  ///< the second corner of the tile is the end of the cut on the mirror
 };
 
 const std::vector<Family>& family_table();

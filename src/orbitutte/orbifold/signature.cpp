@@ -167,10 +167,9 @@ std::string commas(const ConwaySymbol& symbol) {
   return list(symbol.rotations) + (symbol.star ? "*" : "") + list(symbol.corners) + (symbol.cross ? "x" : "");
 }
 
-// The families of spherical orbifolds that the table does not hold yet, in the notation of Conway's list.
-bool is_mixed_spherical(const ConwaySymbol& symbol) {
-  return (symbol.star || symbol.cross) && !is_bad(symbol) && !trivial_order(symbol) &&
-         euler_characteristic(symbol).numerator > 0;
+// The family of spherical orbifolds that the table does not hold yet, Nx.
+bool is_crossed_spherical(const ConwaySymbol& symbol) {
+  return symbol.cross && !trivial_order(symbol) && euler_characteristic(symbol).numerator > 0;
 }
 
 // Why a reading cannot be embedded; empty where it can.
@@ -179,7 +178,7 @@ std::string objection(const ConwaySymbol& symbol) {
   if (find_family(symbol)) return {};
   if (trivial_order(symbol)) return "has an order of 1, which marks nothing; orders are 2 or more";
   if (symbol.rotations.empty() && symbol.corners.empty() && !symbol.cross)
-    return "marks no vertex; the families embedded have two or three (see 'orbitutte types')";
+    return "marks no vertex; every family embedded has one to three (see 'orbitutte types')";
   if (is_bad(symbol))
     return "is not an orbifold of the sphere: one order alone, or two different ones, close up no tiling (a "
            "teardrop or spindle)";
@@ -193,7 +192,7 @@ std::string objection(const ConwaySymbol& symbol) {
 // The reading by the rule of the notation: one character per order, unless a half is a single number that can
 // be read in no other way ("2*12", "12*").
 const ConwaySymbol& choose(const std::string& text, const std::vector<ConwaySymbol>& all) {
-  const auto embeds = [](const ConwaySymbol& s) { return find_family(s) || is_mixed_spherical(s); };
+  const auto embeds = [](const ConwaySymbol& s) { return find_family(s) || is_crossed_spherical(s); };
   if (text.find(',') != std::string::npos && all.size() == 1) return all.front();
   const ConwaySymbol& digits = all.front();  // the readings begin with the one of single digits
   if (embeds(digits)) return digits;
@@ -232,6 +231,7 @@ Orbifold parse_orbifold(const std::string& signature) {
   orbifold.group_order = static_cast<int>(2 * chi.denominator / chi.numerator);
   orbifold.topology = find_family(symbol)->topology;
   orbifold.marks = marks_of(symbol);
+  orbifold.inner_marks = static_cast<int>(symbol.rotations.size());
   return orbifold;
 }
 

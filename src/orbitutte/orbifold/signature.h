@@ -33,6 +33,7 @@ struct Orbifold {
   int group_order = 1;                   ///< |G|
   Topology topology = Topology::sphere;  ///< what the mesh has to be
   std::vector<Mark> marks;               ///< in the order in which vertices are marked
+  int inner_marks = 0;  ///< so many, the first, lie inside the surface, the others on its boundary
 };
 
 /// Reads a symbol and finds its family. Orders may come in any arrangement.

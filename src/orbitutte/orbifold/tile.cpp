@@ -18,15 +18,19 @@ Vector3 Tile::centroid() const {
 }
 
 Tile basic_tile(const Orbifold& orbifold, const std::vector<int>& arrangement) {
+  const Family& family = *find_family(orbifold.symbol);
+  const int marks = static_cast<int>(orbifold.marks.size()), corners = marks + family.cut_to_mirror;
   std::vector<int> orders;
   for (const int mark : arrangement) {
-    if (mark < 0 || mark >= static_cast<int>(orbifold.marks.size()) ||
-        std::count(arrangement.begin(), arrangement.end(), mark) != 1)
+    if (mark < 0 || mark >= corners || std::count(arrangement.begin(), arrangement.end(), mark) != 1)
       throw ArgumentError("the arrangement of the marks is no permutation of them");
-    orders.push_back(orbifold.marks[mark].order);
+    orders.push_back(mark < marks ? orbifold.marks[mark].order : 1);
   }
-  if (arrangement.size() != orbifold.marks.size()) throw ArgumentError("the arrangement leaves marks out");
-  return find_family(orbifold.symbol)->tile(orders, arrangement);
+  if (static_cast<int>(arrangement.size()) != corners)
+    throw ArgumentError("the arrangement leaves marks out");
+  if (family.cut_to_mirror && (arrangement[0] != 0 || arrangement[1] != marks))
+    throw ArgumentError("the arrangement does not begin with the cone and the end of the cut");
+  return family.tile(orders, arrangement);
 }
 
 Tile rotated(const Tile& tile, const Matrix3& rotation) {

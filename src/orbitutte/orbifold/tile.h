@@ -13,10 +13,11 @@ namespace orbitutte {
 /// left. A point of this side at arc length s is transform * (the point of side `partner` at length - s); a
 /// side that is its own partner is a mirror, and stays as it is under the transform.
 struct TileSide {
-  Vector3 start;      ///< the corner where the side begins, unit
-  Vector3 direction;  ///< unit tangent there
-  double length = 0;  ///< radians, at most pi
-  int mark = -1;      ///< the marked point at the start, an index into Orbifold::marks
+  Vector3 start;        ///< the corner where the side begins, unit
+  Vector3 direction;    ///< unit tangent there
+  double length = 0;    ///< radians, at most pi
+  int mark = -1;        ///< the marked point at the start, an index into Orbifold::marks or one behind
+  bool slides = false;  ///< the start is no corner but any point of the mirror: its vertex is not held there
   int partner = -1;
   Matrix3 transform = Matrix3::Identity();
 
@@ -36,8 +37,9 @@ struct Tile {
 };
 
 /// The tile whose boundary meets the orbifold's marks in the order `arrangement` (a permutation of their
-/// indices; every other corner is a further image of one of them). Throws ArgumentError where it is no
-/// permutation.
+/// indices; every other corner is a further image of one of them). A disk with a cone inside is cut from it
+/// to the mirror: there, index marks.size() stands for the end of the cut, and comes second, after the cone.
+/// Throws ArgumentError where the arrangement is no such permutation.
 Tile basic_tile(const Orbifold& orbifold, const std::vector<int>& arrangement);
 
 /// The same tile turned by a rotation.

@@ -23,11 +23,10 @@ std::vector<Seam> seams_of(const std::vector<std::vector<int>>& sides, const Til
   return seams;
 }
 
-std::vector<ConeCopies> cones_of(const CutMesh& cut, const Orbifold& orbifold,
-                                 const std::vector<int>& marked_vertices) {
+std::vector<ConeCopies> cones_of(const CutMesh& cut, const Orbifold& orbifold) {
   std::vector<ConeCopies> cones;
-  for (std::size_t k = 0; k < marked_vertices.size(); ++k)
-    cones.push_back({marked_vertices[k], orbifold.marks[k].order, orbifold.marks[k].kind, {}});
+  for (std::size_t k = 0; k < orbifold.marks.size(); ++k)
+    cones.push_back({cut.marks[k], orbifold.marks[k].order, orbifold.marks[k].kind, {}});
   for (int v : cut.boundary) {
     for (ConeCopies& cone : cones)
       if (cut.source_vertex[v] == cone.vertex) cone.copies.push_back(v);
@@ -40,7 +39,7 @@ std::vector<ConeCopies> cones_of(const CutMesh& cut, const Orbifold& orbifold,
 void hold_corners(const Tile& tile, int input_vertices, BoundaryConditions& conditions) {
   for (std::size_t k = 0; k < tile.sides.size(); ++k) {
     const int corner = conditions.sides[k].front();
-    if (corner >= input_vertices) continue;  // an image of a corner that is held
+    if (corner >= input_vertices || tile.sides[k].slides) continue;  // copies go where their source goes
     conditions.basis_of[corner] = held_in_place;
     conditions.held.row(corner) = tile.sides[k].start;
   }
@@ -75,13 +74,15 @@ Basis mirror_plane(const Matrix3& reflection) {
   return basis;
 }
 
-void keep_on_mirrors(const std::vector<Seam>& seams, BoundaryConditions& conditions) {
+void keep_on_mirrors(const std::vector<Seam>& seams, int input_vertices, BoundaryConditions& conditions) {
   for (const Seam& seam : seams) {
     if (seam.left != seam.right) continue;
     conditions.bases.push_back(mirror_plane(seam.transform));
-    for (const int v : seam.left)
+    for (const int v : seam.left) {
+      if (v >= input_vertices) continue;  // a copy, at the end of the cut
       if (conditions.basis_of[v] != held_in_place)
         conditions.basis_of[v] = static_cast<int>(conditions.bases.size()) - 1;
+    }
   }
 }
 
@@ -96,13 +97,12 @@ void hold_unreferenced(const CutMesh& cut, BoundaryConditions& conditions) {
 }
 
 // Side k of the tile takes the vertices of the boundary from its corner to the next one.
-std::vector<std::vector<int>> boundary_sides(const CutMesh& cut, const Tile& tile,
-                                             const std::vector<int>& marked_vertices) {
+std::vector<std::vector<int>> boundary_sides(const CutMesh& cut, const Tile& tile) {
   std::vector<std::size_t> corners;
   for (std::size_t k = 0; k < cut.boundary.size(); ++k) {
     if (corners.size() == tile.sides.size()) break;
     const int mark = tile.sides[corners.size()].mark;
-    if (cut.source_vertex[cut.boundary[k]] == marked_vertices[mark]) corners.push_back(k);
+    if (cut.source_vertex[cut.boundary[k]] == cut.marks[mark]) corners.push_back(k);
   }
   if (corners.size() != tile.sides.size() || corners.front() != 0)
     throw std::logic_error(
@@ -133,15 +133,14 @@ Points BoundaryConditions::spread(const Points& positions, const std::vector<int
   return result;
 }
 
-BoundaryConditions glue(const CutMesh& cut, const Tile& tile, const Orbifold& orbifold,
-                        const std::vector<int>& marked_vertices) {
+BoundaryConditions glue(const CutMesh& cut, const Tile& tile, const Orbifold& orbifold) {
   int input_vertices = 0;
   while (input_vertices < cut.vertex_count() && cut.source_vertex[input_vertices] == input_vertices)
     ++input_vertices;
   BoundaryConditions conditions;
-  conditions.sides = boundary_sides(cut, tile, marked_vertices);
+  conditions.sides = boundary_sides(cut, tile);
   conditions.seams = seams_of(conditions.sides, tile);
-  conditions.cones = cones_of(cut, orbifold, marked_vertices);
+  conditions.cones = cones_of(cut, orbifold);
   conditions.transforms = {Matrix3::Identity()};
   conditions.transform_of.assign(cut.vertex_count(), 0);
   conditions.bases = {Basis(Matrix3::Identity()), Basis(3, 0)};
@@ -149,7 +148,7 @@ BoundaryConditions glue(const CutMesh& cut, const Tile& tile, const Orbifold& or
   conditions.held = Points::Zero(input_vertices, 3);
   hold_corners(tile, input_vertices, conditions);
   spread_transforms(conditions.seams, input_vertices, conditions);
-  keep_on_mirrors(conditions.seams, conditions);
+  keep_on_mirrors(conditions.seams, input_vertices, conditions);
   hold_unreferenced(cut, conditions);
   return conditions;
 }

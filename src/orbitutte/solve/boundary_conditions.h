@@ -38,9 +38,8 @@ struct BoundaryConditions {
 /// The place of a matrix among distinct ones (to 1e-9), appended where it is new.
 int index_among(std::vector<Matrix3>& distinct, const Matrix3& matrix);
 
-/// Seams, cones and unknowns for a cut mesh whose boundary meets the marked vertices as the tile's corners
-/// do. Vertices that no face uses are held at the north pole.
-BoundaryConditions glue(const CutMesh& cut, const Tile& tile, const Orbifold& orbifold,
-                        const std::vector<int>& marked_vertices);
+/// Seams, cones and unknowns for a cut mesh whose boundary meets its marks as the tile's corners do. Vertices
+/// that no face uses are held at the north pole.
+BoundaryConditions glue(const CutMesh& cut, const Tile& tile, const Orbifold& orbifold);
 
 }  // namespace orbitutte
