@@ -3,6 +3,7 @@
 // Stanford 3D Scanning Repository.
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -16,17 +17,19 @@ namespace {
 
 constexpr int strip_end = -1;
 
+// The coordinates are found first: without them nothing in the file bounds the count.
 Points to_points(const PlyElement& vertex) {
-  constexpr std::string_view axes[] = {"x", "y", "z"};
-  Points V(checked_count(vertex.count, "vertices"), 3);
+  std::array<const PlyProperty*, 3> axes = {};
   for (int k = 0; k < 3; ++k) {
-    const PlyProperty* axis = vertex.find(axes[k]);
-    if (axis == nullptr || axis->is_list) {
+    const char* name = std::array{"x", "y", "z"}[k];
+    axes[k] = vertex.find(name);
+    if (axes[k] == nullptr || axes[k]->is_list)
       throw MeshError(
-          fmt::format("the element 'vertex' has no coordinate '{}'; export the file again", axes[k]));
-    }
-    for (Eigen::Index v = 0; v < V.rows(); ++v) V(v, k) = axis->values[v];
+          fmt::format("the element 'vertex' has no coordinate '{}'; export the file again", name));
   }
+  Points V(checked_count(vertex.count, "vertices"), 3);
+  for (int k = 0; k < 3; ++k)
+    for (Eigen::Index v = 0; v < V.rows(); ++v) V(v, k) = axes[k]->values[v];
   return V;
 }
 

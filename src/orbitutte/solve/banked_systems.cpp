@@ -129,7 +129,7 @@ class BankedSystems : public LaplacianSystems {
     factor_ = factor;
     glue_banks();
     if (reuse.kept == Kept::factors) {
-      reuse.disk_laplacian = std::move(K);
+      reuse.disk_laplacian.swap(K);
       reuse.disk_factor = factor;
     } else {
       factor->release_what_solving_does_not_need();

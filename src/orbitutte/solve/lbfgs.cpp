@@ -87,7 +87,7 @@ class InverseHessian {
     }
     for (std::size_t k = 0; k < count; ++k) {  // oldest to newest: beta_k = y_k' r/s_k' y_k
       double yr = products[count + k];
-      for (std::size_t j = 0; j < count; ++j) yr -= alpha[j] * yPy_[k][j];
+      for (std::size_t j = 0; j < count; ++j) yr -= alpha[j] * ypy_[k][j];
       yr *= gamma_;
       for (std::size_t j = 0; j < k; ++j) yr += along_s[j] * sy_[j][k];
       along_s[k] = alpha[k] - yr / sy_[k][k];
@@ -107,15 +107,15 @@ class InverseHessian {
   // Keeps the pair unless its curvature is not positive.
   void update(const Points& s, const Points& y, const Points& Py) {
     pairs_.push_back({remembered(s), remembered(y), remembered(Py)});
-    Vectors<Remembered> all_s, all_y, all_Py;
+    Vectors<Remembered> all_s, all_y, all_images;
     for (const Pair& pair : pairs_) {
       all_s.push_back(&pair.s);
       all_y.push_back(&pair.y);
-      all_Py.push_back(&pair.Py);
+      all_images.push_back(&pair.Py);
     }
     all_y.pop_back();
     const std::vector<double> row = inner_products(all_y, s), column = inner_products(all_s, y),
-                              products = inner_products(all_Py, y);
+                              products = inner_products(all_images, y);
     if (!(column.back() > 0) || !(products.back() > 0)) {
       pairs_.pop_back();
       return;
@@ -123,18 +123,18 @@ class InverseHessian {
     gamma_ = column.back() / products.back();
     for (std::size_t k = 0; k < sy_.size(); ++k) {
       sy_[k].push_back(column[k]);
-      yPy_[k].push_back(products[k]);
+      ypy_[k].push_back(products[k]);
     }
     sy_.emplace_back(row.begin(), row.end());
     sy_.back().push_back(column.back());
-    yPy_.emplace_back(products.begin(), products.end());
+    ypy_.emplace_back(products.begin(), products.end());
     if (pairs_.size() > memory_) drop_oldest();
   }
 
   void forget() {
     pairs_.clear();
     sy_.clear();
-    yPy_.clear();
+    ypy_.clear();
     gamma_ = 1;
   }
 
@@ -148,7 +148,7 @@ class InverseHessian {
 
   void drop_oldest() {
     pairs_.pop_front();
-    for (Table* table : {&sy_, &yPy_}) {
+    for (Table* table : {&sy_, &ypy_}) {
       table->pop_front();
       for (auto& products : *table) products.pop_front();
     }
@@ -157,7 +157,7 @@ class InverseHessian {
   std::size_t memory_;
   double gamma_ = 1;
   std::deque<Pair> pairs_;  // oldest first
-  Table sy_, yPy_;          // s_i' y_j, and y_i' P y_j
+  Table sy_, ypy_;          // s_i' y_j, and y_i' P y_j
 };
 
 struct State {

@@ -100,7 +100,7 @@ SphericalEnergy::SphericalEnergy(const GluedEdges& glued, const EdgeWeights& wei
 }
 
 Vector3 SphericalEnergy::image(const Points& p, const Incidence& incidence) const {
-  const Vector3 q = p.row(incidence.neighbor);
+  Vector3 q = p.row(incidence.neighbor);
   if (incidence.transform < 2) return q;
   const Matrix3& g = transforms_[incidence.transform / 2];
   return incidence.transform % 2 == 0 ? Vector3(g * q) : Vector3(g.transpose() * q);
