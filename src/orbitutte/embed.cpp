@@ -61,15 +61,15 @@ void require_topology(Topology topology, const Orbifold& orbifold) {
                   name(topology), orbifold.signature, name(orbifold.topology)));
 }
 
-// The mesh as a sphere or disk.
+// The mesh as a sphere, disk or projective plane.
 SoundSurface require_surface(const Mesh& mesh) {
   if (std::optional<SoundSurface> surface = recognize(mesh)) return std::move(*surface);
   const Inspection inspection = inspect(mesh);
   require_embeddable(inspection);
-  if (inspection.topology == Topology::projective_plane)
-    throw MeshError(
-        "the mesh is a projective-plane; no orbifold of this version takes one (see 'orbitutte types')");
-  throw std::logic_error("a mesh without defects was not recognised");
+  if (inspection.topology != Topology::projective_plane)
+    throw std::logic_error("a mesh without defects was not recognised");
+  return {inspection.topology, connect(mesh.F, inspection.vertices), inspection.unreferenced_vertices,
+          inspection.zero_area_faces};
 }
 
 // Cones that lie opposite to each other need more than one edge between them: every arc of length pi is as

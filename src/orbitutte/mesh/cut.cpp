@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "orbitutte/mesh/one_sided_loop.h"
 #include "orbitutte/parallel.h"
 
 namespace orbitutte {
@@ -104,6 +105,13 @@ void check_marks_of_disk(const std::vector<int>& marks, int inner_marks,
                     inner_marks, marks.size()));
 }
 
+void check_number_of_marks(const std::vector<int>& marks, bool one_sided) {
+  const std::size_t fewest = one_sided ? 1 : 2, most = one_sided ? 1 : 3;
+  if (marks.size() < fewest || marks.size() > most)
+    throw MeshError(fmt::format("{} marked vertices on a {}", marks.size(),
+                                one_sided ? "projective plane; mark one" : "sphere; mark two or three"));
+}
+
 // From the mark inside a disk to the nearest vertex of the boundary that is not marked; a path that met the
 // boundary before its end would cut the disk into two.
 Path path_to_boundary(EdgeGraph graph, const std::vector<int>& marks, const std::vector<char>& on_boundary) {
@@ -118,47 +126,98 @@ Path path_to_boundary(EdgeGraph graph, const std::vector<int>& marks, const std:
   return path;
 }
 
-// The half-edge from v, inside the surface, to its neighbour w.
-int halfedge_to(int v, int w, const Faces& F, const std::vector<int>& outgoing,
-                const std::vector<int>& opposite) {
-  int h = outgoing[v];
-  while (target(F, h) != w) h = opposite[previous_halfedge(h)];
-  return h;
+struct CutPath {
+  Path vertices;
+  std::vector<int> edges;
+};
+
+CutPath with_edges(Path path, const EdgeGraph& graph) {
+  CutPath result = {std::move(path), {}};
+  for (std::size_t k = 1; k < result.vertices.size(); ++k)
+    result.edges.push_back(edge_between(graph, result.vertices[k - 1], result.vertices[k]));
+  return result;
 }
 
-// The opposite half-edges once the edges of these half-edges are opened: -1 on both sides of each.
-std::vector<int> open_along(const std::vector<int>& halfedges, const std::vector<int>& opposite) {
-  std::vector<int> opened = opposite;
-  for (const int h : halfedges) opened[h] = opened[opposite[h]] = -1;
-  return opened;
+// Half-edge h of a face whose second and third vertex have been exchanged.
+int turned_halfedge(int h) { return h - h % 3 + (2 - h % 3); }
+
+// The input mesh, its faces turned over where they would not agree on the disk, and its half-edges opened
+// along the cut's edges.
+struct OpenedMesh {
+  CutMesh cut;
+  std::vector<int> opposite;  // -1 on the boundary and at the cut
+};
+
+CutMesh uncut(const Mesh& mesh, const Connectivity& connectivity) {
+  CutMesh cut;
+  cut.F = mesh.F;
+  cut.edge_of = connectivity.edge_of;
+  cut.source_vertex.resize(mesh.V.rows());
+  for (int v = 0; v < cut.vertex_count(); ++v) cut.source_vertex[v] = v;
+  return cut;
 }
 
-// Gives each sector of faces between opened edges around v its own copy of v. The sector that begins left of
-// the half-edge `begin` from v, opened or on the boundary, keeps the index.
-void split_vertex(int begin, const std::vector<int>& opened, const std::vector<int>& opposite, CutMesh& cut) {
-  const int v = cut.F.data()[begin];
-  int copy = v;
-  for (int h = begin;;) {
-    cut.F.data()[h] = copy;
-    const int arriving = previous_halfedge(h);
-    h = opposite[arriving];
-    if (h < 0 || h == begin) return;
-    if (opened[arriving] < 0) {
-      copy = cut.vertex_count();
-      cut.source_vertex.push_back(v);
-    }
+OpenedMesh opened_along(const CutPath& path, const Mesh& mesh, const Connectivity& connectivity) {
+  OpenedMesh result = {uncut(mesh, connectivity), connectivity.opposite};
+  if (path.edges.empty()) return result;
+  std::vector<char> is_cut(connectivity.edges.size(), 0);
+  for (const int e : path.edges) is_cut[e] = 1;
+  parallel_ranges(static_cast<int>(result.opposite.size()), [&](int begin, int end) {
+    for (int h = begin; h < end; ++h)
+      if (is_cut[connectivity.edge_of[h]]) result.opposite[h] = -1;
+  });
+  return result;
+}
+
+// Turns faces over so that all agree, where the surface has no orientation that they could have had from the
+// first.
+void turn_faces(OpenedMesh& mesh) {
+  const Faces F = mesh.cut.F;
+  mesh.cut.F = agreeing_faces(F, mesh.opposite);
+  const std::vector<int> edge_of = mesh.cut.edge_of, opposite = mesh.opposite;
+  const auto moved = [&](int h) {
+    return mesh.cut.F(h / 3, 1) == F(h / 3, 1) ? h : turned_halfedge(h);
+  };
+  for (int h = 0; h < static_cast<int>(opposite.size()); ++h) {
+    mesh.cut.edge_of[moved(h)] = edge_of[h];
+    mesh.opposite[moved(h)] = opposite[h] < 0 ? -1 : moved(opposite[h]);
   }
 }
 
-std::vector<int> boundary_loop(int start, const Faces& F, const std::vector<int>& opened) {
-  std::vector<int> loop;
+// The first half-edge on the boundary of the opened mesh that leaves a vertex.
+int boundary_halfedge(int v, const OpenedMesh& mesh) {
+  int h = 0;
+  while (mesh.opposite[h] >= 0 || origin(mesh.cut.F, h) != v) ++h;
+  return h;
+}
+
+// Gives the faces between the boundary half-edge `begin` and the one that arrives at its origin another vertex
+// there.
+void renumber_sector(int begin, int vertex, const std::vector<int>& opposite, Faces& F) {
+  for (int h = begin; h >= 0; h = opposite[previous_halfedge(h)]) F.data()[h] = vertex;
+}
+
+// Follows the boundary of the opened mesh from a vertex. Where it passes a vertex for the first time, the faces
+// there keep its index; at every further time they get a copy of it.
+CutMesh split_along_boundary(int from, OpenedMesh mesh) {
+  CutMesh& cut = mesh.cut;
+  const int start = boundary_halfedge(from, mesh);
+  std::vector<char> passed(cut.source_vertex.size(), 0);
   int h = start;
   do {
-    loop.push_back(origin(F, h));
+    const int v = origin(cut.F, h);
+    int vertex = v;
+    if (passed[v]) {
+      vertex = cut.vertex_count();
+      cut.source_vertex.push_back(v);
+    }
+    passed[v] = 1;
+    renumber_sector(h, vertex, mesh.opposite, cut.F);
+    cut.boundary.push_back(vertex);
     h = next_halfedge(h);
-    while (opened[h] >= 0) h = next_halfedge(opened[h]);
+    while (mesh.opposite[h] >= 0) h = next_halfedge(mesh.opposite[h]);
   } while (h != start);
-  return loop;
+  return std::move(cut);
 }
 
 std::vector<int> order_met(const std::vector<int>& boundary, const std::vector<int>& source,
@@ -173,26 +232,6 @@ std::vector<int> order_met(const std::vector<int>& boundary, const std::vector<i
     mark_of.erase(mark);
   }
   return order;
-}
-
-CutMesh uncut(const Mesh& mesh) {
-  CutMesh cut;
-  cut.F = mesh.F;
-  cut.source_vertex.resize(mesh.V.rows());
-  for (int v = 0; v < cut.vertex_count(); ++v) cut.source_vertex[v] = v;
-  return cut;
-}
-
-// Opens the mesh along a path, from whose first vertex the boundary then begins.
-void open_path(const Path& path, const std::vector<int>& outgoing, const std::vector<int>& opposite,
-               CutMesh& cut) {
-  std::vector<int> halfedges;
-  for (std::size_t k = 0; k + 1 < path.size(); ++k)
-    halfedges.push_back(halfedge_to(path[k], path[k + 1], cut.F, outgoing, opposite));
-  const std::vector<int> opened = open_along(halfedges, opposite);
-  for (const int h : halfedges) split_vertex(h, opened, opposite, cut);
-  if (const int h = outgoing[path.back()]; opposite[h] < 0) split_vertex(h, opened, opposite, cut);
-  cut.boundary = boundary_loop(halfedges.front(), cut.F, opened);
 }
 
 }  // namespace
@@ -219,21 +258,23 @@ CutMesh cut_to_disk(const Mesh& mesh, const Connectivity& connectivity, const st
   for (std::size_t v = 0; v < outgoing.size(); ++v)
     on_boundary[v] = outgoing[v] >= 0 && opposite[outgoing[v]] < 0;
   const bool closed = std::find(on_boundary.begin(), on_boundary.end(), 1) == on_boundary.end();
-  if (closed && marks.size() != 2 && marks.size() != 3)
-    throw MeshError(fmt::format("{} marked vertices on a sphere; mark two or three", marks.size()));
+  const bool one_sided = closed && has_turned_faces(mesh.F, opposite);
+  if (closed) check_number_of_marks(marks, one_sided);
   if (!closed) check_marks_of_disk(marks, inner_marks, on_boundary);
-  CutMesh cut = uncut(mesh);
-  cut.marks = marks;
+  CutPath path = {{marks[0]}, {}};  // of a disk that is not cut
   if (closed || inner_marks > 0) {
     EdgeGraph graph = edge_length_graph(mesh, connectivity);
     perturb_lengths(graph, options.seed);
-    const Path path = closed ? path_through(mesh, graph, marks, options.seed)
-                             : path_to_boundary(std::move(graph), marks, on_boundary);
-    open_path(path, outgoing, opposite, cut);
-    if (!closed) cut.marks.push_back(path.back());
-  } else {
-    cut.boundary = boundary_loop(outgoing[marks[0]], cut.F, opposite);
+    path = with_edges(one_sided ? one_sided_loop(graph, mesh.F, connectivity, marks[0])
+                      : closed  ? path_through(mesh, graph, marks, options.seed)
+                                : path_to_boundary(graph, marks, on_boundary),
+                      graph);
   }
+  OpenedMesh opened = opened_along(path, mesh, connectivity);
+  if (one_sided) turn_faces(opened);
+  CutMesh cut = split_along_boundary(path.vertices.front(), std::move(opened));
+  cut.marks = marks;
+  if (!closed && inner_marks > 0) cut.marks.push_back(path.vertices.back());
   cut.arrangement = order_met(cut.boundary, cut.source_vertex, cut.marks);
   return cut;
 }

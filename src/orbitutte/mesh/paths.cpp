@@ -181,6 +181,13 @@ std::array<Path, 2> untangle(const Path& first, const Path& second, const std::a
 
 }  // namespace
 
+int edge_between(const EdgeGraph& graph, int v, int w) {
+  const Neighbors& near = graph.neighbors;
+  int k = near.start[v];
+  while (near.neighbor[k] != w) ++k;
+  return near.edge[k];
+}
+
 std::vector<double> distances(const EdgeGraph& graph, const std::vector<int>& sources) {
   Search search(graph.vertex_count());
   search.run(sources, queue_for(graph), arcs_of(graph), [](int) { return false; });

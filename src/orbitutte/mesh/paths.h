@@ -21,6 +21,9 @@ struct EdgeGraph {
 
 using Path = std::vector<int>;  ///< vertices, each the neighbour of the one before
 
+/// The edge that joins two neighbours.
+int edge_between(const EdgeGraph& graph, int v, int w);
+
 /// Distances from the sources along the edges; infinity where none leads. Dijkstra, O(n log n).
 std::vector<double> distances(const EdgeGraph& graph, const std::vector<int>& sources);
 

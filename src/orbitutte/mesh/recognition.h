@@ -8,7 +8,7 @@
 
 namespace orbitutte {
 
-/// A sphere or a disk on which `inspect` finds no defect.
+/// A surface on which `inspect` finds no defect.
 struct SoundSurface {
   Topology topology = Topology::sphere;
   Connectivity connectivity;

@@ -145,6 +145,14 @@ Tile mirrored_lune(const std::vector<int>& n, const std::vector<int>& marks) {
   return tile;
 }
 
+// Nx: a lune, cut open along a loop from the cone to itself, which becomes two meridians from a pole to the
+// other; the rotary reflection takes one to the other and exchanges the poles.
+Tile crossed_lune(const std::vector<int>& n, const std::vector<int>& marks) {
+  Tile tile = lune(pi / n[0], {marks[0], marks[0]});
+  glue_sides(tile, 0, 1, reflection(Vector3::UnitZ()) * rotation(Vector3::UnitZ(), -pi / n[0]));
+  return tile;
+}
+
 constexpr int N = 0;  // the free order in a pattern
 
 ConwaySymbol rotations(std::vector<int> orders) { return {std::move(orders), {}, false, false}; }
@@ -153,12 +161,15 @@ ConwaySymbol mixed(int rotation, std::vector<int> corners) {
   return {{rotation}, std::move(corners), true, false};
 }
 
+ConwaySymbol crossed(int rotation) { return {{rotation}, {}, false, true}; }
+
 const std::string three_vertices = "three vertices, in the order of the digits";
 const std::string two_vertices = "two vertices";
 const std::string three_boundary_vertices = "three boundary vertices, in the order of the digits";
 const std::string two_boundary_vertices = "two boundary vertices";
 const std::string vertex_on_each_side = "one inside, of the order before the star, then one on the boundary";
 const std::string one_vertex_inside = "one vertex inside";
+const std::string one_vertex = "one vertex";
 
 }  // namespace
 
@@ -177,14 +188,15 @@ const std::vector<Family>& family_table() {
       {"3*2", "24", vertex_on_each_side, mixed(3, {2}), Topology::disk, mirrored_kite, true},
       {"2*N", "4N", vertex_on_each_side, mixed(2, {N}), Topology::disk, mirrored_kite, true},
       {"N*", "2N", one_vertex_inside, mixed(N, {}), Topology::disk, sector, true},
+      {"Nx", "2N", one_vertex, crossed(N), Topology::projective_plane, crossed_lune, false, 1},
   };
   return table;
 }
 
 namespace {
 
-// Do the orders fit the pattern, every N standing for the same number >= 2?
-bool fits(std::vector<int> orders, const std::vector<int>& pattern) {
+// Do the orders fit the pattern, every N standing for the same number, `smallest` or more?
+bool fits(std::vector<int> orders, const std::vector<int>& pattern, int smallest) {
   if (orders.size() != pattern.size()) return false;
   for (const int fixed : pattern) {
     if (fixed == N) continue;
@@ -193,7 +205,7 @@ bool fits(std::vector<int> orders, const std::vector<int>& pattern) {
     orders.erase(at);
   }
   return std::adjacent_find(orders.begin(), orders.end(), std::not_equal_to<>()) == orders.end() &&
-         std::all_of(orders.begin(), orders.end(), [](int n) { return n >= 2; });
+         std::all_of(orders.begin(), orders.end(), [&](int n) { return n >= smallest; });
 }
 
 }  // namespace
@@ -201,7 +213,8 @@ bool fits(std::vector<int> orders, const std::vector<int>& pattern) {
 const Family* find_family(const ConwaySymbol& symbol) {
   for (const Family& family : family_table()) {
     if (symbol.star == family.pattern.star && symbol.cross == family.pattern.cross &&
-        fits(symbol.rotations, family.pattern.rotations) && fits(symbol.corners, family.pattern.corners))
+        fits(symbol.rotations, family.pattern.rotations, family.smallest_order) &&
+        fits(symbol.corners, family.pattern.corners, family.smallest_order))
       return &family;
   }
   return nullptr;

@@ -20,6 +20,7 @@ struct Family {
   /// From the orders and the marks as the boundary meets them.
   Tile (*tile)(const std::vector<int>& orders, const std::vector<int>& marks);
   bool cut_to_mirror = false;  ///< the second corner of the tile is the end of the cut on the mirror
+  int smallest_order = 2;      ///< that N may be
 };
 
 const std::vector<Family>& family_table();

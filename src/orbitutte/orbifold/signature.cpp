@@ -144,7 +144,8 @@ Halves split(const std::string& text) {
 }
 
 std::vector<ConwaySymbol> all_readings(const std::string& text) {
-  const Halves halves = split(text);
+  Halves halves = split(text);
+  if (halves.cross && halves.before.empty()) halves.before += '1';  // one vertex marked
   std::vector<ConwaySymbol> result;
   for (const Orders& before : read_orders(text, halves.before)) {
     for (const Orders& after : read_orders(text, halves.after))
@@ -167,32 +168,25 @@ std::string commas(const ConwaySymbol& symbol) {
   return list(symbol.rotations) + (symbol.star ? "*" : "") + list(symbol.corners) + (symbol.cross ? "x" : "");
 }
 
-// The family of spherical orbifolds that the table does not hold yet, Nx.
-bool is_crossed_spherical(const ConwaySymbol& symbol) {
-  return symbol.cross && !trivial_order(symbol) && euler_characteristic(symbol).numerator > 0;
-}
-
 // Why a reading cannot be embedded; empty where it can.
 std::string objection(const ConwaySymbol& symbol) {
   if (any_above_largest(symbol.rotations) || any_above_largest(symbol.corners)) return above_largest();
   if (find_family(symbol)) return {};
   if (trivial_order(symbol)) return "has an order of 1, which marks nothing; orders are 2 or more";
-  if (symbol.rotations.empty() && symbol.corners.empty() && !symbol.cross)
+  if (symbol.rotations.empty() && symbol.corners.empty())
     return "marks no vertex; every family embedded has one to three (see 'orbitutte types')";
   if (is_bad(symbol))
     return "is not an orbifold of the sphere: one order alone, or two different ones, close up no tiling (a "
            "teardrop or spindle)";
   const long long chi = euler_characteristic(symbol).numerator;
   if (chi == 0) return "is a Euclidean orbifold: its tiles fill the plane, not the sphere";
-  if (chi < 0) return "is a hyperbolic orbifold: its tiles fill the hyperbolic plane, not the sphere";
-  return "is a spherical orbifold of a family that is not embedded yet; see 'orbitutte types' for those that "
-         "are";
+  return "is a hyperbolic orbifold: its tiles fill the hyperbolic plane, not the sphere";
 }
 
 // The reading by the rule of the notation: one character per order, unless a half is a single number that can
 // be read in no other way ("2*12", "12*").
 const ConwaySymbol& choose(const std::string& text, const std::vector<ConwaySymbol>& all) {
-  const auto embeds = [](const ConwaySymbol& s) { return find_family(s) || is_crossed_spherical(s); };
+  const auto embeds = [](const ConwaySymbol& s) { return find_family(s) != nullptr; };
   if (text.find(',') != std::string::npos && all.size() == 1) return all.front();
   const ConwaySymbol& digits = all.front();  // the readings begin with the one of single digits
   if (embeds(digits)) return digits;

@@ -38,8 +38,7 @@ struct Orbifold {
 
 /// Reads a symbol and finds its family. Orders may come in any arrangement.
 /// Throws ArgumentError, in one sentence: what is no symbol; what could be read in two ways (both are named);
-/// orders that make a Euclidean or hyperbolic orbifold or none at all (teardrops, spindles, order one);
-/// families that are not embedded yet.
+/// orders that make a Euclidean or hyperbolic orbifold or none at all (teardrops, spindles, order one).
 Orbifold parse_orbifold(const std::string& signature);
 
 /// A row of `orbitutte types`.

@@ -45,9 +45,11 @@ Tile rotated(const Tile& tile, const Matrix3& rotation) {
 
 bool free_rotation_axis(const Tile& tile, Vector3& axis) {
   axis = tile.sides.front().start;
+  Matrix3 turn;  // p -> axis x p, the derivative of the rotation
+  turn << 0, -axis.z(), axis.y(), axis.z(), 0, -axis.x(), -axis.y(), axis.x(), 0;
   return std::all_of(tile.sides.begin(), tile.sides.end(), [&](const TileSide& side) {
-    return side.partner != -1 && (side.transform * axis - axis).norm() < 1e-12 &&
-           side.transform.determinant() > 0 && std::abs(std::abs(side.start.dot(axis)) - 1) < 1e-12;
+    return (side.transform * turn - turn * side.transform).norm() < 1e-12 &&
+           std::abs(std::abs(side.start.dot(axis)) - 1) < 1e-12;
   });
 }
 

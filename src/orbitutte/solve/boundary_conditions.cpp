@@ -17,7 +17,7 @@ std::vector<Seam> seams_of(const std::vector<std::vector<int>>& sides, const Til
     const int partner = tile.sides[k].partner;
     if (partner < k) continue;
     Seam seam = {sides[k], sides[partner], tile.sides[k].transform};
-    if (partner != k) std::reverse(seam.right.begin(), seam.right.end());
+    if (tile.sides[k].partner_reverses()) std::reverse(seam.right.begin(), seam.right.end());
     seams.push_back(std::move(seam));
   }
   return seams;

@@ -54,6 +54,24 @@ class Offences {
   std::string first_;
 };
 
+// Does the signature speak of a surface without an orientation?
+bool has_no_orientation(const std::string& signature) {
+  try {
+    return parse_orbifold(signature).topology == Topology::projective_plane;
+  } catch (const ArgumentError&) {
+    return false;  // of which cone_check tells
+  }
+}
+
+// Is face f of the cut mesh the input's? Where the surface has no orientation, it may be turned over.
+bool is_input_face(const Mesh& mesh, const Embedding& embedding, int f, bool may_be_turned) {
+  const auto v = embedding.faces.row(f);
+  const std::vector<int>& source = embedding.source_vertex;
+  const int a = source[v[0]], b = source[v[1]], c = source[v[2]];
+  if (a != mesh.F(f, 0)) return false;
+  return (b == mesh.F(f, 1) && c == mesh.F(f, 2)) || (may_be_turned && b == mesh.F(f, 2) && c == mesh.F(f, 1));
+}
+
 // The faces of the cut mesh are the input's, on copies of its vertices, the first n of which are the input
 // vertices.
 Check cut_mesh_check(const Mesh& mesh, const Embedding& embedding) {
@@ -70,12 +88,11 @@ Check cut_mesh_check(const Mesh& mesh, const Embedding& embedding) {
     if (source < 0 || source >= n || (v < n && source != v))
       offences.add("cut vertex {} names the input vertex {}", v, source);
   }
+  const bool may_be_turned = has_no_orientation(embedding.signature);
   for (int f = 0; f < mesh.F.rows(); ++f) {
-    for (int k = 0; k < 3; ++k) {
-      const int v = embedding.faces(f, k);
-      if (v < 0 || v >= n_cut || embedding.source_vertex[v] != mesh.F(f, k))
-        offences.add("face {} is not the input's face {}, cut", f, f);
-    }
+    const auto v = embedding.faces.row(f);
+    if (v.minCoeff() < 0 || v.maxCoeff() >= n_cut || !is_input_face(mesh, embedding, f, may_be_turned))
+      offences.add("face {} is not the input's face {}, cut", f, f);
   }
   return offences.check("cut_mesh");
 }
