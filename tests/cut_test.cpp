@@ -453,6 +453,101 @@ RC_GTEST_PROP(Cut, OfAnyTriangulatedDiskIsADisk, (std::uint32_t seed, std::uint6
   for (const int v : around) RC_ASSERT(fault_in_opened_disk(mesh, {inside[0], v}, cut_seed) == "");
 }
 
+// --------------------------------------------------------------------------------------- projective planes
+
+/// The input with its faces turned as in the cut mesh.
+Mesh turned_like(const Mesh& mesh, const CutMesh& cut) {
+  Mesh result = mesh;
+  for (int f = 0; f < face_count(mesh); ++f)
+    if (cut.source_vertex[cut.F(f, 1)] == mesh.F(f, 2)) std::swap(result.F(f, 1), result.F(f, 2));
+  return result;
+}
+
+/// The boundary runs twice around one loop, in the same direction; but for the copies it meets no vertex
+/// twice.
+std::string fault_in_loop(const CutMesh& cut, int mark) {
+  const std::size_t b = cut.boundary.size(), half = b / 2;
+  const auto source = [&](std::size_t k) { return cut.source_vertex[cut.boundary[k]]; };
+  if (b % 2 != 0 || half < 3) return "the boundary is no loop run twice";
+  std::set<int> met;
+  for (std::size_t k = 0; k < half; ++k) {
+    if (source(k) != source(k + half)) return "the second round is another loop";
+    if (cut.boundary[k] != source(k)) return "the first round runs along copies";
+    met.insert(source(k));
+  }
+  if (met.size() != half) return "the loop meets itself";
+  return source(0) == mark ? "" : "the boundary does not begin at the mark";
+}
+
+std::string fault_in_projective_plane(const Mesh& mesh, int mark, std::uint64_t seed) {
+  const CutMesh cut = cut_inside(mesh, {mark}, seed);
+  const Mesh turned = turned_like(mesh, cut);
+  std::string fault = turned.F.row(0) == mesh.F.row(0) ? "" : "face 0 is turned over";
+  if (fault.empty()) fault = fault_in_faces(turned, cut);
+  if (fault.empty()) fault = fault_in_disk(turned, cut);
+  if (fault.empty()) fault = fault_in_arrangement(cut, {mark});
+  if (fault.empty()) fault = fault_in_loop(cut, mark);
+  const Connectivity connectivity = connect(mesh.F, vertex_count(mesh));
+  for (int h = 0; h < cut.F.size() && fault.empty(); ++h) {
+    const auto [i, j] = std::minmax(cut.source_vertex[origin(cut.F, h)], cut.source_vertex[target(cut.F, h)]);
+    if (connectivity.edges[cut.edge_of[h]] != std::array<int, 2>{i, j})
+      fault = "a half-edge is of another edge";
+  }
+  if (fault.empty() && !same(cut, cut_inside(mesh, {mark}, seed))) fault = "a second cut is different";
+  return fault;
+}
+
+TEST(Cut, ThroughAnyVertexOfAProjectivePlaneGivesADisk) {
+  for (const int levels : {0, 1, 2}) {
+    const Mesh mesh = test::projective_plane(levels);
+    for (int v = 0; v < vertex_count(mesh); ++v)
+      for (const std::uint64_t seed : {0, 1, 2}) EXPECT_EQ(fault_in_projective_plane(mesh, v, seed), "") << v;
+  }
+}
+
+// At the tip of a limb every shortest one-sided loop goes up and down the limb: it has to open into a simple
+// one.
+TEST(Cut, ThroughTheTipOfALimbOfAProjectivePlaneGivesADisk) {
+  Mesh mesh = test::projective_plane(1);
+  for (int k = 0; k < 12; ++k) {
+    const int tip = vertex_count(mesh);
+    mesh = test::with_face_split(mesh, k == 0 ? 0 : face_count(mesh) - 1 - k % 2);
+    mesh.V.row(tip) = Eigen::RowVector3d(0, 0, 3 + k);
+    EXPECT_EQ(fault_in_projective_plane(mesh, tip, 0), "") << tip;
+    EXPECT_EQ(fault_in_projective_plane(mesh, tip, 5), "") << tip;
+  }
+}
+
+TEST(Cut, SeedsGiveOtherCutsOfAProjectivePlane) {
+  const Mesh mesh = test::projective_plane(3);
+  std::set<std::vector<int>> cuts;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) cuts.insert(cut_inside(mesh, {7}, seed).boundary);
+  EXPECT_GT(cuts.size(), 5u);
+}
+
+RC_GTEST_PROP(Cut, OfAnyTriangulatedProjectivePlaneIsADisk, (std::uint32_t seed, std::uint64_t cut_seed)) {
+  const Mesh mesh = test::random_projective_plane(seed, static_cast<int>(seed % 30));
+  for (int v = 0; v < vertex_count(mesh); ++v) {
+    RC_ASSERT(fault_in_projective_plane(mesh, v, 0) == "");
+    RC_ASSERT(fault_in_projective_plane(mesh, v, cut_seed) == "");
+  }
+}
+
+TEST(Cut, NoMarkOrTwoOnAProjectivePlaneAreRefused) {
+  const Mesh mesh = test::projective_plane(1);
+  const auto refusal = [&](const std::vector<int>& marks) -> std::string {
+    try {
+      cut_inside(mesh, marks);
+      return {};
+    } catch (const MeshError& error) {
+      return error.what();
+    }
+  };
+  EXPECT_EQ(refusal({}), "0 marked vertices on a projective plane; mark one");
+  EXPECT_EQ(refusal({1, 2}), "2 marked vertices on a projective plane; mark one");
+  EXPECT_EQ(refusal({100}), "the marked vertex 100 is out of range; the mesh has the vertices 0 to 20");
+}
+
 // ------------------------------------------------------------------------------------------------- lengths
 
 TEST(Cut, EdgeLengthsArePositiveAndAlmostThoseInSpace) {

@@ -15,6 +15,7 @@
 
 #include "hand_made.h"
 #include "orbitutte/output/embedding_file.h"
+#include "random_spheres.h"
 #include "sample_embeddings.h"
 
 namespace orbitutte {
@@ -264,8 +265,8 @@ TEST(Embed, DiskWithoutVerticesInsideHasNoConeToChoose) {
 // Invariance
 
 TEST(Embed, TheCutChangesNothing) {
-  for (const char* signature :
-       {"532", "332", "222", "225", "22", "33", "12,12", "3*2", "2*2", "2*5", "2*", "5*", "12*"}) {
+  for (const char* signature : {"532", "332", "222", "225", "22", "33", "12,12", "3*2", "2*2", "2*5", "2*",
+                                "5*", "12*", "1x", "2x", "5x"}) {
     const test::SampleEmbedding& sample = test::sample_embedding(signature);
     const Eigen::VectorXd before = test::edge_lengths(sample.mesh, sample.embedding());
     for (const std::uint64_t seed : {1, 2, 3}) {
@@ -281,7 +282,7 @@ TEST(Embed, TheCutChangesNothing) {
 }
 
 TEST(Embed, MovingAndScalingTheMeshChangesNothing) {
-  for (const char* signature : {"532", "22", "*432", "*22", "3*2", "5*"}) {
+  for (const char* signature : {"532", "22", "*432", "*22", "3*2", "5*", "1x", "3x"}) {
     const test::SampleEmbedding& sample = test::sample_embedding(signature);
     const Eigen::VectorXd before = test::edge_lengths(sample.mesh, sample.embedding());
     for (const double scale : {1e-100, 1e-3, 1.0, 1e5, 1e100}) {
@@ -297,7 +298,7 @@ TEST(Embed, MovingAndScalingTheMeshChangesNothing) {
 }
 
 TEST(Embed, RenumberingVerticesAndFacesChangesNothing) {
-  for (const char* signature : {"532", "22", "*432", "*22", "3*2", "5*"}) {
+  for (const char* signature : {"532", "22", "*432", "*22", "3*2", "5*", "1x", "3x"}) {
     const test::SampleEmbedding& sample = test::sample_embedding(signature);
     const std::vector<int> new_number = test::permutation(test::vertex_count(sample.mesh), 17);
     const std::vector<int> old_face = test::permutation(test::face_count(sample.mesh), 18);
@@ -432,6 +433,25 @@ TEST(Embed, TooFewIterationsAreNeverBijective) {
   }
 }
 
+TEST(Embed, TheMarkOfOneCrossChangesNothing) {
+  const Mesh mesh = test::projective_plane(3);
+  const Eigen::VectorXd before = test::edge_lengths(mesh, embedded(mesh, "1x", {0}).embedding);
+  for (const int v : {1, 5, 40, 200})
+    EXPECT_LT(difference(test::edge_lengths(mesh, embedded(mesh, "1x", {v}).embedding), before), 1e-7) << v;
+}
+
+RC_GTEST_PROP(Embed, AnyConeOfAnyProjectivePlaneIsEmbedded, (std::uint32_t seed)) {
+  const Mesh mesh = test::random_projective_plane(seed, static_cast<int>(seed % 20));
+  const int v = static_cast<int>(seed % mesh.V.rows());
+  for (const char* signature : {"1x", "2x", "5x"}) {
+    EmbedOptions options = one_thread();
+    options.weights.kind = WeightKind::uniform;
+    const EmbedResult result = embedded(mesh, signature, {v}, options);
+    RC_ASSERT(result.minimum.termination == Termination::converged);
+    RC_ASSERT(result.certificate.bijective);
+  }
+}
+
 // Defects
 
 TEST(Embed, WrongTopologyIsNamed) {
@@ -440,7 +460,10 @@ TEST(Embed, WrongTopologyIsNamed) {
               AllOf(HasSubstr("disk"), HasSubstr("532"), HasSubstr("sphere")));
   EXPECT_THAT(refusal(sphere, "*22", {0, 1}),
               AllOf(HasSubstr("sphere"), HasSubstr("*22"), HasSubstr("disk")));
-  EXPECT_THAT(refusal(test::projective_plane(1), "532", {0, 1, 2}), HasSubstr("projective-plane"));
+  EXPECT_THAT(refusal(test::projective_plane(1), "532", {0, 1, 2}),
+              AllOf(HasSubstr("projective-plane"), HasSubstr("532"), HasSubstr("sphere")));
+  EXPECT_THAT(refusal(sphere, "3x", {0}),
+              AllOf(HasSubstr("sphere"), HasSubstr("3x"), HasSubstr("projective-plane")));
   for (const Mesh& mesh :
        {test::torus(5, 5), test::annulus(6), test::moebius_strip(6), test::klein_bottle(5, 5),
         test::united(sphere, sphere), test::with_vertices_merged(sphere, 0, 11)}) {

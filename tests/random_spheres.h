@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Triangulated spheres as irregular as can be: small solids, their faces split and their edges flipped.
+// Triangulated spheres and projective planes as irregular as can be: small ones, their faces split and their
+// edges flipped.
 #pragma once
 
 #include <algorithm>
@@ -41,17 +42,30 @@ inline Mesh with_edge_flipped(Mesh mesh, int h) {
   return mesh;
 }
 
-/// A tetrahedron, octahedron or icosahedron with some faces split and some edges flipped, as the seed alone
-/// decides.
-inline Mesh random_sphere(std::uint32_t seed, int changes) {
-  std::mt19937 random(seed);
-  const std::array<Mesh, 3> solids = {tetrahedron(), octahedron(), icosahedron()};
-  Mesh mesh = solids[random() % 3];
+/// Some faces split and some edges flipped, as the random numbers decide.
+inline Mesh changed(Mesh mesh, int changes, std::mt19937& random) {
   for (int k = 0; k < changes; ++k) {
     const bool split = random() % 2 == 0;
     mesh = split ? with_face_split(mesh, static_cast<int>(random() % mesh.F.rows()))
                  : with_edge_flipped(mesh, static_cast<int>(random() % mesh.F.size()));
   }
+  return mesh;
+}
+
+/// From a tetrahedron, octahedron or icosahedron; the seed alone decides.
+inline Mesh random_sphere(std::uint32_t seed, int changes) {
+  std::mt19937 random(seed);
+  const std::array<Mesh, 3> solids = {tetrahedron(), octahedron(), icosahedron()};
+  const Mesh& solid = solids[random() % 3];
+  return changed(solid, changes, random);
+}
+
+/// From the projective plane of six vertices, its faces turned any way; the seed alone decides.
+inline Mesh random_projective_plane(std::uint32_t seed, int changes) {
+  std::mt19937 random(seed);
+  Mesh mesh = changed(projective_plane(0), changes, random);
+  for (int f = 0; f < face_count(mesh); ++f)
+    if (random() % 2 == 0) mesh = with_face_turned(mesh, f);
   return mesh;
 }
 

@@ -14,14 +14,17 @@ namespace orbitutte::test {
 
 /// All families that are embedded, with the free order N in {2, 3, 5, 12}.
 inline std::vector<std::string> sample_signatures() {
-  return {"532",  "432",  "332",  "222",  "223",  "225",  "2,2,12",  "22",  "33",  "55",  "12,12",
-          "*532", "*432", "*332", "*222", "*223", "*225", "*2,2,12", "*22", "*33", "*55", "*12,12",
-          "3*2",  "2*2",  "2*3",  "2*5",  "2*12", "2*",   "3*",      "5*",  "12*"};
+  return {"532", "432",   "332",  "222",    "223",  "225",  "2,2,12", "22",   "33",
+          "55",  "12,12", "*532", "*432",   "*332", "*222", "*223",   "*225", "*2,2,12",
+          "*22", "*33",   "*55",  "*12,12", "3*2",  "2*2",  "2*3",    "2*5",  "2*12",
+          "2*",  "3*",    "5*",   "12*",    "1x",   "2x",   "3x",     "5x",   "12x"};
 }
 
-/// An irregular sphere of 320 faces, or a bent disk of 384, whichever the orbifold needs.
+/// An irregular sphere of 320 faces, a bent disk of 384, or a projective plane of 640, whichever the orbifold
+/// needs.
 inline Mesh sample_mesh_for(const Orbifold& orbifold) {
   if (orbifold.topology == Topology::sphere) return perturbed(icosphere(2), 0.03, 7);
+  if (orbifold.topology == Topology::projective_plane) return perturbed(projective_plane(3), 0.01, 7);
   Mesh mesh = round_disk(8);
   mesh.V.col(2) = 0.4 * mesh.V.col(0).array().square() - 0.2 * mesh.V.col(1).array();
   return perturbed(mesh, 0.015, 7);
@@ -55,7 +58,9 @@ inline const SampleEmbedding& sample_embedding(const std::string& signature) {
 /// The arc length of every undirected edge of the uncut mesh, in the order of its Connectivity: what does not
 /// depend on the cut, nor on a rotation of the sphere.
 inline Eigen::VectorXd edge_lengths(const Mesh& mesh, const Embedding& embedding) {
-  const Connectivity connectivity = connect(mesh.F, vertex_count(mesh));
+  Faces source = embedding.faces;  // not the mesh's, where faces are turned over
+  for (int& v : source.reshaped()) v = embedding.source_vertex[v];
+  const Connectivity connectivity = connect(source, vertex_count(mesh));
   Eigen::VectorXd lengths(static_cast<Eigen::Index>(connectivity.edges.size()));
   for (int h = 0; h < static_cast<int>(embedding.faces.size()); ++h)
     lengths[connectivity.edge_of[h]] = arc_length(embedding.positions.row(origin(embedding.faces, h)),

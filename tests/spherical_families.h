@@ -17,8 +17,11 @@ struct SphericalOrbifold {
   int group_order = 1;
   int inside = 0;   ///< so many of the orders stand before the star
   int mirrors = 0;  ///< sides of the tile
+  bool cross = false;
 
-  Topology topology() const { return star ? Topology::disk : Topology::sphere; }
+  Topology topology() const {
+    return cross ? Topology::projective_plane : star ? Topology::disk : Topology::sphere;
+  }
 };
 
 /// Orders between commas, or without any; the star stands behind the first `inside`.
@@ -33,7 +36,8 @@ inline std::string symbol(bool star, const std::vector<int>& orders, bool commas
 }
 
 inline std::string symbol(const SphericalOrbifold& orbifold, bool commas) {
-  return symbol(orbifold.star, orbifold.orders, commas, orbifold.star ? orbifold.inside : 0);
+  return symbol(orbifold.star, orbifold.orders, commas, orbifold.star ? orbifold.inside : 0) +
+         (orbifold.cross ? "x" : "");
 }
 
 /// One character per order while each is a single digit, commas otherwise.
@@ -60,6 +64,7 @@ inline std::vector<SphericalOrbifold> spherical_orbifolds() {
     result.push_back({"2*N", true, {2, N}, 4 * N, 1, 2});
     result.push_back({"N*", true, {N}, 2 * N, 1, 1});
   }
+  for (const int N : {1, 2, 3, 4, 8, 12, 100}) result.push_back({"Nx", false, {N}, 2 * N, 1, 0, true});
   return result;
 }
 

@@ -175,9 +175,7 @@ void turn_faces(OpenedMesh& mesh) {
   const Faces F = mesh.cut.F;
   mesh.cut.F = agreeing_faces(F, mesh.opposite);
   const std::vector<int> edge_of = mesh.cut.edge_of, opposite = mesh.opposite;
-  const auto moved = [&](int h) {
-    return mesh.cut.F(h / 3, 1) == F(h / 3, 1) ? h : turned_halfedge(h);
-  };
+  const auto moved = [&](int h) { return mesh.cut.F(h / 3, 1) == F(h / 3, 1) ? h : turned_halfedge(h); };
   for (int h = 0; h < static_cast<int>(opposite.size()); ++h) {
     mesh.cut.edge_of[moved(h)] = edge_of[h];
     mesh.opposite[moved(h)] = opposite[h] < 0 ? -1 : moved(opposite[h]);
@@ -191,14 +189,14 @@ int boundary_halfedge(int v, const OpenedMesh& mesh) {
   return h;
 }
 
-// Gives the faces between the boundary half-edge `begin` and the one that arrives at its origin another vertex
-// there.
+// Gives the faces between the boundary half-edge `begin` and the one that arrives at its origin another
+// vertex there.
 void renumber_sector(int begin, int vertex, const std::vector<int>& opposite, Faces& F) {
   for (int h = begin; h >= 0; h = opposite[previous_halfedge(h)]) F.data()[h] = vertex;
 }
 
-// Follows the boundary of the opened mesh from a vertex. Where it passes a vertex for the first time, the faces
-// there keep its index; at every further time they get a copy of it.
+// Follows the boundary of the opened mesh from a vertex. Where it passes a vertex for the first time, the
+// faces there keep its index; at every further time they get a copy of it.
 CutMesh split_along_boundary(int from, OpenedMesh mesh) {
   CutMesh& cut = mesh.cut;
   const int start = boundary_halfedge(from, mesh);

@@ -12,9 +12,9 @@ namespace orbitutte {
 
 /// A mesh cut open into a disk. Cut vertex v < n is the input vertex v; the copies that the cut adds follow.
 struct CutMesh {
-  Faces F;                         ///< m x 3, the input faces in their order, on cut vertices; where the input
-                                   ///< has no orientation, some are turned over: f(0), f(2), f(1)
-  std::vector<int> edge_of;        ///< 3 m: the edge of the uncut mesh of every half-edge of F
+  Faces F;                   ///< m x 3, the input faces in their order, on cut vertices; where the input
+                             ///< has no orientation, some are turned over: f(0), f(2), f(1)
+  std::vector<int> edge_of;  ///< 3 m: the edge of the uncut mesh of every half-edge of F
   std::vector<int> source_vertex;  ///< n_cut: the input vertex
   std::vector<int>
       boundary;  ///< cut vertices along the boundary's half-edges: counterclockwise, interior on the left
@@ -34,9 +34,10 @@ struct CutOptions {
 /// A sphere with two marks is cut along the shortest edge path between them; with three, along two disjoint
 /// paths from one of them to the other two. A disk whose marks are on its boundary is left as it is; one with
 /// a mark inside is cut along the shortest edge path from it to a vertex of the boundary that is not marked,
-/// and meets the boundary nowhere else. A projective plane with one mark is cut along a one-sided loop through
-/// it, and its faces are turned so that those of the disk agree (see one_sided_loop). Throws MeshError for marks that are not vertices of a face, repeated,
-/// too few or too many, or not where they have to be.
+/// and meets the boundary nowhere else. A projective plane with one mark is cut along a one-sided loop
+/// through it, and its faces are turned so that those of the disk agree (see one_sided_loop). Throws
+/// MeshError for marks that are not vertices of a face, repeated, too few or too many, or not where they have
+/// to be.
 CutMesh cut_to_disk(const Mesh& mesh, const Connectivity& connectivity, const std::vector<int>& marks,
                     int inner_marks, const CutOptions& options = {});
 

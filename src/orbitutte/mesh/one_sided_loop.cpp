@@ -24,7 +24,8 @@ DisjointSets vertices_of_double_cover(const Faces& F, const std::vector<int>& op
   for (int h = 0; h < static_cast<int>(F.size()); ++h) {
     const int other = opposite[h];
     const bool same = same_direction(F, h, other);
-    const int at_origin = same ? other : next_halfedge(other), at_target = same ? next_halfedge(other) : other;
+    const int at_origin = same ? other : next_halfedge(other),
+              at_target = same ? next_halfedge(other) : other;
     for (const int sheet : {0, 1}) {
       vertices.unite(lift(h, sheet), lift(at_origin, sheet ^ same));
       vertices.unite(lift(next_halfedge(h), sheet), lift(at_target, sheet ^ same));
@@ -79,7 +80,8 @@ Path innermost_loop(const Path& path) {
     if (!is_new && k - at->second < end - begin) begin = at->second, end = k;
     at->second = k;
   }
-  return {path.begin() + static_cast<std::ptrdiff_t>(begin), path.begin() + static_cast<std::ptrdiff_t>(end) + 1};
+  return {path.begin() + static_cast<std::ptrdiff_t>(begin),
+          path.begin() + static_cast<std::ptrdiff_t>(end) + 1};
 }
 
 // Two paths from a vertex to different vertices of a loop that share nothing but that vertex: the loop's
@@ -103,7 +105,8 @@ std::array<Path, 2> paths_to_loop(const EdgeGraph& graph, int vertex, const Path
 
 bool turns_over(const Path& path, const EdgeGraph& graph, const std::vector<char>& changes) {
   bool turned = false;
-  for (std::size_t k = 1; k < path.size(); ++k) turned ^= changes[edge_between(graph, path[k - 1], path[k])] != 0;
+  for (std::size_t k = 1; k < path.size(); ++k)
+    turned ^= changes[edge_between(graph, path[k - 1], path[k])] != 0;
   return turned;
 }
 
@@ -117,7 +120,8 @@ Path closed_along(const std::array<Path, 2>& paths, Path loop) {
   loop.pop_back();
   std::rotate(loop.begin(), std::find(loop.begin(), loop.end(), paths[0].back()), loop.end());
   const auto end = std::find(loop.begin(), loop.end(), paths[1].back());
-  return concatenated(concatenated(paths[0], Path(loop.begin(), end + 1)), Path(paths[1].rbegin(), paths[1].rend()));
+  return concatenated(concatenated(paths[0], Path(loop.begin(), end + 1)),
+                      Path(paths[1].rbegin(), paths[1].rend()));
 }
 
 }  // namespace
@@ -139,7 +143,8 @@ Path one_sided_loop(const EdgeGraph& graph, const Faces& F, const Connectivity& 
   const std::array<Path, 2> paths = paths_to_loop(graph, vertex, loop);
   // Of the two ways around the loop, which differ by the whole of it, one turns the orientation over.
   const Path one_way = closed_along(paths, loop);
-  return turns_over(one_way, graph, changes) ? one_way : closed_along(paths, Path(loop.rbegin(), loop.rend()));
+  return turns_over(one_way, graph, changes) ? one_way
+                                             : closed_along(paths, Path(loop.rbegin(), loop.rend()));
 }
 
 Faces agreeing_faces(const Faces& F, const std::vector<int>& opposite) {

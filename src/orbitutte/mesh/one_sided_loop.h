@@ -18,8 +18,8 @@ bool has_turned_faces(const Faces& F, const std::vector<int>& opposite);
 /// it leaves a disk. O(n log n).
 Path one_sided_loop(const EdgeGraph& graph, const Faces& F, const Connectivity& connectivity, int vertex);
 
-/// The faces of a closed surface, some turned over so that all agree across every half-edge that is not opened
-/// (opposite[h] >= 0). A face that is turned over keeps its first vertex; face 0 is not.
+/// The faces of a closed surface, some turned over so that all agree across every half-edge that is not
+/// opened (opposite[h] >= 0). A face that is turned over keeps its first vertex; face 0 is not.
 Faces agreeing_faces(const Faces& F, const std::vector<int>& opposite);
 
 }  // namespace orbitutte

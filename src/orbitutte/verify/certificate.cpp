@@ -69,7 +69,8 @@ bool is_input_face(const Mesh& mesh, const Embedding& embedding, int f, bool may
   const std::vector<int>& source = embedding.source_vertex;
   const int a = source[v[0]], b = source[v[1]], c = source[v[2]];
   if (a != mesh.F(f, 0)) return false;
-  return (b == mesh.F(f, 1) && c == mesh.F(f, 2)) || (may_be_turned && b == mesh.F(f, 2) && c == mesh.F(f, 1));
+  return (b == mesh.F(f, 1) && c == mesh.F(f, 2)) ||
+         (may_be_turned && b == mesh.F(f, 2) && c == mesh.F(f, 1));
 }
 
 // The faces of the cut mesh are the input's, on copies of its vertices, the first n of which are the input

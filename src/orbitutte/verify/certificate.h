@@ -28,8 +28,8 @@ struct Certificate {
   std::vector<Check> checks;
 };
 
-/// On a projective plane, whose faces cannot all agree, the cut mesh may have turned some over; bijective says
-/// there, too, that the |G| copies cover the sphere once, two by two antipodal or related by a rotary
+/// On a projective plane, whose faces cannot all agree, the cut mesh may have turned some over; bijective
+/// says there, too, that the |G| copies cover the sphere once, two by two antipodal or related by a rotary
 /// reflection, so that the map from the surface to S^2/G is one to one.
 /// Every triangle of the cut mesh positively oriented (exact sign on the stored numbers), every edge shorter
 /// than pi, unit positions, the seams a complete and consistent gluing of the cut mesh's boundary that

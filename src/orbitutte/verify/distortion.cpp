@@ -118,7 +118,9 @@ Distortion measure_distortion(const Mesh& mesh, const Embedding& embedding) {
   const int m = static_cast<int>(mesh.F.rows());
   const double unit = length_unit(mesh);
   const auto source = [&](int f) {
-    const auto corner = [&](int k) { return mesh.V.row(embedding.source_vertex[embedding.faces(f, k)]) / unit; };
+    const auto corner = [&](int k) {
+      return mesh.V.row(embedding.source_vertex[embedding.faces(f, k)]) / unit;
+    };
     return std::array<Vector3, 3>{corner(0), corner(1), corner(2)};
   };
   const auto image = [&](int f) {

@@ -6,7 +6,8 @@
 namespace orbitutte {
 namespace {
 
-// The edge of the uncut mesh of every half-edge of the cut one; edges as `connect` numbers those of the input.
+// The edge of the uncut mesh of every half-edge of the cut one; edges as `connect` numbers those of the
+// input.
 std::vector<int> source_edges(const Embedding& embedding) {
   Faces F = embedding.faces;
   for (int& v : F.reshaped()) v = embedding.source_vertex[v];
