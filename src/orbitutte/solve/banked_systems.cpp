@@ -10,17 +10,17 @@
 namespace orbitutte {
 namespace {
 
-// The unknowns of the cut disk, one for each vertex inside in the order of the dissection, then one for each
-// bank vertex.
+// The unknowns of the disk's graph, one for each vertex inside in the order of the dissection, then one for
+// each node of a bank.
 struct DiskUnknowns {
-  std::vector<int> vertex;               // of every unknown: its cut vertex
-  std::vector<int> of;                   // of every cut vertex: its unknown, or -1 where it is held
+  std::vector<int> node;                 // of every unknown
+  std::vector<int> of;                   // of every node: its unknown, or -1 where it is held
   std::vector<EliminationBlock> blocks;  // of the inner ones
   int inner = 0;
 
-  int count() const { return static_cast<int>(vertex.size()); }
+  int count() const { return static_cast<int>(node.size()); }
   int banks() const { return count() - inner; }
-  int bank(int k) const { return vertex[inner + k]; }
+  int bank(int k) const { return node[inner + k]; }
 };
 
 // The nodes of the dissection down to the depth at which subtrees are small, every such subtree in one block.
@@ -49,15 +49,14 @@ DiskUnknowns disk_unknowns(const LaplacianProblem& problem, int block_size) {
   DiskUnknowns unknowns;
   std::vector<long> before = {0};  // of the k first vertices of the order, how many are inside
   for (const int v : problem.dissection.order) {
-    if (problem.inside[v]) unknowns.vertex.push_back(v);
-    before.push_back(static_cast<long>(unknowns.vertex.size()));
+    if (problem.graph.inside[v]) unknowns.node.push_back(v);
+    before.push_back(static_cast<long>(unknowns.node.size()));
   }
   unknowns.inner = unknowns.count();
   unknowns.blocks = elimination_blocks(problem.dissection, before, block_size);
-  for (const int v : problem.cut.boundary)
-    if (problem.boundary.basis(problem.cut.source_vertex[v]).cols() > 0) unknowns.vertex.push_back(v);
-  unknowns.of.assign(problem.cut.vertex_count(), -1);
-  for (int k = 0; k < unknowns.count(); ++k) unknowns.of[unknowns.vertex[k]] = k;
+  unknowns.node.insert(unknowns.node.end(), problem.graph.banks.begin(), problem.graph.banks.end());
+  unknowns.of.assign(problem.graph.node_count(), -1);
+  for (int k = 0; k < unknowns.count(); ++k) unknowns.of[unknowns.node[k]] = k;
   return unknowns;
 }
 
@@ -78,14 +77,13 @@ void sort_columns(SparseMatrix& K) {
   });
 }
 
-// The lower triangle of the cut disk's Laplacian. An edge along the cut has two images there; the whole
+// The lower triangle of the Laplacian of the disk's graph. An edge along the cut has two images; the whole
 // weight goes to one, since gluing adds them up.
 SparseMatrix disk_laplacian(const LaplacianProblem& problem, const DiskUnknowns& unknowns) {
   const int count = unknowns.count();
-  std::vector<std::array<int, 2>> ends(problem.glued.edges.size());
-  for (int h = 0; h < static_cast<int>(problem.cut.F.size()); ++h)
-    ends[problem.glued.edge_of[h]] = {unknowns.of[origin(problem.cut.F, h)],
-                                      unknowns.of[target(problem.cut.F, h)]};
+  std::vector<std::array<int, 2>> ends;
+  ends.reserve(problem.graph.ends.size());
+  for (const auto& [a, b] : problem.graph.ends) ends.push_back({unknowns.of[a], unknowns.of[b]});
   SparseMatrix K(count, count);
   long* start = K.outerIndexPtr();
   std::fill(start, start + count + 1, 0);
@@ -118,16 +116,20 @@ SparseMatrix disk_laplacian(const LaplacianProblem& problem, const DiskUnknowns&
 class BankedSystems : public LaplacianSystems {
  public:
   BankedSystems(const LaplacianProblem& problem, const LaplacianOptions& options, LaplacianReuse& reuse)
-      : cut_(problem.cut), boundary_(problem.boundary), disk_(disk_unknowns(problem, options.block_size)) {
+      : graph_(problem.graph),
+        boundary_(problem.boundary),
+        disk_(disk_unknowns(problem, options.block_size)) {
     SparseMatrix K = disk_laplacian(problem, disk_);
     if (reuse.disk_factor && reuse.disk_factor->border() == disk_.banks() && equal(K, reuse.disk_laplacian)) {
       factor_ = reuse.disk_factor;
       glue_banks();
+      factorize_start();
       return;
     }
     const std::shared_ptr<Substructure> factor = factorized(K, options.backend, reuse.disk_factor.get());
     factor_ = factor;
     glue_banks();
+    factorize_start();
     if (reuse.kept == Kept::factors) {
       reuse.disk_laplacian.swap(K);
       reuse.disk_factor = factor;
@@ -136,14 +138,15 @@ class BankedSystems : public LaplacianSystems {
     }
   }
 
-  Eigen::MatrixXd solve_disk(const Eigen::MatrixXd& f) const override {
+  Points solve_disk(const Points& f) const override {
     Points y = Points::Zero(disk_.count(), 3);
-    for (int k = 0; k < disk_.inner; ++k) y.row(k).head(f.cols()) = f.row(disk_.vertex[k]);
+    for (int k = 0; k < disk_.inner; ++k) y.row(k) = f.row(disk_.node[k]);
+    for (const int k : open_banks_) y.row(disk_.inner + k) = f.row(disk_.bank(k));
     factor_->forward(y);
-    y.bottomRows(disk_.banks()).setZero();  // the banks are held at zero
+    settle_open_banks(y);
     factor_->backward(y);
-    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(f.rows(), f.cols());
-    for (int k = 0; k < disk_.inner; ++k) result.row(disk_.vertex[k]) = y.row(k).head(f.cols());
+    Points result = Points::Zero(f.rows(), 3);
+    for (int k = 0; k < disk_.count(); ++k) result.row(disk_.node[k]) = y.row(k);
     return result;
   }
 
@@ -153,7 +156,7 @@ class BankedSystems : public LaplacianSystems {
     Points y(disk_.count(), 3);
     y.bottomRows(disk_.banks()).setZero();
     parallel_ranges(disk_.inner, [&](int begin, int end) {
-      for (int k = begin; k < end; ++k) y.row(k) = f.row(disk_.vertex[k]);
+      for (int k = begin; k < end; ++k) y.row(k) = f.row(disk_.node[k]);
     });
     factor_->forward(y);
     if (glued_.total > 0) solve_banks(f, y);
@@ -161,7 +164,7 @@ class BankedSystems : public LaplacianSystems {
     Points result = Points::Zero(f.rows(), 3);
     parallel_ranges(disk_.count(), [&](int begin, int end) {
       for (int k = begin; k < end; ++k)
-        if (disk_.vertex[k] < f.rows()) result.row(disk_.vertex[k]) = y.row(k);
+        if (disk_.node[k] < f.rows()) result.row(disk_.node[k]) = y.row(k);
     });
     return result;
   }
@@ -172,18 +175,18 @@ class BankedSystems : public LaplacianSystems {
     try {
       return std::make_shared<Substructure>(K, disk_.blocks, backend, earlier);
     } catch (const NotPositiveDefinite& error) {
-      throw not_tied(error.column < 0 ? -1 : disk_.vertex[error.column]);
+      throw not_tied(error.column < 0 ? -1 : graph_.vertex[disk_.node[error.column]]);
     }
   }
 
-  int source(int bank) const { return cut_.source_vertex[disk_.bank(bank)]; }
+  int source(int bank) const { return graph_.vertex[disk_.bank(bank)]; }
 
-  // The 3 x k matrix that takes the unknowns of a bank vertex' input vertex to its position.
+  // The 3 x k matrix that takes the unknowns of a bank node's vertex to its position.
   Block placement(int bank) const {
-    return boundary_.transform(disk_.bank(bank)) * boundary_.basis(source(bank));
+    return graph_.transform(disk_.bank(bank)) * boundary_.basis(source(bank));
   }
 
-  // Numbers the unknowns of the input vertices on the banks; the bank vertices that are copies of each.
+  // Numbers the unknowns of the vertices on the banks; the bank nodes that are images of each.
   std::vector<std::vector<int>> number_glued() {
     std::vector<int> count(boundary_.basis_of.size(), 0), order, place(count.size());
     std::vector<std::vector<int>> copies;
@@ -201,7 +204,7 @@ class BankedSystems : public LaplacianSystems {
     return copies;
   }
 
-  // Factorises N'(S x I3)N, where N takes the glued unknowns to the positions of all bank vertices: 3 x k
+  // Factorises N'(S x I3)N, where N takes the glued unknowns to the positions of all bank nodes: 3 x k
   // placements, few of which differ.
   void glue_banks() {
     const std::vector<std::vector<int>> copies = number_glued();
@@ -244,8 +247,30 @@ class BankedSystems : public LaplacianSystems {
     }
   }
 
-  // Replaces the right-hand sides of the bank vertices in y, before gluing, by their positions; f holds those
-  // of their input vertices.
+  // The start does not know where those bank nodes are that the cut's boundary does not name. Few are: their
+  // part of S is factorised once more, without gluing.
+  void factorize_start() {
+    const Eigen::MatrixXd& S = factor_->schur_complement();
+    for (int k = 0; k < disk_.banks(); ++k)
+      if (graph_.unknown_at_start(disk_.bank(k)) && S(k, k) != 0) open_banks_.push_back(k);
+    if (open_banks_.empty()) return;
+    Eigen::MatrixXd open = S(open_banks_, open_banks_);
+    open.diagonal() *= 1 + weak_tie;
+    start_factor_.compute(open);
+    if (start_factor_.info() != Eigen::Success) throw not_tied(source(open_banks_.front()));
+  }
+
+  // Replaces the right-hand sides of the bank nodes in y by their positions in the start: zero where given.
+  void settle_open_banks(Points& y) const {
+    Points open(static_cast<Eigen::Index>(open_banks_.size()), 3);
+    for (Eigen::Index k = 0; k < open.rows(); ++k) open.row(k) = y.row(disk_.inner + open_banks_[k]);
+    if (open.rows() > 0) open = start_factor_.solve(open);
+    y.bottomRows(disk_.banks()).setZero();
+    for (Eigen::Index k = 0; k < open.rows(); ++k) y.row(disk_.inner + open_banks_[k]) = open.row(k);
+  }
+
+  // Replaces the right-hand sides of the bank nodes in y, before gluing, by their positions; f holds those
+  // of their vertices.
   void solve_banks(const Points& f, Points& y) const {
     Eigen::VectorXd x(glued_.total);
     for (const int v : glued_.order)
@@ -260,12 +285,14 @@ class BankedSystems : public LaplacianSystems {
           (placement(k) * x.segment(glued_.first[source(k)], glued_.count[source(k)])).transpose();
   }
 
-  const CutMesh& cut_;
+  const DiskGraph& graph_;
   const BoundaryConditions& boundary_;
   DiskUnknowns disk_;
   std::shared_ptr<const Substructure> factor_;
-  Unknowns glued_;                // of the input vertices on the banks
-  Eigen::MatrixXd glued_factor_;  // the Cholesky factor of N'(S x I3)N
+  Unknowns glued_;                            // of the vertices on the banks
+  Eigen::MatrixXd glued_factor_;              // the Cholesky factor of N'(S x I3)N
+  std::vector<int> open_banks_;               // bank nodes that are unknown at the start
+  Eigen::LLT<Eigen::MatrixXd> start_factor_;  // of their part of S
 };
 
 }  // namespace

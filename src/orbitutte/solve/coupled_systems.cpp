@@ -17,16 +17,30 @@ std::vector<std::array<int, 2>> ends(const GluedEdges& glued) {
   return result;
 }
 
+// Of the nodes, those in place in the order of the vertices.
+System disk_system(const LaplacianProblem& problem, Backend backend) {
+  const DiskGraph& graph = problem.graph;
+  const Neighbors near = neighbors(graph.ends, graph.node_count());
+  std::vector<int> order = problem.dissection.order, count(graph.node_count());
+  for (int node = static_cast<int>(order.size()); node < graph.node_count(); ++node) order.push_back(node);
+  for (int node = 0; node < graph.node_count(); ++node)
+    count[node] = graph.unknown_at_start(node) && near.start[node] < near.start[node + 1] ? 1 : 0;
+  System disk = {number_unknowns(order, std::move(count)), nullptr};
+  const auto coupling = [](int, int) { return Block(Block::Identity(1, 1)); };
+  SparseMatrix A = assemble(disk.unknowns, near, problem.w, coupling);
+  for (const int node : disk.unknowns.order)
+    if (!graph.inside[graph.vertex[node]])
+      A.coeffRef(disk.unknowns.first[node], disk.unknowns.first[node]) *= 1 + weak_tie;
+  disk.factor = factorize_laplacian(A, disk.unknowns, backend);
+  return disk;
+}
+
 class CoupledSystems : public LaplacianSystems {
  public:
-  CoupledSystems(const LaplacianProblem& problem, Backend backend) : boundary_(problem.boundary) {
-    const int n = static_cast<int>(problem.inside.size());
+  CoupledSystems(const LaplacianProblem& problem, Backend backend)
+      : boundary_(problem.boundary), disk_(disk_system(problem, backend)) {
+    const int n = static_cast<int>(problem.graph.inside.size());
     const Neighbors near = neighbors(ends(problem.glued), n);
-    disk_.unknowns =
-        number_unknowns(problem.dissection.order, {problem.inside.begin(), problem.inside.end()});
-    disk_.factor = factorize_laplacian(
-        assemble(disk_.unknowns, near, problem.w, [](int, int) { return Block(Block::Identity(1, 1)); }),
-        disk_.unknowns, backend);
 
     std::vector<int> room(n);
     for (int v = 0; v < n; ++v) room[v] = static_cast<int>(boundary_.basis(v).cols());
@@ -42,13 +56,13 @@ class CoupledSystems : public LaplacianSystems {
                                           coupled_.unknowns, backend);
   }
 
-  Eigen::MatrixXd solve_disk(const Eigen::MatrixXd& f) const override {
-    Eigen::MatrixXd rhs(disk_.unknowns.total, f.cols());
-    for (const int v : disk_.unknowns.order) rhs.row(disk_.unknowns.first[v]) = f.row(v);
-    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(f.rows(), f.cols());
+  Points solve_disk(const Points& f) const override {
+    Points rhs(disk_.unknowns.total, 3);
+    for (const int node : disk_.unknowns.order) rhs.row(disk_.unknowns.first[node]) = f.row(node);
+    Points result = Points::Zero(f.rows(), 3);
     if (!disk_.factor) return result;
-    const Eigen::MatrixXd x = disk_.factor->solve(rhs);
-    for (const int v : disk_.unknowns.order) result.row(v) = x.row(disk_.unknowns.first[v]);
+    const Points x = disk_.factor->solve(rhs);
+    for (const int node : disk_.unknowns.order) result.row(node) = x.row(disk_.unknowns.first[node]);
     return result;
   }
 
@@ -68,7 +82,7 @@ class CoupledSystems : public LaplacianSystems {
 
  private:
   const BoundaryConditions& boundary_;
-  System disk_;     // one unknown for each vertex inside the cut disk
+  System disk_;     // one unknown for each node of the disk's graph that is unknown at the start
   System coupled_;  // up to three for each vertex that may move
 };
 

@@ -42,15 +42,13 @@ Points initial_embedding(const Mesh& mesh, const CutMesh& cut, const Tile& tile,
                          const BoundaryConditions& boundary, const LaplacianSolver& laplacian) {
   const Matrix3 to_pole =
       Eigen::Quaterniond::FromTwoVectors(tile.centroid(), Vector3::UnitZ()).toRotationMatrix();
-  const Points on_arcs = boundary_on_arcs(mesh, cut, tile, boundary) * to_pole.transpose();
-  const Eigen::MatrixXd plane = laplacian.extend_harmonically(on_arcs.leftCols<2>());
   const Eigen::Index n = boundary.held.rows();
-  Points lifted(n, 3);
-  lifted.leftCols<2>() = plane.topRows(n);
-  lifted.col(2) = (1 - plane.topRows(n).rowwise().squaredNorm().array()).cwiseMax(0).sqrt();
-  for (const int v : cut.boundary)
-    if (v < n) lifted.row(v) = on_arcs.row(v);  // also where the tile reaches below the equator's rounding
+  const Points on_arcs = boundary_on_arcs(mesh, cut, tile, boundary).topRows(n);
+  Points lifted = laplacian.extend_harmonically(on_arcs) * to_pole.transpose();
+  lifted.col(2) = (1 - lifted.leftCols<2>().rowwise().squaredNorm().array()).cwiseMax(0).sqrt();
   Points result = lifted * to_pole;
+  for (const int v : cut.boundary)
+    if (v < n) result.row(v) = on_arcs.row(v);  // also where the tile reaches below the equator's rounding
   for (Eigen::Index v = 0; v < n; ++v) {
     const Basis& room = boundary.basis(static_cast<int>(v));
     if (room.cols() == 0) result.row(v) = boundary.held.row(v);

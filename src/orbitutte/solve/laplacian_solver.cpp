@@ -9,13 +9,6 @@
 namespace orbitutte {
 namespace {
 
-std::vector<char> vertices_inside(const CutMesh& cut, const BoundaryConditions& boundary) {
-  std::vector<char> inside(boundary.basis_of.size(), 1);
-  for (std::size_t v = 0; v < inside.size(); ++v) inside[v] = boundary.basis(static_cast<int>(v)).cols() > 0;
-  for (const int v : cut.boundary) inside[cut.source_vertex[v]] = 0;
-  return inside;
-}
-
 std::vector<std::array<int, 2>> ends(const GluedEdges& glued) {
   std::vector<std::array<int, 2>> result;
   result.reserve(glued.edges.size());
@@ -34,13 +27,14 @@ bool banks_are_short(const CutMesh& cut, std::size_t vertex_count) {
 
 LaplacianSolver::LaplacianSolver(const CutMesh& cut, const GluedEdges& glued, const EdgeWeights& weights,
                                  const BoundaryConditions& boundary, const LaplacianOptions& options)
-    : cut_(cut), glued_(glued), w_(weights.w), inside_(vertices_inside(cut, boundary)) {
+    : w_(weights.w), graph_(std::make_unique<DiskGraph>(disk_graph(cut, glued, boundary))) {
+  const std::size_t n = boundary.basis_of.size();
   const std::shared_ptr<LaplacianReuse> reuse =
       options.reuse ? options.reuse : reusable_laplacians(Kept::order);
-  if (!reuse->dissection) order_ahead(*reuse, ends(glued), static_cast<int>(inside_.size()));
-  const LaplacianProblem problem = {cut, glued, w_, boundary, inside_, *reuse->dissection};
-  systems_ = banks_are_short(cut, inside_.size()) ? banked_systems(problem, options, *reuse)
-                                                  : coupled_systems(problem, options.backend);
+  if (!reuse->dissection) order_ahead(*reuse, ends(glued), static_cast<int>(n));
+  const LaplacianProblem problem = {*graph_, glued, w_, boundary, *reuse->dissection};
+  systems_ = banks_are_short(cut, n) ? banked_systems(problem, options, *reuse)
+                                     : coupled_systems(problem, options.backend);
 }
 
 std::shared_ptr<LaplacianReuse> reusable_laplacians(Kept kept) {
@@ -57,25 +51,22 @@ void order_ahead(LaplacianReuse& reuse, const std::vector<std::array<int, 2>>& e
 LaplacianSolver::~LaplacianSolver() = default;
 LaplacianSolver::LaplacianSolver(LaplacianSolver&&) noexcept = default;
 
-Eigen::MatrixXd LaplacianSolver::extend_harmonically(const Eigen::MatrixXd& boundary_positions) const {
-  Eigen::MatrixXd pull = Eigen::MatrixXd::Zero(boundary_positions.rows(), boundary_positions.cols());
-  // An edge between a vertex inside and a given position pulls at the former; edges have two images only
-  // along the cut, where both ends are given.
-  std::vector<char> done(glued_.edges.size(), 0);
-  for (int h = 0; h < static_cast<int>(cut_.F.size()); ++h) {
-    const int a = origin(cut_.F, h), b = target(cut_.F, h), e = glued_.edge_of[h];
-    const bool a_inside = inside_[cut_.source_vertex[a]], b_inside = inside_[cut_.source_vertex[b]];
-    if (done[e] || a_inside == b_inside) continue;
-    done[e] = 1;
-    if (a_inside) {
-      pull.row(a) += w_[e] * boundary_positions.row(b);
-    } else {
-      pull.row(b) += w_[e] * boundary_positions.row(a);
-    }
+Points LaplacianSolver::extend_harmonically(const Points& positions) const {
+  const DiskGraph& graph = *graph_;
+  Points pull = Points::Zero(graph.node_count(), 3);
+  // An edge between an unknown position and a given one pulls at the former.
+  const auto pull_at = [&](int node, int other, double w) {
+    if (!graph.unknown_at_start(node) || graph.unknown_at_start(other)) return;
+    pull.row(node) += w * (positions.row(graph.vertex[other]) * graph.transform(other).transpose());
+  };
+  for (std::size_t e = 0; e < graph.ends.size(); ++e) {
+    const auto [a, b] = graph.ends[e];
+    pull_at(a, b, w_[static_cast<Eigen::Index>(e)]);
+    pull_at(b, a, w_[static_cast<Eigen::Index>(e)]);
   }
-  Eigen::MatrixXd result = systems_->solve_disk(pull);
+  Points result = systems_->solve_disk(pull).topRows(positions.rows());
   for (Eigen::Index v = 0; v < result.rows(); ++v)
-    if (!inside_[cut_.source_vertex[v]]) result.row(v) = boundary_positions.row(v);
+    if (graph.given[v]) result.row(v) = positions.row(v);
   return result;
 }
 

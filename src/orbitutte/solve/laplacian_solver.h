@@ -36,6 +36,7 @@ std::shared_ptr<LaplacianReuse> reusable_laplacians(Kept kept);
 /// not have it yet: so that it can be done while the mesh is cut.
 void order_ahead(LaplacianReuse& reuse, const std::vector<std::array<int, 2>>& edges, int vertex_count);
 
+struct DiskGraph;
 class LaplacianSystems;
 
 class LaplacianSolver {
@@ -47,20 +48,19 @@ class LaplacianSolver {
   ~LaplacianSolver();
   LaplacianSolver(LaplacianSolver&&) noexcept;
 
-  /// The planar (or any) discrete harmonic map of the cut disk: positions (n_cut x d) whose rows on the
-  /// boundary of the cut mesh are given are completed so that every other vertex is the weighted mean of its
-  /// neighbours.
-  Eigen::MatrixXd extend_harmonically(const Eigen::MatrixXd& boundary_positions) const;
+  /// The discrete harmonic map of the cut disk in space: of the positions (n x 3), those of vertices on the
+  /// boundary of the cut mesh are given, and all others are completed so that each is the weighted mean of
+  /// its neighbours, seen through the gluing where these are given. What lies between two others and crosses
+  /// the cut ties nothing but the other neighbours of its end. Any projection of the result is as harmonic.
+  Points extend_harmonically(const Points& positions) const;
 
   /// P g, where P is the inverse of 2 L, and L the Laplacian glued across the cut, on the unknowns of the
   /// boundary conditions: the Hessian of E where the map is nearly flat. g and the result: n x 3, feasible.
   Points precondition(const Points& gradient) const;
 
  private:
-  const CutMesh& cut_;
-  const GluedEdges& glued_;
   const Eigen::VectorXd& w_;
-  std::vector<char> inside_;  // n: the vertices that extend_harmonically completes
+  std::unique_ptr<const DiskGraph> graph_;
   std::unique_ptr<LaplacianSystems> systems_;
 };
 

@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "orbitutte/solve/disk_graph.h"
 #include "orbitutte/solve/dissection.h"
 #include "orbitutte/solve/laplacian_solver.h"
 
@@ -20,24 +21,26 @@ class LaplacianReuse {
   std::shared_ptr<const Substructure> disk_factor;
 };
 
-/// The cut disk with its gluing, as the systems see it.
+/// The glued edges with their weights, as the systems see them.
 struct LaplacianProblem {
-  const CutMesh& cut;
+  const DiskGraph& graph;
   const GluedEdges& glued;
   const Eigen::VectorXd& w;
   const BoundaryConditions& boundary;
-  const std::vector<char>&
-      inside;  ///< n: is the vertex inside the cut disk, not on its boundary, and used by a face?
-  const Dissection& dissection;  ///< of the uncut mesh's graph
+  const Dissection& dissection;  ///< of the graph of the vertices
 };
+
+/// In the start, a node on a bank that is not given is tied to the origin by this fraction of its weights:
+/// where every edge of a few vertices crosses the cut, nothing else holds them.
+constexpr double weak_tie = 1e-9;
 
 class LaplacianSystems {
  public:
   virtual ~LaplacianSystems() = default;
 
-  /// Solves the scalar Laplacian of the vertices inside, all others held at zero; f and the result: n_cut x
-  /// d, of which only the rows of vertices inside count.
-  virtual Eigen::MatrixXd solve_disk(const Eigen::MatrixXd& f) const = 0;
+  /// Solves the scalar Laplacian of the disk's graph, the vertices that are given held at zero; f and the
+  /// result: one row a node, of which only those of nodes unknown at the start count.
+  virtual Points solve_disk(const Points& f) const = 0;
 
   /// Solves the glued Laplacian; f and the result: n x 3, feasible.
   virtual Points solve_glued(const Points& f) const = 0;

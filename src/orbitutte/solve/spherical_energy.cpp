@@ -54,7 +54,6 @@ GluedEdges glued_edges(const CutMesh& cut, const Connectivity& connectivity,
   GluedEdges result;
   result.transforms = {Matrix3::Identity()};
   result.edges.resize(connectivity.edges.size());
-  result.edge_of = cut.edge_of;
   std::unordered_map<long long, int> known;  // by the transforms of both ends
   for (int h = static_cast<int>(cut.F.size()) - 1; h >= 0; --h) {
     const int a = origin(cut.F, h), b = target(cut.F, h);

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/solve/disk_graph.h"
+
+#include <numeric>
+#include <unordered_map>
+
+namespace orbitutte {
+namespace {
+
+std::vector<char> given_vertices(const CutMesh& cut, const BoundaryConditions& boundary) {
+  std::vector<char> given(boundary.basis_of.size());
+  for (std::size_t v = 0; v < given.size(); ++v) given[v] = boundary.basis(static_cast<int>(v)).cols() == 0;
+  for (const int v : cut.boundary) given[cut.source_vertex[v]] = 1;
+  return given;
+}
+
+// The vertices that are on no bank once each edge across the cut has an end on one.
+std::vector<char> vertices_inside(const GluedEdges& glued, const std::vector<char>& given) {
+  std::vector<char> inside(given.size());
+  for (std::size_t v = 0; v < given.size(); ++v) inside[v] = !given[v];
+  for (const auto& [i, j, t] : glued.edges)
+    if (t != 0 && inside[i] && inside[j]) inside[i] = 0;
+  return inside;
+}
+
+// Numbers the images of vertices in the order in which they are asked for.
+class Nodes {
+ public:
+  explicit Nodes(DiskGraph& graph) : graph_(graph) {}
+
+  int image(int v, int t) {
+    if (t == 0) return v;
+    const long long key = static_cast<long long>(v) << 32 | t;
+    const auto [at, is_new] = known_.emplace(key, graph_.node_count());
+    if (is_new) {
+      graph_.vertex.push_back(v);
+      graph_.transform_of.push_back(t);
+    }
+    return at->second;
+  }
+
+ private:
+  DiskGraph& graph_;
+  std::unordered_map<long long, int> known_;
+};
+
+// The nodes of the banks: along the cut's boundary, then those of the vertices that were added.
+std::vector<int> bank_nodes(const CutMesh& cut, const BoundaryConditions& boundary, const DiskGraph& graph) {
+  const int n = static_cast<int>(graph.inside.size());
+  std::vector<std::vector<int>> images(n);  // not in place
+  for (int node = n; node < graph.node_count(); ++node) images[graph.vertex[node]].push_back(node);
+  std::vector<char> done = graph.inside;
+  std::vector<int> banks;
+  const auto add = [&](int v) {
+    if (done[v] || boundary.basis(v).cols() == 0) return;
+    done[v] = 1;
+    banks.push_back(v);
+    banks.insert(banks.end(), images[v].begin(), images[v].end());
+  };
+  for (const int v : cut.boundary) add(cut.source_vertex[v]);
+  for (int v = 0; v < n; ++v) add(v);
+  return banks;
+}
+
+}  // namespace
+
+DiskGraph disk_graph(const CutMesh& cut, const GluedEdges& glued, const BoundaryConditions& boundary) {
+  DiskGraph graph;
+  graph.given = given_vertices(cut, boundary);
+  graph.inside = vertices_inside(glued, graph.given);
+  graph.transforms = glued.transforms;
+  std::vector<int> inverse;
+  for (const Matrix3& transform : glued.transforms)
+    inverse.push_back(index_among(graph.transforms, transform.transpose()));
+  graph.vertex.resize(graph.inside.size());
+  std::iota(graph.vertex.begin(), graph.vertex.end(), 0);
+  graph.transform_of.assign(graph.inside.size(), 0);
+  Nodes nodes(graph);
+  graph.ends.reserve(glued.edges.size());
+  for (const auto& [i, j, t] : glued.edges)
+    graph.ends.push_back(graph.inside[j] ? std::array{nodes.image(i, inverse[t]), j}
+                                         : std::array{i, nodes.image(j, t)});
+  graph.banks = bank_nodes(cut, boundary, graph);
+  return graph;
+}
+
+}  // namespace orbitutte

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// The glued edges laid out in the cut disk, as both linear systems see them. Private to solve/.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "orbitutte/solve/spherical_energy.h"
+
+namespace orbitutte {
+
+/// A graph whose nodes are images of vertices, transforms[transform_of] * position(vertex). Every edge whose
+/// gluing is not the identity has an end on a bank: a vertex of the cut's boundary, or one that is added
+/// where an edge crosses the cut between two others. So the vertices inside are nodes once, in place, and
+/// their three coordinates do not couple.
+struct DiskGraph {
+  std::vector<int> vertex;               ///< of every node; the first n nodes are the vertices in place
+  std::vector<int> transform_of;         ///< of every node: an index into transforms
+  std::vector<Matrix3> transforms;       ///< distinct; the first is the identity
+  std::vector<std::array<int, 2>> ends;  ///< of every glued edge: the nodes of one of its images
+  std::vector<int> banks;                ///< the nodes of bank vertices that may move, vertex by vertex
+  std::vector<char> inside;              ///< n: does the vertex move, on no bank?
+  std::vector<char> given;               ///< n: is the vertex on the boundary of the cut, or held?
+
+  int node_count() const { return static_cast<int>(vertex.size()); }
+  const Matrix3& transform(int node) const { return transforms[transform_of[node]]; }
+
+  /// Is the node's place in the start unknown: inside, or on a bank that the cut's boundary does not name?
+  bool unknown_at_start(int node) const { return !given[vertex[node]]; }
+};
+
+DiskGraph disk_graph(const CutMesh& cut, const GluedEdges& glued, const BoundaryConditions& boundary);
+
+}  // namespace orbitutte
