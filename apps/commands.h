@@ -38,6 +38,11 @@ struct TileArguments {
 };
 int tile_command(const TileArguments& arguments);
 
+struct ExportArguments {
+  std::string embedding, report, mesh, output, chart = "stereographic";
+};
+int export_command(const ExportArguments& arguments);
+
 struct SampleArguments {
   std::string output, shape = "figure";
   int faces = 20000;

@@ -99,6 +99,21 @@ void add_tile(CLI::App& app, int& code) {
   command->callback([arguments, &code] { code = run([&] { return tile_command(*arguments); }); });
 }
 
+void add_export(CLI::App& app, int& code) {
+  auto* command =
+      app.add_subcommand("export", "The mesh with its embedding as texture coordinates, for other programs");
+  auto arguments = std::make_shared<ExportArguments>();
+  command->add_option("embedding", arguments->embedding, "The embedding (PLY)")->required();
+  command->add_option("report", arguments->report, "Its report (JSON)")->required();
+  command->add_option("mesh", arguments->mesh, "The input mesh")->required();
+  command->add_option("-o,--output", arguments->output, "The model: .obj, .glb, .ply or .vtp")->required();
+  command
+      ->add_option("--chart", arguments->chart,
+                   "Of the sphere into the texture: stereographic, equirectangular or octahedral")
+      ->capture_default_str();
+  command->callback([arguments, &code] { code = run([&] { return export_command(*arguments); }); });
+}
+
 void add_sample(CLI::App& app, int& code) {
   auto* command = app.add_subcommand("sample", "Generate a mesh to try things on");
   auto arguments = std::make_shared<SampleArguments>();
@@ -122,6 +137,7 @@ int main(int argc, char** argv) {
   add_types(app, code);
   add_verify(app, code);
   add_tile(app, code);
+  add_export(app, code);
   add_sample(app, code);
   try {
     app.parse(argc, argv);

@@ -12,6 +12,7 @@
 
 #include "orbitutte/mesh/bytes.h"
 #include "orbitutte/mesh/file.h"
+#include "orbitutte/output/gltf_model.h"
 
 namespace orbitutte {
 namespace {
@@ -129,6 +130,26 @@ std::string obj_text(const Tiling& tiling, const std::string& library) {
     fmt::format_to(out, FMT_COMPILE("f {} {} {}\n"), mesh.F(f, 0) + 1, mesh.F(f, 1) + 1, mesh.F(f, 2) + 1);
   }
   return text;
+}
+
+std::string glb_bytes(const Tiling& tiling) {
+  const Faces& F = tiling.mesh.F;
+  check_glb_size(3 * sizeof(float) * tiling.mesh.V.rows() + 3 * sizeof(std::uint32_t) * F.rows(),
+                 "the tiling");
+  const TileMaterials materials = tile_materials(tiling);
+  GltfModel model;
+  // A point of the unit sphere is its own normal, so that both read the same bytes.
+  const int positions = model.add_positions(tiling.mesh.V);
+  for (int m = 0; m < static_cast<int>(materials.materials.size()); ++m) {
+    std::vector<std::uint32_t> indices;
+    for (Eigen::Index f = 0; f < F.rows(); ++f)
+      if (materials.of_tile[tiling.tile[f]] == m)
+        for (int k = 0; k < 3; ++k) indices.push_back(static_cast<std::uint32_t>(F(f, k)));
+    const auto& [name, colour] = materials.materials[m];
+    model.add_primitive({{"POSITION", positions}, {"NORMAL", positions}}, model.add_triangles(indices),
+                        model.add_material(name, colour, GltfModel::Sides::front));
+  }
+  return model.bytes();
 }
 
 void write_tiling(const std::string& path, const Tiling& tiling) {

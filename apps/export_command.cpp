@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#include "commands.h"
+#include "orbitutte/mesh/inspection.h"
+#include "orbitutte/mesh/mesh_io.h"
+#include "orbitutte/output/export.h"
+#include "orbitutte/output/report.h"
+
+namespace orbitutte::cli {
+
+int export_command(const ExportArguments& arguments) {
+  const TextureChart chart = parse_texture_chart(arguments.chart);
+  const Embedding embedding = read_embedding(arguments.embedding, read_report(arguments.report));
+  PolygonMesh polygons = read_mesh(arguments.mesh);
+  require_embeddable(inspect(polygons));
+  const ExportedModel model = exported_model(to_triangle_mesh(std::move(polygons)), embedding, chart);
+  write_model(arguments.output, model);
+  fmt::print(stderr,
+             "{}: {} vertices, {} texture coordinates, {} triangles; largest area distortion of the {} chart "
+             "{:.3g}\n",
+             arguments.output, model.mesh.V.rows(), model.texture.uv.rows(), model.mesh.F.rows(), name(chart),
+             model.texture.max_area_distortion);
+  if (model.texture.torn_faces > 0)
+    fmt::print(
+        stderr,
+        "orbitutte: warning: {} triangles lie across the outer edge of the chart; choose another chart\n",
+        model.texture.torn_faces);
+  return 0;
+}
+
+}  // namespace orbitutte::cli
