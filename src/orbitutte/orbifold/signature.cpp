@@ -37,9 +37,12 @@ Fraction euler_characteristic(const ConwaySymbol& symbol) {
   return chi;
 }
 
+// A single order of several digits ends with a comma where each of them could be an order.
 std::string join(const Orders& orders) {
   const bool digits = std::all_of(orders.begin(), orders.end(), [](int n) { return n < 10; });
-  return fmt::format("{}", fmt::join(orders, digits ? "" : ","));
+  const std::string text = fmt::format("{}", fmt::join(orders, digits ? "" : ","));
+  const bool alone = orders.size() == 1 && !digits;
+  return alone && text.find_first_of("01") == std::string::npos ? text + "," : text;
 }
 
 bool any_below_two(const Orders& orders) {
