@@ -32,16 +32,21 @@ PYTHON = sys.executable or '/usr/bin/python3'
 SPHERE_SIGNATURES = ['532', '432', '332', '222', '223', '224', '228', '2,2,12', '22', '33', '44', '88', '12,12']
 DISK_SIGNATURES = ['*' + signature for signature in SPHERE_SIGNATURES]
 MIXED_SIGNATURES = ['3*2', '2*2', '2*3', '2*5', '2*8', '2*', '3*', '5*', '8*']  # a cone inside a disk
-ONE_OF_EACH_FAMILY = ['532', '432', '332', '223', '44', '*532', '*432', '*332', '*228', '*33'] + MIXED_SIGNATURES
+CROSSED_SIGNATURES = ['1x', '2x', '3x', '5x', '8x']  # on projective planes, which the program makes itself
+SAMPLES = ['boy', 'roman', 'crosscap', 'quotient']
+ONE_OF_EACH_FAMILY = ['532', '432', '332', '223', '44', '*532', '*432', '*332', '*228', '*33'] + MIXED_SIGNATURES + \
+    CROSSED_SIGNATURES
 
 # The quick part: every family, each hard kind of mesh, golden runs on the smallest meshes.
 QUICK_MESHES = {'my_man_maxp.off': SPHERE_SIGNATURES, 'thingi_62415.obj': SPHERE_SIGNATURES, 'itokawa.off': ['532', '22'],
                 'octocat.off': ['532'], 'camelhead.off': DISK_SIGNATURES[::2] + ['*33'] + MIXED_SIGNATURES[::2],
-                'fandisk.off': ['*432', '2*3', '8*']}
+                'fandisk.off': ['*432', '2*3', '8*'], 'boy.ply': CROSSED_SIGNATURES, 'quotient.ply': ['3x']}
 QUICK_GOLDEN = ['my_man_maxp', 'fandisk_star243']
-QUICK_SEEDS = {('my_man_maxp.off', '532'): 6, ('camelhead.off', '3*2'): 4, ('camelhead.off', '5*'): 4}
+QUICK_SEEDS = {('my_man_maxp.off', '532'): 6, ('camelhead.off', '3*2'): 4, ('camelhead.off', '5*'): 4,
+               ('boy.ply', '3x'): 4}
 ALL_SEEDS = {('my_man_maxp.off', '532'): 20, ('david_50k.off', '532'): 20, ('camelhead.off', '3*2'): 20,
-             ('fandisk.off', '2*5'): 20, ('camelhead.off', '5*'): 20, ('fandisk.off', '2*'): 20}
+             ('fandisk.off', '2*5'): 20, ('camelhead.off', '5*'): 20, ('fandisk.off', '2*'): 20,
+             ('boy.ply', '1x'): 20, ('quotient.ply', '5x'): 20}
 
 # May fail to be bijective in double precision, saying so (exit code 5).
 KNOWN_HARD = {'octocat.off'}
@@ -150,7 +155,10 @@ def check_closed_sphere(ply, copies, tile_faces):
     characteristic = n - len(directed) // 2 + len(faces)
     expect(characteristic == 2, f'Euler characteristic {characteristic}')
     a, b, c = (ply.positions[faces[:, k]] for k in range(3))
-    expect(((a * np.cross(b, c)).sum(1) > 0).all(), 'a triangle that is clockwise seen from outside')
+    volume = (a * np.cross(b, c)).sum(1)
+    expect((volume > 0).all(), 'a triangle that is clockwise seen from outside')
+    area = 2 * np.arctan2(volume, 1 + (a * b).sum(1) + (b * c).sum(1) + (c * a).sum(1)).sum()
+    expect(abs(area - 4 * np.pi) < 1e-8, f'an area of {area:.12g}, not 4 pi')
 
 
 class Suite:
@@ -162,6 +170,15 @@ class Suite:
         self.threads = max(1, (os.cpu_count() or 1) // options.jobs)
         self.rows = []
         self.meshes = self.read_cones()
+        self.samples = tempfile.TemporaryDirectory()
+        for shape in SAMPLES:
+            mesh = f'{shape}.ply'
+            self.run([], self.orbitutte, 'sample', '--shape', shape, '--faces', 6000, '-o', self.path(mesh))
+            self.meshes[mesh] = ('projective-plane', [100], None)
+
+    def path(self, mesh):
+        is_sample = pathlib.Path(mesh).stem in SAMPLES
+        return pathlib.Path(self.samples.name) / mesh if is_sample else self.shared / 'meshes' / mesh
 
     def read_cones(self):
         """mesh -> (topology, marked vertices, on the boundary of a disk; a marked vertex inside of it or None)"""
@@ -188,7 +205,7 @@ class Suite:
 
     def embed(self, commands, folder, mesh, signature, cones, *options, name='embedding', codes=(0,)):
         ply, report = folder / f'{name}.ply', folder / f'{name}.json'
-        result = self.run(commands, self.orbitutte, 'embed', self.shared / 'meshes' / mesh, '--orbifold', signature,
+        result = self.run(commands, self.orbitutte, 'embed', self.path(mesh), '--orbifold', signature,
                           '--cones', ','.join(map(str, cones)), '-o', ply, '--report', report, '--threads', self.threads,
                           '--quiet', *options, codes=codes)
         return result.returncode, ply, json.loads(report.read_text())
@@ -198,6 +215,8 @@ class Suite:
             return len(orders.split(',') if ',' in orders else orders)
 
         _, marked, interior = self.meshes[mesh]
+        if signature.endswith('x'):
+            return marked
         before, star, after = signature.partition('*')
         if not star:
             return marked[:count(before)]
@@ -223,7 +242,7 @@ class Suite:
             missing = [key for key in keys if key not in (report[group] if group else report)]
             expect(not missing, f"the report lacks {', '.join(missing)} {'in ' + group if group else ''}")
         expect(report['certificate']['bijective'] == (code == 0), f'exit code {code}, but the report says otherwise')
-        path = self.shared / 'meshes' / mesh
+        path = self.path(mesh)
         checked = self.run(commands, PYTHON, self.checker, path, ply, report_path(ply), codes=(0, 1))
         found = json.loads(checked.stdout)
         failures = found['failures']
@@ -245,7 +264,7 @@ class Suite:
         weights = golden_folder / 'edges.txt'
         _, ply, report = self.embed(commands, folder, mesh, signature, cones, '--weights-file', weights)
         self.row(name, mesh, signature, report)
-        path = self.shared / 'meshes' / mesh
+        path = self.path(mesh)
         self.run(commands, PYTHON, self.checker, path, ply, report_path(ply), '--weights-file', weights)
         difference = abs(report['energy'] / golden['energy'] - 1)
         expect(difference < 1e-9, f"energy {report['energy']:.14g}, the reference has {golden['energy']:.14g}")
@@ -287,7 +306,7 @@ class Suite:
 
     def test_fault(self, name, commands, folder, mesh, signature, plant):
         _, ply_path, report = self.embed(commands, folder, mesh, signature, self.marked(mesh, signature))
-        path = self.shared / 'meshes' / mesh
+        path = self.path(mesh)
         self.run(commands, self.orbitutte, 'verify', ply_path, report_path(ply_path), path)
         ply = Ply(ply_path)
         plant(ply, report)
@@ -309,9 +328,10 @@ class Suite:
         if quick:
             chosen = QUICK_MESHES
         else:
-            chosen = {mesh: SPHERE_SIGNATURES if topology == 'sphere' else DISK_SIGNATURES + MIXED_SIGNATURES
-                      for mesh, (topology, _, _) in self.meshes.items()}
-        for mesh in sorted(chosen, key=lambda mesh: -(self.shared / 'meshes' / mesh).stat().st_size):
+            of_topology = {'sphere': SPHERE_SIGNATURES, 'disk': DISK_SIGNATURES + MIXED_SIGNATURES,
+                           'projective-plane': CROSSED_SIGNATURES}
+            chosen = {mesh: of_topology[topology] for mesh, (topology, _, _) in self.meshes.items()}
+        for mesh in sorted(chosen, key=lambda mesh: -self.path(mesh).stat().st_size):
             for signature in chosen[mesh]:
                 add(f'embed/{stem(mesh)}/{signature}', self.test_embed, mesh, signature)
         for golden in sorted((self.shared / 'golden').glob('*/golden.json')):
@@ -320,12 +340,13 @@ class Suite:
                 continue
             add(f'golden/{folder.name}', self.test_golden, folder)
         for signature in ONE_OF_EACH_FAMILY:
-            add(f'tile/{signature}', self.test_tile, 'camelhead.off' if '*' in signature else 'my_man_maxp.off', signature)
+            mesh = 'camelhead.off' if '*' in signature else 'boy.ply' if 'x' in signature else 'my_man_maxp.off'
+            add(f'tile/{signature}', self.test_tile, mesh, signature)
         for mesh, signature in [('my_man_maxp.off', '532'), ('my_man_maxp.off', '33'), ('camelhead.off', '*432'),
-                                ('camelhead.off', '3*2'), ('camelhead.off', '5*')]:
+                                ('camelhead.off', '3*2'), ('camelhead.off', '5*'), ('boy.ply', '3x')]:
             add(f'repeat/{stem(mesh)}/{signature}', self.test_repeat, mesh, signature)
         for mesh, signature in [('my_man_maxp.off', '432'), ('my_man_maxp.off', '33'), ('camelhead.off', '*432'),
-                                ('camelhead.off', '3*2'), ('camelhead.off', '5*')]:
+                                ('camelhead.off', '3*2'), ('camelhead.off', '5*'), ('boy.ply', '3x')]:
             for plant in (move_across_edge, mirror_map, mirror_positions, claim_another_group_order, claim_another_signature,
                           claim_another_energy, exchange_seam_transform):
                 add(f'fault/{plant.__name__}/{signature}', self.test_fault, mesh, signature, plant)
@@ -378,8 +399,8 @@ def claim_another_group_order(ply, report):
 
 def claim_another_signature(ply, report):
     signature = report['orbifold']['signature']
-    other = {'432': '532', '33': '44', '*432': '*532', '3*2': '2*6', '5*': '6*'}[signature]
-    orders = {'532': 60, '44': 4, '*532': 120, '2*6': 24, '6*': 12}
+    other = {'432': '532', '33': '44', '*432': '*532', '3*2': '2*6', '5*': '6*', '3x': '4x'}[signature]
+    orders = {'532': 60, '44': 4, '*532': 120, '2*6': 24, '6*': 12, '4x': 8}
     report['orbifold'] = {'signature': other, 'group_order': orders[other]}
 
 
