@@ -118,11 +118,11 @@ Path path_to_boundary(EdgeGraph graph, const std::vector<int>& marks, const std:
   return path;
 }
 
-// The half-edge from v, inside the surface, to its neighbour w.
+// The half-edge from v, inside the surface, to its neighbour w; a diagonal may lead there, too.
 int halfedge_to(int v, int w, const Faces& F, const std::vector<int>& outgoing,
-                const std::vector<int>& opposite) {
+                const Connectivity& connectivity) {
   int h = outgoing[v];
-  while (target(F, h) != w) h = opposite[previous_halfedge(h)];
+  while (target(F, h) != w || connectivity.edge_of[h] < 0) h = connectivity.opposite[previous_halfedge(h)];
   return h;
 }
 
@@ -184,11 +184,12 @@ CutMesh uncut(const Mesh& mesh) {
 }
 
 // Opens the mesh along a path, from whose first vertex the boundary then begins.
-void open_path(const Path& path, const std::vector<int>& outgoing, const std::vector<int>& opposite,
+void open_path(const Path& path, const std::vector<int>& outgoing, const Connectivity& connectivity,
                CutMesh& cut) {
+  const std::vector<int>& opposite = connectivity.opposite;
   std::vector<int> halfedges;
   for (std::size_t k = 0; k + 1 < path.size(); ++k)
-    halfedges.push_back(halfedge_to(path[k], path[k + 1], cut.F, outgoing, opposite));
+    halfedges.push_back(halfedge_to(path[k], path[k + 1], cut.F, outgoing, connectivity));
   const std::vector<int> opened = open_along(halfedges, opposite);
   for (const int h : halfedges) split_vertex(h, opened, opposite, cut);
   if (const int h = outgoing[path.back()]; opposite[h] < 0) split_vertex(h, opened, opposite, cut);
@@ -229,7 +230,7 @@ CutMesh cut_to_disk(const Mesh& mesh, const Connectivity& connectivity, const st
     perturb_lengths(graph, options.seed);
     const Path path = closed ? path_through(mesh, graph, marks, options.seed)
                              : path_to_boundary(std::move(graph), marks, on_boundary);
-    open_path(path, outgoing, opposite, cut);
+    open_path(path, outgoing, connectivity, cut);
     if (!closed) cut.marks.push_back(path.back());
   } else {
     cut.boundary = boundary_loop(outgoing[marks[0]], cut.F, opposite);

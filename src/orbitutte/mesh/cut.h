@@ -12,7 +12,7 @@ namespace orbitutte {
 
 /// A mesh cut open into a disk. Cut vertex v < n is the input vertex v; the copies that the cut adds follow.
 struct CutMesh {
-  Faces F;                         ///< m x 3, the input faces in their order, on cut vertices
+  Faces F;                         ///< m x 3, the input triangles in their order, on cut vertices
   std::vector<int> source_vertex;  ///< n_cut: the input vertex
   std::vector<int>
       boundary;  ///< cut vertices along the boundary's half-edges: counterclockwise, interior on the left

@@ -83,9 +83,10 @@ void sort_columns(SparseMatrix& K) {
 SparseMatrix disk_laplacian(const LaplacianProblem& problem, const DiskUnknowns& unknowns) {
   const int count = unknowns.count();
   std::vector<std::array<int, 2>> ends(problem.glued.edges.size());
-  for (int h = 0; h < static_cast<int>(problem.cut.F.size()); ++h)
-    ends[problem.glued.edge_of[h]] = {unknowns.of[origin(problem.cut.F, h)],
-                                      unknowns.of[target(problem.cut.F, h)]};
+  for (int h = 0; h < static_cast<int>(problem.cut.F.size()); ++h) {
+    const int e = problem.glued.edge_of[h];
+    if (e >= 0) ends[e] = {unknowns.of[origin(problem.cut.F, h)], unknowns.of[target(problem.cut.F, h)]};
+  }
   SparseMatrix K(count, count);
   long* start = K.outerIndexPtr();
   std::fill(start, start + count + 1, 0);

@@ -64,6 +64,7 @@ Eigen::MatrixXd LaplacianSolver::extend_harmonically(const Eigen::MatrixXd& boun
   std::vector<char> done(glued_.edges.size(), 0);
   for (int h = 0; h < static_cast<int>(cut_.F.size()); ++h) {
     const int a = origin(cut_.F, h), b = target(cut_.F, h), e = glued_.edge_of[h];
+    if (e < 0) continue;  // a diagonal
     const bool a_inside = inside_[cut_.source_vertex[a]], b_inside = inside_[cut_.source_vertex[b]];
     if (done[e] || a_inside == b_inside) continue;
     done[e] = 1;

@@ -22,7 +22,7 @@ struct GluedEdge {
 struct GluedEdges {
   std::vector<GluedEdge> edges;     ///< in the order of Connectivity::edges
   std::vector<Matrix3> transforms;  ///< distinct elements of G; the first is the identity
-  std::vector<int> edge_of;         ///< 3 m: the edge of every half-edge
+  std::vector<int> edge_of;         ///< 3 m: the edge of every half-edge; -1 for a diagonal
 };
 
 /// The group element of every edge: that of one of its images in the cut mesh.

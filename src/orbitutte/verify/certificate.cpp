@@ -2,7 +2,8 @@
 // Why this is a proof: seams with orthogonal transforms glue |G| copies of the cut disk to a closed surface
 // with a map to the sphere, and lay them on opposite sides of every seam. Positive triangles with edges
 // shorter than pi make the map a local homeomorphism away from the vertices, and by the area, |G| times
-// 4 pi/|G|, it covers the sphere once, so it is one at the vertices too.
+// 4 pi/|G|, it covers the sphere once, so it is one at the vertices too. A polygon stands for the triangles
+// between its edges and its middle; that it is convex is checked besides.
 #include "orbitutte/verify/certificate.h"
 
 #include <fmt/format.h>
@@ -11,13 +12,16 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <tuple>
 #include <unordered_map>
+#include <utility>
 
 #include "orbitutte/mesh/connectivity.h"
 #include "orbitutte/orbifold/signature.h"
 #include "orbitutte/orbifold/symmetry_group.h"
 #include "orbitutte/parallel.h"
+#include "orbitutte/verify/convexity.h"
 #include "orbitutte/verify/orientation.h"
 #include "orbitutte/verify/spherical_triangle.h"
 
@@ -26,7 +30,8 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double unit_bound = 1e-12, seam_bound = 1e-12, angle_bound = 1e-8, area_bound = 1e-9;
+constexpr double unit_bound = 1e-12, seam_bound = 1e-12, angle_bound = 1e-8, area_bound = 1e-9,
+                 straight_bound = 1e-8;
 
 Check at_most(std::string name, double value, double bound) {
   Check check = {std::move(name), value <= bound, value, bound, {}};
@@ -56,26 +61,28 @@ class Offences {
 
 // The faces of the cut mesh are the input's, on copies of its vertices, the first n of which are the input
 // vertices.
-Check cut_mesh_check(const Mesh& mesh, const Embedding& embedding) {
+Check cut_mesh_check(int n, const FaceView& input, const Embedding& embedding) {
   Offences offences;
-  const int n = static_cast<int>(mesh.V.rows()), n_cut = static_cast<int>(embedding.source_vertex.size());
+  const FaceView faces = embedding.input_faces();
+  const int n_cut = static_cast<int>(embedding.source_vertex.size());
   if (embedding.positions.rows() != n_cut || n_cut < n)
     offences.add("{} positions, {} source vertices and {} input vertices do not fit together",
                  embedding.positions.rows(), n_cut, n);
-  if (embedding.faces.rows() != mesh.F.rows())
-    offences.add("the cut mesh has {} faces, the input {}", embedding.faces.rows(), mesh.F.rows());
+  if (faces.count() != input.count())
+    offences.add("the cut mesh has {} faces, the input {}", faces.count(), input.count());
   if (offences.any()) return offences.check("cut_mesh");
   for (int v = 0; v < n_cut; ++v) {
     const int source = embedding.source_vertex[v];
     if (source < 0 || source >= n || (v < n && source != v))
       offences.add("cut vertex {} names the input vertex {}", v, source);
   }
-  for (int f = 0; f < mesh.F.rows(); ++f) {
-    for (int k = 0; k < 3; ++k) {
-      const int v = embedding.faces(f, k);
-      if (v < 0 || v >= n_cut || embedding.source_vertex[v] != mesh.F(f, k))
-        offences.add("face {} is not the input's face {}, cut", f, f);
-    }
+  const auto is_copy = [&](int v, int vertex) {
+    return v >= 0 && v < n_cut && embedding.source_vertex[v] == vertex;
+  };
+  for (int f = 0; f < input.count(); ++f) {
+    const auto cut = faces[f], uncut = input[f];
+    if (!std::equal(cut.begin(), cut.end(), uncut.begin(), uncut.end(), is_copy))
+      offences.add("face {} is not the input's face {}, cut", f, f);
   }
   return offences.check("cut_mesh");
 }
@@ -285,7 +292,9 @@ Check group_check(const Embedding& embedding) {
   }
 }
 
-Check orientation_check(const Embedding& embedding, std::vector<int>& nonpositive) {
+// face_of: the input face of every triangle, where it is not the triangle itself.
+Check orientation_check(const Embedding& embedding, const std::vector<int>& face_of,
+                        std::vector<int>& nonpositive) {
   const Points& X = embedding.positions;
   std::vector<char> positive(embedding.faces.rows());
   parallel_ranges(static_cast<int>(positive.size()), [&](int begin, int end) {
@@ -295,21 +304,41 @@ Check orientation_check(const Embedding& embedding, std::vector<int>& nonpositiv
     }
   });
   for (int f = 0; f < static_cast<int>(positive.size()); ++f)
-    if (!positive[f]) nonpositive.push_back(f);
+    if (!positive[f]) nonpositive.push_back(face_of.empty() ? f : face_of[f]);
+  nonpositive.erase(std::unique(nonpositive.begin(), nonpositive.end()), nonpositive.end());
   const std::string first = nonpositive.empty()
                                 ? std::string()
                                 : fmt::format("face {} is not positively oriented", nonpositive.front());
   return none("positive_faces", static_cast<long long>(nonpositive.size()), first);
 }
 
+// Puts polygons that are not convex among the faces that are not positively oriented.
+Check convexity_check(const Embedding& embedding, std::vector<int>& nonpositive) {
+  const std::vector<ConcaveCorner> concave = concave_corners(embedding, straight_bound);
+  for (const ConcaveCorner& corner : concave) nonpositive.push_back(corner.face);
+  std::sort(nonpositive.begin(), nonpositive.end());
+  nonpositive.erase(std::unique(nonpositive.begin(), nonpositive.end()), nonpositive.end());
+  const std::string first = concave.empty() ? std::string()
+                                            : fmt::format("face {} is not convex at vertex {}",
+                                                          concave.front().face, concave.front().vertex);
+  return none("convex_faces", static_cast<long long>(concave.size()), first);
+}
+
 Check edge_length_check(const Embedding& embedding, double& longest) {
   const Points& X = embedding.positions;
-  const Faces& F = embedding.faces;
-  const int halfedges = static_cast<int>(F.size());
-  const auto squared_chord = [&](int h) { return (X.row(origin(F, h)) - X.row(target(F, h))).squaredNorm(); };
-  const double widest = parallel_max(halfedges, squared_chord);
-  longest = parallel_max(halfedges, [&](int h) {
-    return squared_chord(h) < widest ? 0.0 : arc_length(X.row(origin(F, h)), X.row(target(F, h)));
+  const FaceView faces = embedding.input_faces();
+  const auto squared_chord = [&](int a, int b) { return (X.row(a) - X.row(b)).squaredNorm(); };
+  const auto largest = [&](int f, const auto& length) {
+    double result = 0;
+    int a = faces[f].back();
+    for (const int b : faces[f]) result = std::max(result, length(std::exchange(a, b), b));
+    return result;
+  };
+  const double widest = parallel_max(faces.count(), [&](int f) { return largest(f, squared_chord); });
+  longest = parallel_max(faces.count(), [&](int f) {
+    return largest(f, [&](int a, int b) {
+      return squared_chord(a, b) < widest ? 0.0 : arc_length(X.row(a), X.row(b));
+    });
   });
   Check check = {"edge_lengths", longest < pi, longest, pi, {}};
   if (!check.passed) check.detail = "an edge is not shorter than pi";
@@ -336,26 +365,39 @@ bool all_passed(const std::vector<Check>& checks) {
 
 }  // namespace
 
-Certificate certify(const Mesh& mesh, const Embedding& embedding) {
+Certificate certify(int vertex_count, const FaceView& faces, const Embedding& embedding) {
   Certificate certificate;
   certificate.expected_area = 4 * pi / embedding.group_order;
   std::vector<Check>& checks = certificate.checks;
-  checks.push_back(cut_mesh_check(mesh, embedding));
+  checks.push_back(cut_mesh_check(vertex_count, faces, embedding));
   checks.push_back(unit_check(embedding.positions));
   if (!all_passed(checks)) return certificate;  // nothing else can be computed safely
-  checks.push_back(seam_gluing_check(embedding));
+  std::optional<DividedPolygons> polygons;
+  if (embedding.polygons.count() > 0) polygons = divide_from_middles(embedding);
+  const Embedding& triangles = polygons ? polygons->embedding : embedding;
+  const std::vector<int> face_of = polygons ? polygons->face_of : std::vector<int>();
+  checks.push_back(seam_gluing_check(triangles));
   checks.push_back(transform_check(embedding.seams));
   checks.push_back(cone_check(embedding));
   if (!all_passed(checks)) return certificate;
   checks.push_back(group_check(embedding));
   certificate.max_seam_residual = max_seam_residual(embedding);
   checks.push_back(at_most("seam_residual", certificate.max_seam_residual, seam_bound));
-  checks.push_back(orientation_check(embedding, certificate.nonpositive_faces));
+  checks.push_back(orientation_check(triangles, face_of, certificate.nonpositive_faces));
+  if (polygons) checks.push_back(convexity_check(embedding, certificate.nonpositive_faces));
   checks.push_back(edge_length_check(embedding, certificate.max_edge_length));
-  checks.push_back(angle_check(embedding));
-  checks.push_back(area_check(embedding, certificate));
+  checks.push_back(angle_check(triangles));
+  checks.push_back(area_check(triangles, certificate));
   certificate.bijective = all_passed(checks);
   return certificate;
+}
+
+Certificate certify(const Mesh& mesh, const Embedding& embedding) {
+  return certify(static_cast<int>(mesh.V.rows()), FaceView(mesh.F), embedding);
+}
+
+Certificate certify(const PolygonMesh& mesh, const Embedding& embedding) {
+  return certify(mesh.vertex_count(), FaceView(mesh.corners, mesh.face_start), embedding);
 }
 
 }  // namespace orbitutte
