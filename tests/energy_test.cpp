@@ -45,6 +45,7 @@ TEST(Energy, OfRegularSolidsIsKnown) {
   Embedding embedding;
   embedding.positions = octahedron.V;
   embedding.faces = octahedron.F;
+  embedding.source_vertex = {0, 1, 2, 3, 4, 5};
   WeightOptions uniform;
   uniform.kind = WeightKind::uniform;
   EdgeWeights weights = edge_weights(octahedron, connectivity, uniform);

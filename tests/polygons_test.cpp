@@ -17,6 +17,7 @@
 #include "orbitutte/mesh/file.h"
 #include "orbitutte/mesh/inspection.h"
 #include "orbitutte/mesh/mesh_io.h"
+#include "orbitutte/mesh/ply.h"
 #include "orbitutte/mesh/triangulation.h"
 #include "orbitutte/mesh/weak_places.h"
 #include "orbitutte/output/embedding_file.h"

@@ -6,9 +6,9 @@
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
-#include <set>
+#include <algorithm>
+#include <random>
 
-#include "orbitutte/mesh/contacts.h"
 #include "orbitutte/mesh/inspection.h"
 #include "polygon_meshes.h"
 #include "random_spheres.h"
@@ -57,7 +57,12 @@ TEST(WeakPlaces, EarIsNamed) {
 }
 
 TEST(WeakPlaces, ChordIsNamed) {
-  expect_only(places_of(test::grid_disk(4, 1)), WeakPlaceKind::ear, 2, "face");
+  const std::vector<WeakPlace> places = places_of(test::grid_disk(4, 1));
+  ASSERT_EQ(places.size(), 2u);
+  EXPECT_EQ(places[0].kind, WeakPlaceKind::ear);
+  EXPECT_EQ(places[0].count, 2);
+  EXPECT_EQ(places[1].kind, WeakPlaceKind::chord);
+  EXPECT_EQ(places[1].count, 5);
 }
 
 TEST(WeakPlaces, ChordOfSquaresIsNamed) {
@@ -106,7 +111,7 @@ TEST(WeakPlaces, FacesThatTouchTwiceAreNamed) {
 }
 
 // Do the vertices other than v and w fall apart?
-bool separates(const Mesh&, const PolygonMesh& mesh, int v, int w) {
+bool separates(const PolygonMesh& mesh, int v, int w) {
   std::vector<std::vector<int>> near(mesh.vertex_count());
   for (const std::vector<int>& face : test::face_lists(mesh)) {
     for (std::size_t k = 0; k < face.size(); ++k) {
@@ -142,7 +147,6 @@ PolygonMesh with_edges_removed(const Mesh& mesh, std::uint32_t seed, int removal
       if (faces[g][1] != a) continue;
       faces[f].erase(faces[f].begin());                                        // b ... without a
       faces[f].insert(faces[f].end(), faces[g].begin() + 1, faces[g].end());  // a ...
-      faces[f].pop_back() , faces[f].push_back(faces[g].back());
       faces.erase(faces.begin() + g);
       break;
     }
@@ -159,14 +163,14 @@ RC_GTEST_PROP(WeakPlaces, ThereAreNoneExactlyWhereNoTwoVerticesSeparateTheMesh, 
       with_edges_removed(sphere, *rc::gen::arbitrary<std::uint32_t>(), *rc::gen::inRange(0, 8));
   bool falls_apart = false;
   for (int v = 0; v < mesh.vertex_count() && !falls_apart; ++v)
-    for (int w = 0; w < v && !falls_apart; ++w) falls_apart = separates(sphere, mesh, v, w);
+    for (int w = 0; w < v && !falls_apart; ++w) falls_apart = separates(mesh, v, w);
   RC_ASSERT(find_weak_places(mesh).empty() == !falls_apart);
 }
 
 TEST(CollapsingFaces, EarsAndPartsBehindChordsCollapseOntoOneMirrorOnly) {
   const PolygonMesh mesh = test::square_grid(5, 1);  // below 0 .. 5, above 6 .. 11
   EXPECT_THAT(collapsing(mesh, {{0, 1, 2, 3, 4, 5, 11, 10, 9, 8, 7, 6}}, {}), ElementsAre(0, 1, 2, 3, 4));
-  EXPECT_THAT(collapsing(mesh, {{0, 1, 2, 3, 4, 5}, {5, 11, 10, 9}, {9, 8, 7, 6, 0}}, {0, 5, 9}), ElementsAre(0));
+  EXPECT_THAT(collapsing(mesh, {{0, 1, 2, 3, 4, 5}, {5, 11, 10, 9}, {9, 8, 7, 6, 0}}, {0, 5, 9}), IsEmpty());
   EXPECT_THAT(collapsing(mesh, {{1, 2, 3, 4, 5, 11, 10, 9, 8}, {8, 7, 6, 0}, {0, 1}}, {0, 1, 8}),
               ElementsAre(2, 3, 4));
 }

@@ -130,12 +130,6 @@ PlyProperty scalar(std::string name, PlyType type) {
   return property;
 }
 
-std::size_t most_corners(const FaceView& faces) {
-  std::size_t most = 3;
-  for (int f = 0; f < faces.count(); ++f) most = std::max(most, faces[f].size());
-  return most;
-}
-
 /// The elements, without values.
 PlyFile layout_of(std::size_t vertices, const FaceView& faces, const std::vector<PlyIntegers>& further) {
   PlyElement vertex = {"vertex", vertices, {}};
@@ -143,7 +137,7 @@ PlyFile layout_of(std::size_t vertices, const FaceView& faces, const std::vector
   for (const PlyIntegers& column : further) vertex.properties.push_back(scalar(column.name, PlyType::int32));
   PlyProperty list = scalar("vertex_indices", PlyType::int32);
   list.is_list = true;
-  if (most_corners(faces) > 255) list.count_type = PlyType::int32;
+  list.count_type = corner_count_type(faces);
   return {{}, {std::move(vertex), {"face", static_cast<std::size_t>(faces.count()), {std::move(list)}}}};
 }
 
@@ -191,6 +185,12 @@ std::optional<std::vector<int>> read_ply_integers(std::string_view bytes, const 
     at += file->vertex.size;
   }
   return values;
+}
+
+PlyType corner_count_type(const FaceView& faces) {
+  std::size_t most = 3;
+  for (int f = 0; f < faces.count(); ++f) most = std::max(most, faces[f].size());
+  return most > 255 ? PlyType::int32 : PlyType::uint8;
 }
 
 std::string write_ply_triangles(const Points& V, const Faces& F,

@@ -177,19 +177,21 @@ class Collapse {
     for (const int v : mirror) place_[v] = -1;
   }
 
-  // The smaller of the parts on both sides of a double contact.
+  // The smaller of the parts on both sides of a double contact, or both where they are small.
   void between(const DoubleContact& contact) {
     int c = surface().face_start[contact.face];
     while (surface().origin[c] != contact.vertex) ++c;
     const std::array<int, 2> beside = {surface().twin[c], surface().twin[surface().previous(c)]};
     for (std::size_t most = 64; most < 8 * collapsing_.size() + 64; most *= 8) {
+      bool found = false;
       for (const int h : beside) {
         if (h < 0) continue;
         const std::vector<int> part = parts_.reached(h, {contact.face, contact.other}, most);
         if (part.size() > most) continue;
+        found = true;
         if (!meets_boundary(part)) collapse(part, {contact.vertex, contact.second});
-        return;
       }
+      if (found) return;
     }
   }
 

@@ -12,6 +12,7 @@
 
 #include "orbitutte/mesh/bytes.h"
 #include "orbitutte/mesh/file.h"
+#include "orbitutte/mesh/ply_triangles.h"
 
 namespace orbitutte {
 namespace {
@@ -60,15 +61,16 @@ std::string ply_bytes(const Tiling& tiling) {
   const Mesh& mesh = tiling.mesh;
   const FaceView faces = tiling.faces();
   const int faces_per_tile = std::max(1, faces.count() / std::max(1, tiling.tiles));
+  const PlyType count_type = corner_count_type(faces);
   std::string bytes = fmt::format(
       "ply\nformat binary_little_endian 1.0\ncomment tiling of the sphere by {} copies\n"
       "element vertex {}\nproperty double x\nproperty double y\nproperty double z\nproperty int "
       "source_vertex\n"
-      "element face {}\nproperty list uchar int vertex_indices\n"
+      "element face {}\nproperty list {} int vertex_indices\n"
       "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty int tile\nproperty int "
       "source_face\n"
       "end_header\n",
-      tiling.tiles, mesh.V.rows(), faces.count());
+      tiling.tiles, mesh.V.rows(), faces.count(), name(count_type));
   constexpr std::size_t vertex_size = 3 * sizeof(double) + sizeof(int);
   constexpr std::size_t face_size = 1 + 3 * sizeof(int) + 3 + 2 * sizeof(int);
   bytes.reserve(bytes.size() + vertex_size * mesh.V.rows() + face_size * mesh.F.rows());
@@ -78,7 +80,9 @@ std::string ply_bytes(const Tiling& tiling) {
     append_little_endian(bytes, tiling.source_vertex[v]);
   }
   for (int f = 0; f < faces.count(); ++f) {  // tile by tile
-    append_little_endian(bytes, static_cast<std::uint8_t>(faces[f].size()));
+    visit_type(count_type, [&](auto type) {
+      append_little_endian(bytes, static_cast<decltype(type)>(faces[f].size()));
+    });
     for (const int v : faces[f]) append_little_endian(bytes, v);
     const TileCopy& copy = tiling.copies[f / faces_per_tile];
     const Rgb colour = tile_colour(copy.colour, copy.mirrored);
