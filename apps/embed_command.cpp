@@ -7,12 +7,14 @@
 #include <charconv>
 #include <chrono>
 #include <cstdio>
+#include <variant>
 
 #include "commands.h"
 #include "orbitutte/embed.h"
 #include "orbitutte/mesh/file.h"
 #include "orbitutte/mesh/inspection.h"
 #include "orbitutte/mesh/mesh_io.h"
+#include "orbitutte/mesh/triangulation.h"
 #include "orbitutte/output/embedding_file.h"
 #include "orbitutte/output/report.h"
 
@@ -96,26 +98,23 @@ EmbedOptions options_from(const EmbedArguments& arguments) {
   return options;
 }
 
-// The mesh as triangles. Where a face is none, a worse defect is told first.
-Mesh triangles_of(PolygonMesh polygons) {
-  const int faces = polygons.face_count();
-  for (int f = 0; f < faces; ++f) {
-    if (polygons.face_degree(f) == 3) continue;
-    require_embeddable(inspect(polygons));
-    break;
-  }
-  return to_triangle_mesh(std::move(polygons));
+using AnyMesh = std::variant<Mesh, PolygonMesh>;
+
+AnyMesh triangles_or_polygons(PolygonMesh polygons) {
+  if (is_triangle_mesh(polygons)) return to_triangle_mesh(std::move(polygons));
+  require_embeddable(inspect(polygons));
+  return polygons;
 }
 
 // Reads the mesh, and notes what the report says of its file.
-Mesh read_input(const std::string& path, RunRecord& run) {
+AnyMesh read_input(const std::string& path, RunRecord& run) {
   const Stopwatch reading;
   const MeshFormat format = mesh_format(path);
   const std::string bytes = read_file(path);
   run.mesh_path = path;
   run.input_sha256 = sha256(bytes);
   try {
-    Mesh mesh = triangles_of(parse_mesh(bytes, format));
+    AnyMesh mesh = triangles_or_polygons(parse_mesh(bytes, format));
     run.read_seconds = reading.seconds();
     return mesh;
   } catch (const MeshError& error) {
@@ -127,8 +126,8 @@ void summarize(const EmbedArguments& arguments, const EmbedResult& result) {
   const Minimum& minimum = result.minimum;
   std::vector<int> cones;
   for (const ConeCopies& cone : result.embedding.cones) cones.push_back(cone.vertex);
-  fmt::print(stderr, "{}: {} vertices, {} triangles, a {}, onto {} (group of order {}), cones {}\n",
-             arguments.mesh, minimum.positions.rows(), result.embedding.faces.rows(), name(result.topology),
+  fmt::print(stderr, "{}: {} vertices, {} faces, a {}, onto {} (group of order {}), cones {}\n",
+             arguments.mesh, minimum.positions.rows(), result.embedding.input_faces().count(), name(result.topology),
              result.embedding.signature, result.embedding.group_order, fmt::join(cones, ","));
   fmt::print(stderr, "energy {:.12g} after {} iterations, gradient {:.1e}: {}\n", minimum.energy,
              minimum.iterations, minimum.gradient_norm, name(minimum.termination));
@@ -154,10 +153,10 @@ int embed_command(const EmbedArguments& arguments) {
   std::vector<int> cones = automatic ? std::vector<int>() : parse_cones(arguments.cones);
 
   RunRecord run;
-  const Mesh mesh = read_input(arguments.mesh, run);
+  const AnyMesh mesh = read_input(arguments.mesh, run);
 
   if (automatic) {
-    cones = choose_marked_vertices(mesh, orbifold);
+    cones = std::visit([&](const auto& known) { return choose_marked_vertices(known, orbifold); }, mesh);
     if (!arguments.quiet) fmt::print(stderr, "--cones {}\n", fmt::join(cones, ","));
   }
   const ProgressLine line(arguments.quiet);
@@ -165,7 +164,8 @@ int embed_command(const EmbedArguments& arguments) {
     line.show(progress);
     return true;
   };
-  const EmbedResult result = embed(mesh, orbifold, cones, options);
+  const EmbedResult result =
+      std::visit([&](const auto& known) { return embed(known, orbifold, cones, options); }, mesh);
   line.clear();
   for (const std::string& warning : result.warnings) fmt::print(stderr, "orbitutte: warning: {}\n", warning);
 

@@ -9,6 +9,7 @@
 #include "orbitutte/mesh/inspection.h"
 #include "orbitutte/mesh/mesh_io.h"
 #include "orbitutte/mesh/sample.h"
+#include "orbitutte/mesh/triangulation.h"
 #include "orbitutte/output/report.h"
 #include "orbitutte/output/tiling.h"
 #include "orbitutte/solve/sparse_factor.h"
@@ -27,12 +28,14 @@ Check claim(std::string name, bool holds, std::string detail) {
 }
 
 // E as the report says, from the mesh and the positions. Weights from a file are not among the three files.
-void check_energy(const Mesh& mesh, const Embedding& embedding, const Report& report,
+void check_energy(const PolygonMesh& mesh, const Embedding& embedding, const Report& report,
                   std::vector<Check>& checks) {
   if (report.weights.kind == WeightKind::file) return;
-  const Connectivity connectivity = connect(mesh.F, static_cast<int>(mesh.V.rows()));
+  const Triangulation triangulation = triangulate(mesh);
+  const Mesh triangles = {mesh.V, on_vertices(triangulation, mesh.corners)};
+  const Connectivity connectivity = connect(mesh, triangulation);
   const double energy =
-      dirichlet_energy(connectivity, edge_weights(mesh, connectivity, report.weights), embedding);
+      dirichlet_energy(connectivity, edge_weights(triangles, connectivity, report.weights), embedding);
   const double difference = std::abs(energy - report.energy);
   Check check = {"energy", difference <= 1e-9 * std::abs(energy), difference, 1e-9 * std::abs(energy), {}};
   if (!check.passed)
@@ -71,9 +74,8 @@ void print_checks(const std::vector<Check>& checks, bool bijective, bool json) {
 int verify_command(const VerifyArguments& arguments) {
   const Report report = read_report(arguments.report);
   const Embedding embedding = read_embedding(arguments.embedding, report);
-  PolygonMesh polygons = read_mesh(arguments.mesh);
-  require_embeddable(inspect(polygons));
-  const Mesh mesh = to_triangle_mesh(std::move(polygons));
+  const PolygonMesh mesh = read_mesh(arguments.mesh);
+  require_embeddable(inspect(mesh));
 
   const Certificate certificate = certify(mesh, embedding);
   std::vector<Check> checks = certificate.checks;
@@ -89,8 +91,8 @@ int verify_command(const VerifyArguments& arguments) {
 int tile_command(const TileArguments& arguments) {
   const Tiling tiling = tile_sphere(read_embedding(arguments.embedding, read_report(arguments.report)));
   write_tiling(arguments.output, tiling);
-  fmt::print(stderr, "{}: {} tiles, {} vertices, {} triangles\n", arguments.output, tiling.tiles,
-             tiling.mesh.V.rows(), tiling.mesh.F.rows());
+  fmt::print(stderr, "{}: {} tiles, {} vertices, {} faces\n", arguments.output, tiling.tiles,
+             tiling.mesh.V.rows(), tiling.faces().count());
   return accepted;
 }
 

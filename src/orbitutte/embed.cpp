@@ -4,13 +4,17 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <stdexcept>
+#include <unordered_set>
 
 #include "orbitutte/mesh/extremities.h"
 #include "orbitutte/mesh/inspection.h"
 #include "orbitutte/mesh/recognition.h"
+#include "orbitutte/mesh/triangulation.h"
+#include "orbitutte/mesh/weak_places.h"
 #include "orbitutte/parallel.h"
 #include "orbitutte/solve/ears.h"
 #include "orbitutte/solve/frame.h"
@@ -72,6 +76,34 @@ SoundSurface require_surface(const Mesh& mesh) {
           inspection.zero_area_faces};
 }
 
+// Polygons as triangles, and how these make up the polygons.
+struct DividedMesh {
+  Mesh triangles;
+  Triangulation triangulation;
+  SoundSurface surface;
+};
+
+DividedMesh divide(const PolygonMesh& mesh) {
+  const Inspection inspection = inspect(mesh);
+  require_embeddable(inspection);
+  DividedMesh result;
+  result.triangulation = triangulate(mesh);
+  result.triangles = {mesh.V, on_vertices(result.triangulation, mesh.corners)};
+  result.surface = {inspection.topology, connect(mesh, result.triangulation),
+                    inspection.unreferenced_vertices, inspection.zero_area_faces};
+  return result;
+}
+
+void require_weights_of_polygons(const EmbedOptions& options) {
+  using enum WeightKind;
+  const WeightKind kind = options.weights.kind;
+  if (!options.weights_file.empty() || kind == cotan || kind == uniform) return;
+  throw ArgumentError(fmt::format(
+      "{} weights are not there for faces of more than three corners; take cotan or uniform, or a "
+      "file of weights",
+      name(kind)));
+}
+
 // Cones that lie opposite to each other need more than one edge between them: every arc of length pi is as
 // short as any other.
 void require_apart(const GluedEdges& glued, const BoundaryConditions& boundary, const Orbifold& orbifold) {
@@ -107,16 +139,18 @@ std::vector<std::string> warnings_about(const EdgeWeights& weights, const std::v
     warnings.push_back(fmt::format("{} edges have the weight zero; the theory asks for positive weights",
                                    weights.zero_edges));
   if (!ears.empty())
-    warnings.push_back(
-        fmt::format("{} triangles have two edges on one mirror and become arcs, the first face {}: their "
-                    "areas are rounding errors; "
-                    "swap their inner edges, or mark their tips",
-                    ears.size(), ears.front().face));
+    warnings.push_back(fmt::format(
+        "{} faces have all edges but one on one mirror and must become arcs, the first face {}: their "
+        "areas are rounding errors; "
+        "swap their inner edges, or mark their tips",
+        count_faces(ears), ears.front().face));
   return warnings;
 }
 
 // What is known of a mesh before its cones are, and its last cut.
 struct Preparation {
+  std::optional<Triangulation> polygons;  // that the triangles make up; none where all faces are triangles
+  std::vector<std::string> warnings;      // about the polygons
   std::optional<SoundSurface> surface;
   std::optional<EdgeWeights> weights;
   std::optional<std::pair<std::vector<int>, int>>
@@ -124,6 +158,71 @@ struct Preparation {
   CutMesh cut;
   std::shared_ptr<LaplacianReuse> laplacians = reusable_laplacians(Kept::order);
 };
+
+// The triangles that stand for polygons; what is known of the polygons goes into `prepared`.
+Mesh prepare(const PolygonMesh& mesh, const EmbedOptions& options, Preparation& prepared) {
+  require_weights_of_polygons(options);
+  DividedMesh divided = divide(mesh);
+  prepared.surface = std::move(divided.surface);
+  prepared.polygons = std::move(divided.triangulation);
+  for (const WeakPlace& place : find_weak_places(mesh))
+    if (place.kind == WeakPlaceKind::degree_two || place.kind == WeakPlaceKind::double_contact)
+      prepared.warnings.push_back("the mesh is not 3-connected: " + place.message);
+  return std::move(divided.triangles);
+}
+
+// Faces on vertices of the mesh or of its cut: the triangles, or the polygons that they make up.
+class InputFaces {
+ public:
+  InputFaces(const Preparation& prepared, const Faces& triangles, const std::vector<char>& turned = {})
+      : polygons_(prepared.polygons ? prepared.polygons->polygons(triangles, turned) : Polygons()),
+        view_(prepared.polygons ? FaceView(polygons_) : FaceView(triangles)) {}
+  InputFaces(const InputFaces&) = delete;
+  InputFaces& operator=(const InputFaces&) = delete;
+
+  const Polygons& polygons() const { return polygons_; }
+  const FaceView& view() const { return view_; }
+
+ private:
+  Polygons polygons_;
+  FaceView view_;
+};
+
+// The input vertices of each mirror, along the boundary.
+std::vector<std::vector<int>> mirrors_of(const Tile& tile, const BoundaryConditions& boundary,
+                                         const std::vector<int>& source_vertex) {
+  std::vector<std::vector<int>> mirrors;
+  for (std::size_t s = 0; s < tile.sides.size(); ++s) {
+    if (tile.sides[s].partner != static_cast<int>(s)) continue;
+    std::vector<int>& mirror = mirrors.emplace_back();
+    for (const int v : boundary.sides[s]) mirror.push_back(source_vertex[v]);
+  }
+  return mirrors;
+}
+
+// How many of the faces are among the collapsing ones, or share an edge with one of them at the least.
+long count_in_or_beside(const std::vector<int>& collapsing, const FaceView& faces,
+                        const std::vector<int>& among) {
+  std::unordered_set<int> vertices;
+  for (const int f : collapsing) vertices.insert(faces[f].begin(), faces[f].end());
+  return std::count_if(among.begin(), among.end(), [&](int f) {
+    return std::count_if(faces[f].begin(), faces[f].end(), [&](int v) { return vertices.count(v) > 0; }) > 1;
+  });
+}
+
+// About faces that are not positively oriented, those of them that no solver could have done better.
+void warn_of_collapse(const FaceView& faces, const std::vector<int>& collapsing, EmbedResult& result) {
+  const std::vector<int>& nonpositive = result.certificate.nonpositive_faces;
+  const long unavoidable = count_in_or_beside(collapsing, faces, nonpositive);
+  if (unavoidable == 0) return;
+  result.warnings.push_back(
+      fmt::format("{} of the {} faces that are not positively oriented must become arcs, or lie beside such "
+                  "faces, the first "
+                  "face {}: the mesh is not 3-connected there, and no failure of the solver (see 'orbitutte "
+                  "info'); mark a "
+                  "vertex there, or give it further edges",
+                  unavoidable, nonpositive.size(), collapsing.front()));
+}
 
 EmbedResult embed_here(const Mesh& mesh, Preparation& prepared, const Orbifold& orbifold,
                        const std::vector<int>& marked_vertices, const EmbedOptions& options) {
@@ -187,8 +286,10 @@ EmbedResult embed_here(const Mesh& mesh, Preparation& prepared, const Orbifold& 
     const SphericalEnergy there(glued_edges(cut, connectivity, boundary), weights, boundary);
     positions = settle_in_frame(positions, *frame, there, boundary);
   }
-  const std::vector<Ear> ears = find_ears(cut, tile, boundary);
+  const InputFaces faces(prepared, mesh.F), cut_faces(prepared, cut.F, cut.turned);
+  const std::vector<Ear> ears = find_ears(cut_faces.view(), tile, boundary);
   result.warnings = warnings_about(weights, ears);
+  result.warnings.insert(result.warnings.end(), prepared.warnings.begin(), prepared.warnings.end());
   round_outward(ears, positions);
 
   result.embedding = {orbifold.signature,
@@ -197,11 +298,17 @@ EmbedResult embed_here(const Mesh& mesh, Preparation& prepared, const Orbifold& 
                       cut.F,
                       cut.source_vertex,
                       boundary.seams,
-                      boundary.cones};
+                      boundary.cones,
+                      cut_faces.polygons()};
   stage("certify", [&] {
-    result.certificate = certify(mesh, result.embedding);
+    result.certificate = certify(static_cast<int>(mesh.V.rows()), faces.view(), result.embedding);
     result.distortion = measure_distortion(mesh, result.embedding);
   });
+  if (!result.certificate.nonpositive_faces.empty())
+    warn_of_collapse(
+        faces.view(),
+        collapsing_faces(faces.view(), mirrors_of(tile, boundary, cut.source_vertex), marked_vertices),
+        result);
   if (result.minimum.termination != Termination::converged) {
     result.certificate.bijective = false;
     result.certificate.checks.push_back({"converged", false, result.minimum.gradient_norm, options.tolerance,
@@ -212,6 +319,13 @@ EmbedResult embed_here(const Mesh& mesh, Preparation& prepared, const Orbifold& 
   result.zero_area_faces = prepared.surface->zero_area_faces;
   result.weights = weights;
   return result;
+}
+
+std::vector<int> far_from_each_other(const Mesh& mesh, const SoundSurface& surface,
+                                     const Orbifold& orbifold) {
+  require_topology(surface.topology, orbifold);
+  return extremities(mesh, surface.connectivity, orbifold.inner_marks,
+                     static_cast<int>(orbifold.marks.size()) - orbifold.inner_marks);
 }
 
 EmbedResult embed_prepared(const Mesh& mesh, Preparation& prepared, const Orbifold& orbifold,
@@ -229,6 +343,14 @@ EmbedResult embed(const Mesh& mesh, const Orbifold& orbifold, const std::vector<
   return embed_prepared(mesh, prepared, orbifold, marked_vertices, options);
 }
 
+EmbedResult embed(const PolygonMesh& mesh, const Orbifold& orbifold, const std::vector<int>& marked_vertices,
+                  const EmbedOptions& options) {
+  if (is_triangle_mesh(mesh)) return embed(to_triangle_mesh(mesh), orbifold, marked_vertices, options);
+  Preparation prepared;
+  const Mesh triangles = prepare(mesh, options, prepared);
+  return embed_prepared(triangles, prepared, orbifold, marked_vertices, options);
+}
+
 struct EmbeddingSolver::State {
   Mesh mesh;
   EmbedOptions options;
@@ -239,6 +361,16 @@ EmbeddingSolver::EmbeddingSolver(Mesh mesh, EmbedOptions options)
     : state_(std::make_unique<State>(State{std::move(mesh), std::move(options), {}})) {
   state_->prepared.laplacians = reusable_laplacians(Kept::factors);
 }
+
+EmbeddingSolver::EmbeddingSolver(const PolygonMesh& mesh, EmbedOptions options)
+    : EmbeddingSolver(Mesh(), std::move(options)) {
+  if (is_triangle_mesh(mesh)) {
+    state_->mesh = to_triangle_mesh(mesh);
+    return;
+  }
+  state_->mesh = prepare(mesh, state_->options, state_->prepared);
+}
+
 EmbeddingSolver::~EmbeddingSolver() = default;
 EmbeddingSolver::EmbeddingSolver(EmbeddingSolver&&) noexcept = default;
 
@@ -247,10 +379,13 @@ EmbedResult EmbeddingSolver::embed(const Orbifold& orbifold, const std::vector<i
 }
 
 std::vector<int> choose_marked_vertices(const Mesh& mesh, const Orbifold& orbifold) {
-  const SoundSurface surface = require_surface(mesh);
-  require_topology(surface.topology, orbifold);
-  return extremities(mesh, surface.connectivity, orbifold.inner_marks,
-                     static_cast<int>(orbifold.marks.size()) - orbifold.inner_marks);
+  return far_from_each_other(mesh, require_surface(mesh), orbifold);
+}
+
+std::vector<int> choose_marked_vertices(const PolygonMesh& mesh, const Orbifold& orbifold) {
+  if (is_triangle_mesh(mesh)) return choose_marked_vertices(to_triangle_mesh(mesh), orbifold);
+  const DividedMesh divided = divide(mesh);
+  return far_from_each_other(divided.triangles, divided.surface, orbifold);
 }
 
 }  // namespace orbitutte

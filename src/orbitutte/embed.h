@@ -69,12 +69,22 @@ struct EmbedResult {
 EmbedResult embed(const Mesh& mesh, const Orbifold& orbifold, const std::vector<int>& marked_vertices,
                   const EmbedOptions& options = {});
 
+/// The same for a mesh with faces of any number of corners, embedded with the edges of its faces and none
+/// else: the polygons become convex. Cotangents are those of triangulate(mesh), whose triangles are also the
+/// faces of the result beside its polygons, and the distortion is theirs. Throws ArgumentError for other
+/// weights than cotangents, uniform ones and a file.
+EmbedResult embed(const PolygonMesh& mesh, const Orbifold& orbifold, const std::vector<int>& marked_vertices,
+                  const EmbedOptions& options = {});
+
 /// For many embeddings of one mesh: keeps what depends neither on the cones nor on their orders, and those
 /// factors of the last embedding that fit the next. Results are those of the function above.
 class EmbeddingSolver {
  public:
   /// Keeps a copy of the mesh.
   explicit EmbeddingSolver(Mesh mesh, EmbedOptions options = {});
+
+  /// Keeps what it needs of the mesh, which it validates at once. Throws as embed does.
+  explicit EmbeddingSolver(const PolygonMesh& mesh, EmbedOptions options = {});
   ~EmbeddingSolver();
   EmbeddingSolver(EmbeddingSolver&&) noexcept;
 
@@ -89,5 +99,6 @@ class EmbeddingSolver {
 /// Well separated extremities for the marks of the orbifold, inside a disk or on its boundary as each has to
 /// be. Throws MeshError where the mesh is not what the orbifold needs.
 std::vector<int> choose_marked_vertices(const Mesh& mesh, const Orbifold& orbifold);
+std::vector<int> choose_marked_vertices(const PolygonMesh& mesh, const Orbifold& orbifold);
 
 }  // namespace orbitutte

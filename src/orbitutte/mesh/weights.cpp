@@ -43,9 +43,10 @@ EdgeWeights cotangent_weights(const Mesh& mesh, const Connectivity& connectivity
   });
   parallel_ranges(halfedges, [&](int begin, int end) {
     for (int h = begin; h < end; ++h) {
-      const int other = connectivity.opposite[h];
-      if (other < 0) result.w[connectivity.edge_of[h]] = cotangent[h];
-      if (other > h) result.w[connectivity.edge_of[h]] = cotangent[h] + cotangent[other];
+      const int other = connectivity.opposite[h], e = connectivity.edge_of[h];
+      if (e < 0) continue;  // a diagonal
+      if (other < 0) result.w[e] = cotangent[h];
+      if (other > h) result.w[e] = cotangent[h] + cotangent[other];
     }
   });
   for (double& w : result.w) {

@@ -218,7 +218,7 @@ std::string report_json(const EmbedResult& result, const RunRecord& run) {
       {"mesh",
        {{"path", run.mesh_path},
         {"vertices", vertices},
-        {"faces", embedding.faces.rows()},
+        {"faces", embedding.input_faces().count()},
         {"topology", name(result.topology)},
         {"unreferenced_vertices", result.unreferenced_vertices},
         {"zero_area_faces", result.zero_area_faces}}},

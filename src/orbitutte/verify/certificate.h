@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "orbitutte/mesh/polygon_mesh.h"
 #include "orbitutte/orbifold/embedding.h"
 
 namespace orbitutte {
@@ -20,7 +21,8 @@ struct Check {
 
 struct Certificate {
   bool bijective = false;              ///< all checks passed
-  std::vector<int> nonpositive_faces;  ///< faces with det[a b c] <= 0, exact in sign
+  std::vector<int> nonpositive_faces;  ///< faces with det[a b c] <= 0, exact in sign; polygons that are not
+                                       ///< convex or not counterclockwise
   double signed_area = 0;
   double expected_area = 0;      ///< 4 pi/|G|
   double max_edge_length = 0;    ///< radians
@@ -38,5 +40,12 @@ struct Certificate {
 /// the input mesh, whose faces the cut mesh must have. Never throws on account of the embedding: whatever
 /// does not hold is a failed check.
 Certificate certify(const Mesh& mesh, const Embedding& embedding);
+
+/// The same for polygons: each is divided into triangles around its middle, which have to be positive, and
+/// has to be convex (see concave_corners).
+Certificate certify(const PolygonMesh& mesh, const Embedding& embedding);
+
+/// The same for a mesh of so many vertices with these faces, whichever they are.
+Certificate certify(int vertex_count, const FaceView& faces, const Embedding& embedding);
 
 }  // namespace orbitutte
