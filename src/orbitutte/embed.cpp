@@ -92,8 +92,8 @@ DividedMesh divide(const PolygonMesh& mesh) {
   DividedMesh result;
   result.triangulation = triangulate(mesh);
   result.triangles = {mesh.V, on_vertices(result.triangulation, mesh.corners)};
-  result.surface = {inspection.topology, connect(mesh, result.triangulation), inspection.unreferenced_vertices,
-                    inspection.zero_area_faces};
+  result.surface = {inspection.topology, connect(mesh, result.triangulation),
+                    inspection.unreferenced_vertices, inspection.zero_area_faces};
   return result;
 }
 
@@ -101,10 +101,10 @@ void require_weights_of_polygons(const EmbedOptions& options) {
   using enum WeightKind;
   const WeightKind kind = options.weights.kind;
   if (!options.weights_file.empty() || kind == cotan || kind == uniform) return;
-  throw ArgumentError(
-      fmt::format("{} weights are not there for faces of more than three corners; take cotan or uniform, or a "
-                  "file of weights",
-                  name(kind)));
+  throw ArgumentError(fmt::format(
+      "{} weights are not there for faces of more than three corners; take cotan or uniform, or a "
+      "file of weights",
+      name(kind)));
 }
 
 // Cones that lie opposite to each other need more than one edge between them: every arc of length pi is as
@@ -142,11 +142,11 @@ std::vector<std::string> warnings_about(const EdgeWeights& weights, const std::v
     warnings.push_back(fmt::format("{} edges have the weight zero; the theory asks for positive weights",
                                    weights.zero_edges));
   if (!ears.empty())
-    warnings.push_back(
-        fmt::format("{} faces have all edges but one on one mirror and must become arcs, the first face {}: their "
-                    "areas are rounding errors; "
-                    "swap their inner edges, or mark their tips",
-                    count_faces(ears), ears.front().face));
+    warnings.push_back(fmt::format(
+        "{} faces have all edges but one on one mirror and must become arcs, the first face {}: their "
+        "areas are rounding errors; "
+        "swap their inner edges, or mark their tips",
+        count_faces(ears), ears.front().face));
   return warnings;
 }
 
@@ -218,11 +218,13 @@ void warn_of_collapse(const FaceView& faces, const std::vector<int>& collapsing,
   const std::vector<int>& nonpositive = result.certificate.nonpositive_faces;
   const long unavoidable = count_in_or_beside(collapsing, faces, nonpositive);
   if (unavoidable == 0) return;
-  result.warnings.push_back(fmt::format(
-      "{} of the {} faces that are not positively oriented must become arcs, or lie beside such faces, the first "
-      "face {}: the mesh is not 3-connected there, and no failure of the solver (see 'orbitutte info'); mark a "
-      "vertex there, or give it further edges",
-      unavoidable, nonpositive.size(), collapsing.front()));
+  result.warnings.push_back(
+      fmt::format("{} of the {} faces that are not positively oriented must become arcs, or lie beside such "
+                  "faces, the first "
+                  "face {}: the mesh is not 3-connected there, and no failure of the solver (see 'orbitutte "
+                  "info'); mark a "
+                  "vertex there, or give it further edges",
+                  unavoidable, nonpositive.size(), collapsing.front()));
 }
 
 EmbedResult embed_here(const Mesh& mesh, Preparation& prepared, const Orbifold& orbifold,
@@ -306,9 +308,10 @@ EmbedResult embed_here(const Mesh& mesh, Preparation& prepared, const Orbifold& 
     result.distortion = measure_distortion(mesh, result.embedding);
   });
   if (!result.certificate.nonpositive_faces.empty())
-    warn_of_collapse(faces.view(),
-                     collapsing_faces(faces.view(), mirrors_of(tile, boundary, cut.source_vertex), marked_vertices),
-                     result);
+    warn_of_collapse(
+        faces.view(),
+        collapsing_faces(faces.view(), mirrors_of(tile, boundary, cut.source_vertex), marked_vertices),
+        result);
   if (result.minimum.termination != Termination::converged) {
     result.certificate.bijective = false;
     result.certificate.checks.push_back({"converged", false, result.minimum.gradient_norm, options.tolerance,
@@ -321,7 +324,8 @@ EmbedResult embed_here(const Mesh& mesh, Preparation& prepared, const Orbifold& 
   return result;
 }
 
-std::vector<int> far_from_each_other(const Mesh& mesh, const SoundSurface& surface, const Orbifold& orbifold) {
+std::vector<int> far_from_each_other(const Mesh& mesh, const SoundSurface& surface,
+                                     const Orbifold& orbifold) {
   require_topology(surface.topology, orbifold);
   return extremities(mesh, surface.connectivity, orbifold.inner_marks,
                      static_cast<int>(orbifold.marks.size()) - orbifold.inner_marks);

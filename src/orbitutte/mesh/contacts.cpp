@@ -43,9 +43,9 @@ class ContactSearch {
   void for_neighbors(int node, const Visit& visit) const {
     for (int k = 0; k < degree(node); ++k) {
       const int neighbor =
-          is_face(node)
-              ? surface_.origin[surface_.face_start[node - vertex_count_] + k]
-              : vertex_count_ + surface_.face_of[corners_of_vertex_.items[corners_of_vertex_.start[node] + k]];
+          is_face(node) ? surface_.origin[surface_.face_start[node - vertex_count_] + k]
+                        : vertex_count_ +
+                              surface_.face_of[corners_of_vertex_.items[corners_of_vertex_.start[node] + k]];
       if (!done_[neighbor]) visit(neighbor);
     }
   }

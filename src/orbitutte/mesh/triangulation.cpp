@@ -85,8 +85,8 @@ class Clipping {
   const PolygonMesh& mesh_;
   const int first_;
   int left_;
-  std::vector<int> previous_, next_;  // of each corner; -1 behind one that is cut off
-  Vector3 normal_;                    // twice the vector area
+  std::vector<int> previous_, next_;                  // of each corner; -1 behind one that is cut off
+  Vector3 normal_;                                    // twice the vector area
   std::priority_queue<std::pair<double, int>> best_;  // quality, minus the corner: the first of equal ones
 };
 

@@ -22,8 +22,8 @@ bool is_triangle_mesh(const PolygonMesh& mesh);
 
 /// Cuts off a polygon's corners one after the other, always the one whose triangle is nearest to an
 /// equilateral one (the largest area over the sum of its squared sides, negative where the polygon bends
-/// inwards), until four corners are left, and these by the diagonal whose worse triangle is the better. O(c log
-/// c) for c corners. The mesh is expected to have passed `inspect`.
+/// inwards), until four corners are left, and these by the diagonal whose worse triangle is the better. O(c
+/// log c) for c corners. The mesh is expected to have passed `inspect`.
 Triangulation triangulate(const PolygonMesh& mesh);
 
 /// Every polygon in triangles from its first corner: what convex ones need.

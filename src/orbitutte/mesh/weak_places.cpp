@@ -36,8 +36,7 @@ class Places {
 
 int boundary_edges(const PolygonTopology& surface, int f) {
   const auto begin = surface.twin.begin();
-  return static_cast<int>(
-      std::count(begin + surface.face_start[f], begin + surface.face_start[f + 1], -1));
+  return static_cast<int>(std::count(begin + surface.face_start[f], begin + surface.face_start[f + 1], -1));
 }
 
 // Has the face all edges but one on the boundary?
@@ -112,7 +111,8 @@ Places faces_on_the_boundary(const PolygonTopology& surface, const std::vector<c
 Places double_contact_places(const PolygonTopology& surface, int vertex_count) {
   Places places(WeakPlaceKind::double_contact);
   for (const auto& [f, g, v, w] : double_contacts(surface, vertex_count))
-    places.add("faces {} and {} share the vertices {} and {}, which no edge joins that both have", f, g, v, w);
+    places.add("faces {} and {} share the vertices {} and {}, which no edge joins that both have", f, g, v,
+               w);
   return places;
 }
 
@@ -300,7 +300,7 @@ std::vector<WeakPlace> find_weak_places(const PolygonMesh& mesh) {
       .append_to(places, "what it cuts off becomes an arc, unless a vertex there is marked");
   if (!is_triangle_mesh(mesh))  // two triangles that share two vertices share the edge between them
     double_contact_places(surface, mesh.vertex_count())
-      .append_to(places, "what they enclose becomes an arc, unless a vertex there is marked");
+        .append_to(places, "what they enclose becomes an arc, unless a vertex there is marked");
   return places;
 }
 

@@ -43,7 +43,7 @@ struct Embedding {
   std::string signature;  ///< Conway's symbol
   int group_order = 1;    ///< |G|
   Points positions;       ///< n_cut x 3, on the unit sphere; vertices that no face uses sit at the north pole
-  Faces faces;            ///< m x 3, the faces of the input in their order, on cut vertices; polygons in triangles
+  Faces faces;  ///< m x 3, the faces of the input in their order, on cut vertices; polygons in triangles
   std::vector<int>
       source_vertex;  ///< n_cut: the input vertex; the first n cut vertices are the input vertices
   std::vector<Seam> seams;

@@ -17,9 +17,9 @@ struct TileCopy {
 };
 
 struct Tiling {
-  Mesh mesh;                     ///< closed, on the unit sphere, every triangle counterclockwise from outside
-  std::vector<int> tile;         ///< m |G|: the copy of the tile that holds the triangle, an index into copies
-  std::vector<int> source_face;  ///< m |G|: the face of the input mesh
+  Mesh mesh;              ///< closed, on the unit sphere, every triangle counterclockwise from outside
+  std::vector<int> tile;  ///< m |G|: the copy of the tile that holds the triangle, an index into copies
+  std::vector<int> source_face;    ///< m |G|: the face of the input mesh
   std::vector<int> source_vertex;  ///< the input vertex of every vertex
   int tiles = 0;                   ///< |G|
   std::vector<TileCopy> copies;    ///< |G|, the identity first

@@ -80,9 +80,8 @@ std::string ply_bytes(const Tiling& tiling) {
     append_little_endian(bytes, tiling.source_vertex[v]);
   }
   for (int f = 0; f < faces.count(); ++f) {  // tile by tile
-    visit_type(count_type, [&](auto type) {
-      append_little_endian(bytes, static_cast<decltype(type)>(faces[f].size()));
-    });
+    visit_type(count_type,
+               [&](auto type) { append_little_endian(bytes, static_cast<decltype(type)>(faces[f].size())); });
     for (const int v : faces[f]) append_little_endian(bytes, v);
     const TileCopy& copy = tiling.copies[f / faces_per_tile];
     const Rgb colour = tile_colour(copy.colour, copy.mirrored);

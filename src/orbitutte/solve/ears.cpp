@@ -30,7 +30,8 @@ class EarSearch {
       if (faces_at_[v] != 1) continue;
       if (last_face_[v] != face) {  // the tips of a face follow each other
         face = last_face_[v];
-        is_ear = std::all_of(faces_[face].begin(), faces_[face].end(), [&](int w) { return side_of_[w] == s; });
+        is_ear =
+            std::all_of(faces_[face].begin(), faces_[face].end(), [&](int w) { return side_of_[w] == s; });
       }
       if (is_ear) ears.push_back({face, v, outward});
     }

@@ -8,12 +8,12 @@
 
 namespace orbitutte {
 
-/// A face with all edges but one on one mirror, as a triangle with two of them, seen from one of its tips. All
-/// its vertices stay on the mirror's great circle, so its image is an arc and its area zero, whatever the
+/// A face with all edges but one on one mirror, as a triangle with two of them, seen from one of its tips.
+/// All its vertices stay on the mirror's great circle, so its image is an arc and its area zero, whatever the
 /// weights.
 struct Ear {
   int face = -1;
-  int tip = -1;                       ///< a vertex between two edges on the mirror, which belongs to no other face
+  int tip = -1;  ///< a vertex between two edges on the mirror, which belongs to no other face
   Vector3 outward = Vector3::Zero();  ///< the mirror's unit normal, away from the tile
 };
 

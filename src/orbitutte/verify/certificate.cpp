@@ -336,9 +336,8 @@ Check edge_length_check(const Embedding& embedding, double& longest) {
   };
   const double widest = parallel_max(faces.count(), [&](int f) { return largest(f, squared_chord); });
   longest = parallel_max(faces.count(), [&](int f) {
-    return largest(f, [&](int a, int b) {
-      return squared_chord(a, b) < widest ? 0.0 : arc_length(X.row(a), X.row(b));
-    });
+    return largest(
+        f, [&](int a, int b) { return squared_chord(a, b) < widest ? 0.0 : arc_length(X.row(a), X.row(b)); });
   });
   Check check = {"edge_lengths", longest < pi, longest, pi, {}};
   if (!check.passed) check.detail = "an edge is not shorter than pi";

@@ -21,8 +21,8 @@ struct Check {
 
 struct Certificate {
   bool bijective = false;              ///< all checks passed
-  std::vector<int> nonpositive_faces;  ///< faces with det[a b c] <= 0, exact in sign; polygons that are not convex
-                                       ///< or not counterclockwise
+  std::vector<int> nonpositive_faces;  ///< faces with det[a b c] <= 0, exact in sign; polygons that are not
+                                       ///< convex or not counterclockwise
   double signed_area = 0;
   double expected_area = 0;      ///< 4 pi/|G|
   double max_edge_length = 0;    ///< radians
@@ -38,8 +38,8 @@ struct Certificate {
 /// does not hold is a failed check.
 Certificate certify(const Mesh& mesh, const Embedding& embedding);
 
-/// The same for polygons: each is divided into triangles around its middle, which have to be positive, and has
-/// to be convex (see concave_corners).
+/// The same for polygons: each is divided into triangles around its middle, which have to be positive, and
+/// has to be convex (see concave_corners).
 Certificate certify(const PolygonMesh& mesh, const Embedding& embedding);
 
 /// The same for a mesh of so many vertices with these faces, whichever they are.

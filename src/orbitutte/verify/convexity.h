@@ -10,7 +10,7 @@ namespace orbitutte {
 
 /// Every polygon divided into the triangles between its edges and a new vertex in its middle.
 struct DividedPolygons {
-  Embedding embedding;       ///< in triangles alone; the new vertices follow the cut vertices, their source is -1
+  Embedding embedding;  ///< in triangles alone; the new vertices follow the cut vertices, their source is -1
   std::vector<int> face_of;  ///< of every triangle: the input face
 };
 
@@ -24,9 +24,9 @@ struct ConcaveCorner {
   int vertex = -1;  ///< of the cut mesh
 };
 
-/// One corner of every polygon that is not strictly convex, exact in sign, ascending by faces. At vertices with
-/// two edges, which are no cones, the exact map is straight, be it between two faces or along a mirror: there
-/// the vertex may be off the arc between its neighbours by `straight_bound` radians to either side.
+/// One corner of every polygon that is not strictly convex, exact in sign, ascending by faces. At vertices
+/// with two edges, which are no cones, the exact map is straight, be it between two faces or along a mirror:
+/// there the vertex may be off the arc between its neighbours by `straight_bound` radians to either side.
 std::vector<ConcaveCorner> concave_corners(const Embedding& embedding, double straight_bound);
 
 }  // namespace orbitutte
