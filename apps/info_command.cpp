@@ -78,9 +78,10 @@ void print_text(const std::string& path, const Inspection& inspection, const std
              inspection.boundary.size());
   for (const std::vector<int>& loop : inspection.boundary)
     fmt::print("    boundary of {} edges through vertex {}\n", loop.size(), loop.front());
-  fmt::print("  angles {:.3g} to {:.3g} degrees, edges {:.4g} to {:.4g}, zero-area faces {}\n",
-             degrees(inspection.min_angle), degrees(inspection.max_angle), inspection.min_edge_length,
-             inspection.max_edge_length, inspection.zero_area_faces);
+  if (inspection.triangles > 0)
+    fmt::print("  angles {:.3g} to {:.3g} degrees, edges {:.4g} to {:.4g}, zero-area faces {}\n",
+               degrees(inspection.min_angle), degrees(inspection.max_angle), inspection.min_edge_length,
+               inspection.max_edge_length, inspection.zero_area_faces);
   fmt::print("  cotangent weights: {} negative, {} zero\n", inspection.negative_cotangent_edges,
              inspection.zero_cotangent_edges);
   for (const Defect& defect : inspection.defects) fmt::print("  defect: {}\n", defect.message);

@@ -9,6 +9,8 @@ is no part of it: where it is missing, everything is skipped. Needs numpy.
   tile          the tiling of one embedding of each family is a closed surface of Euler characteristic 2, counterclockwise
   golden        the reference's energies to 1e-9 (relative) and edge lengths to 1e-7, with the reference's weights
   cut-seed      20 cuts of the same mesh: no edge length changes by more than 1e-8
+  polygons      meshes of polygons, made of the same meshes: certified, convex, in their order; the checker accepts the map
+                divided into triangles, energy and gradient included; the tiling in polygons is a closed sphere
   repeat        two runs give the same bytes, but for times and memory in the report
   fault         'orbitutte verify' rejects, with exit code 5, embeddings and reports that were tampered with
 """
@@ -52,6 +54,8 @@ ALL_SEEDS = {('my_man_maxp.off', '532'): 20, ('david_50k.off', '532'): 20, ('cam
 KNOWN_HARD = {'octocat.off'}
 
 MAX_ITERATIONS_THREE_CONES = 14
+
+MOST_POLYGONS_TILED = 300000  # the time it takes to look at them one by one
 
 REPORT_KEYS = {
     '': ['schema', 'mesh', 'orbifold', 'cones', 'seams', 'weights', 'energy', 'iterations', 'evaluations', 'termination',
@@ -161,6 +165,101 @@ def check_closed_sphere(ply, copies, tile_faces):
     expect(abs(area - 4 * np.pi) < 1e-8, f'an area of {area:.12g}, not 4 pi')
 
 
+# Meshes of polygons: vertices and a list of faces.
+
+def quadrangulated(vertices, faces):
+    """Every triangle in three quadrilaterals around its middle; old vertices keep their numbers."""
+    n, m = len(vertices), len(faces)
+    ends, edge = np.unique(np.sort(half_edges(faces), axis=1), axis=0, return_inverse=True)
+    edge = n + edge.reshape(3, m)
+    middle = n + len(ends) + np.arange(m)
+    points = np.concatenate([vertices, vertices[ends].mean(1), vertices[faces].mean(1)])
+    return points, np.stack([np.stack([faces[:, k], edge[k], middle, edge[k - 1]], 1) for k in range(3)], 1).reshape(-1, 4).tolist()
+
+
+def dual(vertices, faces):
+    """A vertex in the middle of every triangle of a closed mesh, a face around every vertex."""
+    after = {}  # vertex -> the next neighbour around it and the triangle between, by neighbour
+    for f, triangle in enumerate(faces.tolist()):
+        for k, v in enumerate(triangle):
+            after.setdefault(v, {})[triangle[k - 2]] = (triangle[k - 1], f)
+    polygons = []
+    for v in sorted(after):
+        first = neighbour = min(after[v])
+        polygon = []
+        while not polygon or neighbour != first:
+            neighbour, f = after[v][neighbour]
+            polygon.append(f)
+        polygons.append(polygon)
+    return vertices[faces].mean(1), polygons
+
+
+def write_off(path, vertices, faces):
+    lines = ['OFF', f'{len(vertices)} {len(faces)} 0']
+    lines += [' '.join(map(repr, vertex)) for vertex in vertices.tolist()]
+    lines += [' '.join(map(str, [len(face), *face])) for face in faces]
+    pathlib.Path(path).write_text('\n'.join(lines) + '\n')
+
+
+def read_off_triangles(path):
+    words = pathlib.Path(path).read_text().split()
+    n, m = int(words[1]), int(words[2])
+    faces = np.array(words[4 + 3 * n:4 + 3 * n + 4 * m], np.int64).reshape(m, 4)
+    return np.array(words[4:4 + 3 * n], float).reshape(n, 3), faces[:, 1:]
+
+
+def read_polygons(path):
+    """The vertices of a PLY as the program writes it, as a structured array, and its faces as lists."""
+    data = pathlib.Path(path).read_bytes()
+    at = data.index(b'end_header\n') + len(b'end_header\n')
+    lines = [line.split() for line in data[:at].decode().splitlines()]
+    face = next(k for k, words in enumerate(lines) if words[:2] == ['element', 'face'])
+    vertex = next(k for k, words in enumerate(lines) if words[:2] == ['element', 'vertex'])
+    vertices = np.frombuffer(data, [(words[2], PLY_TYPES[words[1]]) for words in lines[vertex + 1:face]], int(lines[vertex][2]), at)
+    at += vertices.nbytes
+    further = np.dtype([(words[2], PLY_TYPES[words[1]]) for words in lines[face + 2:-1]]).itemsize
+    faces = []
+    for _ in range(int(lines[face][2])):
+        faces.append(np.frombuffer(data, '<i4', data[at], at + 1).tolist())
+        at += 1 + 4 * data[at] + further
+    expect(at == len(data), f'{path}: {len(data) - at} bytes too many')
+    return vertices, faces
+
+
+def write_triangles(path, vertices, triangles):
+    types = {'<f8': 'double', '<i4': 'int'}
+    properties = ''.join(f'property {types[vertices.dtype[name].str]} {name}\n' for name in vertices.dtype.names)
+    rows = np.zeros(len(triangles), [('corners', 'u1'), ('vertex_indices', '<i4', 3)])
+    rows['corners'], rows['vertex_indices'] = 3, triangles
+    header = (f'ply\nformat binary_little_endian 1.0\nelement vertex {len(vertices)}\n{properties}'
+              f'element face {len(rows)}\nproperty list uchar int vertex_indices\nend_header\n')
+    pathlib.Path(path).write_bytes(header.encode() + vertices.tobytes() + rows.tobytes())
+
+
+def fans(faces):
+    return [[face[0], face[k], face[k + 1]] for face in faces for k in range(1, len(face) - 1)]
+
+
+def edges_of(faces):
+    return {(min(a, b), max(a, b)) for face in faces for a, b in zip(face, face[1:] + face[:1])}
+
+
+def check_closed_polygons(vertices, faces):
+    """A closed oriented surface of Euler characteristic 2, all corners convex seen from outside up to rounding."""
+    directed = [(a, b) for face in faces for a, b in zip(face, face[1:] + face[:1])]
+    there = set(directed)
+    expect(len(there) == len(directed) and all((b, a) in there for a, b in directed),
+           'the surface is not closed and consistently oriented')
+    used = len({v for face in faces for v in face})
+    expect(used == len(vertices), 'a vertex in no face')
+    characteristic = used - len(directed) // 2 + len(faces)
+    expect(characteristic == 2, f'Euler characteristic {characteristic}')
+    x = np.stack([vertices[axis] for axis in 'xyz'], 1)
+    corners = np.array([corner for face in faces for corner in zip(face[-1:] + face[:-1], face, face[1:] + face[:1])])
+    a, b, c = x[corners[:, 0]], x[corners[:, 1]], x[corners[:, 2]]
+    expect(((a - b) * np.cross(b, c)).sum(1).min() > -1e-15, 'a face that is not convex')
+
+
 class Suite:
     def __init__(self, options):
         self.options = options
@@ -258,6 +357,36 @@ class Suite:
         self.run(commands, self.orbitutte, 'tile', ply, report_path(ply), '-o', tiling)
         check_closed_sphere(Ply(tiling), report['orbifold']['group_order'], report['mesh']['faces'])
 
+    def test_polygons(self, name, commands, folder, mesh, signature, make):
+        source = folder / 'polygons.off'
+        vertices, faces = make(*read_off_triangles(self.shared / 'meshes' / mesh))
+        write_off(source, vertices, faces)
+        info = json.loads(self.run(commands, self.orbitutte, 'info', source, '--json').stdout)
+        expect(not info['weak_places'], f"weak places: {info['weak_places']}")
+        for weights in ('cotan', 'uniform'):
+            ply, report_file, tiling = folder / f'{weights}.ply', folder / f'{weights}.json', folder / 'tiling.ply'
+            cones = ','.join(map(str, self.marked(mesh, signature))) if make is quadrangulated else 'auto'
+            self.run(commands, self.orbitutte, 'embed', source, '--orbifold', signature, '--cones', cones, '--weights', weights,
+                     '-o', ply, '--report', report_file, '--threads', self.threads, '--quiet')
+            report = json.loads(report_file.read_text())
+            self.row(f'{name}/{weights}', mesh, signature, report)
+            self.run(commands, self.orbitutte, 'verify', ply, report_file, source)
+            cut, cut_faces = read_polygons(ply)
+            expect([[int(cut['source_vertex'][v]) for v in face] for face in cut_faces] == faces, 'not the input faces in their order')
+            if len(faces) * report['orbifold']['group_order'] > MOST_POLYGONS_TILED:
+                continue
+            self.run(commands, self.orbitutte, 'tile', ply, report_file, '-o', tiling)
+            tiled, tiled_faces = read_polygons(tiling)
+            expect(len(tiled_faces) == len(faces) * report['orbifold']['group_order'], f'{len(tiled_faces)} faces in the tiling')
+            check_closed_polygons(tiled, tiled_faces)
+        # The checker knows triangles only: the convex faces in fans, whose diagonals have the weight zero.
+        write_off(folder / 'fans.off', vertices, fans(faces))
+        write_triangles(folder / 'fans.ply', cut, fans(cut_faces))
+        own = edges_of(faces)
+        (folder / 'weights.txt').write_text(''.join(f'{i} {j} {int((i, j) in own)}\n' for i, j in sorted(edges_of(fans(faces)))))
+        self.run(commands, PYTHON, self.checker, folder / 'fans.off', folder / 'fans.ply', report_file, '--weights-file',
+                 folder / 'weights.txt')
+
     def test_golden(self, name, commands, folder, golden_folder):
         golden = json.loads((golden_folder / 'golden.json').read_text())
         mesh, signature, cones = golden['mesh'], golden['signature'], golden['cones']
@@ -342,6 +471,11 @@ class Suite:
         for signature in ONE_OF_EACH_FAMILY:
             mesh = 'camelhead.off' if '*' in signature else 'boy.ply' if 'x' in signature else 'my_man_maxp.off'
             add(f'tile/{signature}', self.test_tile, mesh, signature)
+        for mesh, signature, make in [('my_man_maxp.off', '532', dual), ('my_man_maxp.off', '44', quadrangulated),
+                                      ('itokawa.off', '432', dual), ('camelhead.off', '*432', quadrangulated),
+                                      ('camelhead.off', '3*2', quadrangulated), ('camelhead.off', '5*', quadrangulated)]:
+            if not quick or (mesh, signature) in [('my_man_maxp.off', '532'), ('camelhead.off', '3*2')]:
+                add(f'polygons/{make.__name__}/{stem(mesh)}/{signature}', self.test_polygons, mesh, signature, make)
         for mesh, signature in [('my_man_maxp.off', '532'), ('my_man_maxp.off', '33'), ('camelhead.off', '*432'),
                                 ('camelhead.off', '3*2'), ('camelhead.off', '5*'), ('boy.ply', '3x')]:
             add(f'repeat/{stem(mesh)}/{signature}', self.test_repeat, mesh, signature)

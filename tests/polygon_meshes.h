@@ -27,8 +27,8 @@ inline std::vector<Vector3> point_list(const Points& V) {
   return result;
 }
 
-/// A vertex in the middle of every triangle of a closed mesh, a face around every vertex: all vertices have three
-/// edges.
+/// A vertex in the middle of every triangle of a closed mesh, a face around every vertex: all vertices have
+/// three edges.
 inline PolygonMesh dual(const Mesh& mesh) {
   const Connectivity connectivity = connect(mesh.F, vertex_count(mesh));
   std::vector<int> outgoing(vertex_count(mesh), -1);
@@ -61,7 +61,8 @@ inline PolygonMesh quadrangulated(const Mesh& mesh) {
   std::vector<std::vector<int>> faces;
   for (const auto& f : mesh.F.rowwise()) {
     const int a = f[0], b = f[1], c = f[2];
-    const int ab = midpoint(a, b), bc = midpoint(b, c), ca = midpoint(c, a), m = static_cast<int>(points.size());
+    const int ab = midpoint(a, b), bc = midpoint(b, c), ca = midpoint(c, a),
+              m = static_cast<int>(points.size());
     points.push_back((points[a] + points[b] + points[c]) / 3);
     faces.insert(faces.end(), {{a, ab, m, ca}, {b, bc, m, ab}, {c, ca, m, bc}});
   }

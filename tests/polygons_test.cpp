@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Meshes with faces of more than three corners: divided, embedded, certified, written and tiled.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
-
-#include <fmt/format.h>
 
 #include <Eigen/Geometry>
 #include <filesystem>
@@ -106,8 +105,7 @@ TEST(Triangulation, SquareGetsTheShorterDiagonal) {
 }
 
 TEST(Triangulation, TrianglesOfAPolygonThatBendsInwardsDoNotOverlap) {
-  const PolygonMesh arrow = test::polygon_mesh(
-      {{0, 0, 0}, {4, -3, 0}, {1, 0, 0}, {4, 3, 0}}, {{0, 1, 2, 3}});
+  const PolygonMesh arrow = test::polygon_mesh({{0, 0, 0}, {4, -3, 0}, {1, 0, 0}, {4, 3, 0}}, {{0, 1, 2, 3}});
   const Faces F = on_vertices(triangulate(arrow), arrow.corners);
   for (const auto& f : F.rowwise()) {
     const Vector3 a = arrow.V.row(f[0]), b = arrow.V.row(f[1]), c = arrow.V.row(f[2]);
@@ -195,8 +193,8 @@ TEST_P(PolygonsOfEveryFamily, AreTiledIntoAClosedSphere) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Polygons, PolygonsOfEveryFamily,
-                         testing::Values("532", "432", "332", "223", "2,2,12", "22", "55", "*532", "*432", "*332",
-                                         "*225", "*33", "3*2", "2*3", "2*12", "3*", "12*"),
+                         testing::Values("532", "432", "332", "223", "2,2,12", "22", "55", "*532", "*432",
+                                         "*332", "*225", "*33", "3*2", "2*3", "2*12", "3*", "12*"),
                          [](const auto& info) {
                            std::string name = info.param;
                            for (char& c : name) c = c == '*' ? 's' : c == ',' ? '_' : c;
@@ -204,7 +202,8 @@ INSTANTIATE_TEST_SUITE_P(Polygons, PolygonsOfEveryFamily,
                          });
 
 TEST(Polygons, RegularSolidsAreEmbedded) {
-  for (const PolygonMesh& mesh : {test::cube(), test::dual(test::icosahedron()), test::prism(7), test::pyramid(6)}) {
+  for (const PolygonMesh& mesh :
+       {test::cube(), test::dual(test::icosahedron()), test::prism(7), test::pyramid(6)}) {
     const auto [unused, result] = embedded(mesh, "332");
     EXPECT_TRUE(result.certificate.bijective) << failures(result.certificate);
   }
@@ -224,7 +223,8 @@ RC_GTEST_PROP(Polygons, DualsOfRandomTriangulationsAreEmbedded, ()) {
   const Mesh mesh = test::random_sphere(*rc::gen::arbitrary<std::uint32_t>(), *rc::gen::inRange(0, 15));
   const PolygonMesh polygons = test::dual(mesh);
   RC_ASSERT(find_weak_places(polygons).empty());
-  const std::vector<int> order = test::permutation(polygons.vertex_count(), *rc::gen::arbitrary<std::uint32_t>());
+  const std::vector<int> order =
+      test::permutation(polygons.vertex_count(), *rc::gen::arbitrary<std::uint32_t>());
   const EmbedResult result =
       embed(polygons, parse_orbifold("432"), {order[0], order[1], order[2]}, uniform_weights());
   if (!result.certificate.bijective) RC_FAIL(failures(result.certificate));
@@ -283,7 +283,8 @@ TEST(Polygons, SolverForManyEmbeddingsGivesTheSame) {
 TEST(Polygons, WeightsFileNamesTheirEdgesAndNoDiagonals) {
   const PolygonMesh mesh = test::cube();
   const std::string path = (std::filesystem::temp_directory_path() / "orbitutte_cube_weights.txt").string();
-  std::ofstream(path) << "0 1 1\n1 2 1\n2 3 1\n3 0 1\n4 5 1\n5 6 1\n6 7 1\n7 4 1\n0 4 1\n1 5 1\n2 6 1\n3 7 1\n";
+  std::ofstream(path)
+      << "0 1 1\n1 2 1\n2 3 1\n3 0 1\n4 5 1\n5 6 1\n6 7 1\n7 4 1\n0 4 1\n1 5 1\n2 6 1\n3 7 1\n";
   EmbedOptions options;
   options.weights_file = path;
   const EmbedResult result = embed(mesh, parse_orbifold("332"), {0, 2, 5}, options);
@@ -370,8 +371,8 @@ TEST(Polygons, PartBehindAChordOnOneMirrorMustCollapseAndIsReportedSo) {
   ASSERT_FALSE(result.warnings.empty());
   EXPECT_THAT(result.warnings.back(), HasSubstr("no failure of the solver"));
   const int m = mesh.face_count();
-  EXPECT_THAT(collapsing_faces(FaceView(mesh.corners, mesh.face_start),
-                               {{0, 1, 2, n, n + 1, n + 2, 4, 5, 6}}, {6, 48, 42}),
+  EXPECT_THAT(collapsing_faces(FaceView(mesh.corners, mesh.face_start), {{0, 1, 2, n, n + 1, n + 2, 4, 5, 6}},
+                               {6, 48, 42}),
               ElementsAre(m - 3, m - 2, m - 1));
 }
 
@@ -451,7 +452,8 @@ TEST_F(Faults, MirroredMapIsSeen) {
 TEST_F(Faults, MeshTurnedInsideOutIsSeen) {
   for (int f = 0; f < embedding().polygons.count(); ++f) {
     for (std::vector<int>* corners : {&embedding().polygons.corners, &sample_.mesh.corners})
-      std::reverse(corners->begin() + sample_.mesh.face_start[f], corners->begin() + sample_.mesh.face_start[f + 1]);
+      std::reverse(corners->begin() + sample_.mesh.face_start[f],
+                   corners->begin() + sample_.mesh.face_start[f + 1]);
   }
   const Certificate certificate = judged();
   EXPECT_FALSE(certificate.bijective);

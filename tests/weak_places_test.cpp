@@ -22,7 +22,8 @@ using testing::IsEmpty;
 
 std::vector<WeakPlace> places_of(const Mesh& mesh) { return find_weak_places(to_polygon_mesh(mesh)); }
 
-void expect_only(const std::vector<WeakPlace>& places, WeakPlaceKind kind, long long count, const std::string& text) {
+void expect_only(const std::vector<WeakPlace>& places, WeakPlaceKind kind, long long count,
+                 const std::string& text) {
   ASSERT_EQ(places.size(), 1u);
   EXPECT_EQ(places[0].kind, kind);
   EXPECT_EQ(places[0].count, count);
@@ -35,18 +36,20 @@ std::vector<int> collapsing(const PolygonMesh& mesh, const std::vector<std::vect
 }
 
 TEST(WeakPlaces, ThreeConnectedMeshesHaveNone) {
-  for (const Mesh& mesh : {test::tetrahedron(), test::icosphere(2), test::round_disk(4), test::projective_plane(1)})
+  for (const Mesh& mesh :
+       {test::tetrahedron(), test::icosphere(2), test::round_disk(4), test::projective_plane(1)})
     EXPECT_THAT(places_of(mesh), IsEmpty());
   for (const PolygonMesh& mesh :
-       {test::cube(), test::prism(3), test::prism(50), test::pyramid(3), test::pyramid(50), test::square_grid(5, 4),
-        test::dual(test::icosphere(1)), test::quadrangulated(test::icosphere(1)),
+       {test::cube(), test::prism(3), test::prism(50), test::pyramid(3), test::pyramid(50),
+        test::square_grid(5, 4), test::dual(test::icosphere(1)), test::quadrangulated(test::icosphere(1)),
         test::quadrangulated(test::round_disk(3))})
     EXPECT_THAT(find_weak_places(mesh), IsEmpty());
 }
 
 TEST(WeakPlaces, InnerVertexOfTwoEdgesIsNamed) {
   const PolygonMesh once = test::with_edge_divided(test::cube(), 0, 1);
-  expect_only(find_weak_places(once), WeakPlaceKind::degree_two, 1, "vertex 8 has no edges but to the vertices");
+  expect_only(find_weak_places(once), WeakPlaceKind::degree_two, 1,
+              "vertex 8 has no edges but to the vertices");
   const PolygonMesh twice = test::with_edge_divided(once, 0, 8);
   expect_only(find_weak_places(twice), WeakPlaceKind::degree_two, 2, "(2 such places)");
 }
@@ -75,10 +78,20 @@ TEST(WeakPlaces, ChordOfSquaresIsNamed) {
 
 TEST(WeakPlaces, FaceAcrossADiskIsNamed) {
   // Two strips of squares, joined by a hexagon that meets the boundary above and below.
-  const PolygonMesh mesh = test::polygon_mesh(
-      {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 2, 0}, {1, 2, 0}, {2, 0, 0}, {3, 0, 0}, {2, 1, 0}, {3, 1, 0},
-       {2, 2, 0}, {3, 2, 0}},
-      {{0, 1, 3, 2}, {2, 3, 5, 4}, {6, 7, 9, 8}, {8, 9, 11, 10}, {1, 6, 8, 10, 5, 3}});
+  const PolygonMesh mesh =
+      test::polygon_mesh({{0, 0, 0},
+                          {1, 0, 0},
+                          {0, 1, 0},
+                          {1, 1, 0},
+                          {0, 2, 0},
+                          {1, 2, 0},
+                          {2, 0, 0},
+                          {3, 0, 0},
+                          {2, 1, 0},
+                          {3, 1, 0},
+                          {2, 2, 0},
+                          {3, 2, 0}},
+                         {{0, 1, 3, 2}, {2, 3, 5, 4}, {6, 7, 9, 8}, {8, 9, 11, 10}, {1, 6, 8, 10, 5, 3}});
   ASSERT_THAT(inspect(mesh).defects, IsEmpty());
   bool found = false;
   for (const WeakPlace& place : find_weak_places(mesh))
@@ -145,7 +158,7 @@ PolygonMesh with_edges_removed(const Mesh& mesh, std::uint32_t seed, int removal
       if (g == f || at == faces[g].end()) continue;
       std::rotate(faces[g].begin(), at, faces[g].end());
       if (faces[g][1] != a) continue;
-      faces[f].erase(faces[f].begin());                                        // b ... without a
+      faces[f].erase(faces[f].begin());                                       // b ... without a
       faces[f].insert(faces[f].end(), faces[g].begin() + 1, faces[g].end());  // a ...
       faces.erase(faces.begin() + g);
       break;
