@@ -96,10 +96,13 @@ int tile_command(const TileArguments& arguments) {
 
 int sample_command(const SampleArguments& arguments) {
   SampleOptions options;
-  if (arguments.shape != "figure" && arguments.shape != "mask")
-    throw ArgumentError(fmt::format("--shape is '{}'; it may be figure or mask", arguments.shape));
-  options.shape = arguments.shape == "figure" ? SampleShape::figure : SampleShape::mask;
+  options.shape = sample_shape(arguments.shape);
   options.faces = arguments.faces;
+  if (passes_through_itself(options.shape) && mesh_format(arguments.output) == MeshFormat::stl)
+    throw ArgumentError(
+        fmt::format("STL tells vertices apart by their positions alone, and {} passes through itself, where "
+                    "different vertices may meet; write .obj, .off or .ply",
+                    arguments.shape));
   const Mesh mesh = sample_mesh(options);
   write_mesh(arguments.output, mesh);
   fmt::print(stderr, "{}: {} vertices, {} triangles\n", arguments.output, mesh.V.rows(), mesh.F.rows());

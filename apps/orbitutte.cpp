@@ -103,7 +103,10 @@ void add_sample(CLI::App& app, int& code) {
   auto* command = app.add_subcommand("sample", "Generate a mesh to try things on");
   auto arguments = std::make_shared<SampleArguments>();
   command->add_option("-o,--output", arguments->output, "The mesh: .obj, .off, .ply or .stl")->required();
-  command->add_option("--shape", arguments->shape, "figure (a sphere with limbs) or mask (a disk)")
+  command
+      ->add_option("--shape", arguments->shape,
+                   "figure (a sphere with limbs), mask (a disk), or a projective plane: boy (Boy's surface), "
+                   "roman (Steiner's), crosscap, quotient (a centrally symmetric figure's)")
       ->capture_default_str();
   command->add_option("--faces", arguments->faces, "About so many triangles")->capture_default_str();
   command->callback([arguments, &code] { code = run([&] { return sample_command(*arguments); }); });
