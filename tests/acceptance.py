@@ -38,7 +38,7 @@ ONE_OF_EACH_FAMILY = ['532', '432', '332', '223', '44', '*532', '*432', '*332', 
 QUICK_MESHES = {'my_man_maxp.off': SPHERE_SIGNATURES, 'thingi_62415.obj': SPHERE_SIGNATURES, 'itokawa.off': ['532', '22'],
                 'octocat.off': ['532'], 'camelhead.off': DISK_SIGNATURES[::2] + ['*33'] + MIXED_SIGNATURES[::2],
                 'fandisk.off': ['*432', '2*3', '8*']}
-QUICK_GOLDEN = ['my_man_maxp', 'fandisk_star243']
+QUICK_GOLDEN = ['my_man_maxp', 'fandisk_star243', 'fandisk_polygon']
 QUICK_SEEDS = {('my_man_maxp.off', '532'): 6, ('camelhead.off', '3*2'): 4, ('camelhead.off', '5*'): 4}
 ALL_SEEDS = {('my_man_maxp.off', '532'): 20, ('david_50k.off', '532'): 20, ('camelhead.off', '3*2'): 20,
              ('fandisk.off', '2*5'): 20, ('camelhead.off', '5*'): 20, ('fandisk.off', '2*'): 20}
@@ -188,8 +188,9 @@ class Suite:
 
     def embed(self, commands, folder, mesh, signature, cones, *options, name='embedding', codes=(0,)):
         ply, report = folder / f'{name}.ply', folder / f'{name}.json'
+        marked = ['--cones', ','.join(map(str, cones))] if cones else []  # a polygon's are in its file
         result = self.run(commands, self.orbitutte, 'embed', self.shared / 'meshes' / mesh, '--orbifold', signature,
-                          '--cones', ','.join(map(str, cones)), '-o', ply, '--report', report, '--threads', self.threads,
+                          *marked, '-o', ply, '--report', report, '--threads', self.threads,
                           '--quiet', *options, codes=codes)
         return result.returncode, ply, json.loads(report.read_text())
 
@@ -243,7 +244,11 @@ class Suite:
         golden = json.loads((golden_folder / 'golden.json').read_text())
         mesh, signature, cones = golden['mesh'], golden['signature'], golden['cones']
         weights = golden_folder / 'edges.txt'
-        _, ply, report = self.embed(commands, folder, mesh, signature, cones, '--weights-file', weights)
+        options = ['--weights-file', weights]
+        if signature == 'polygon':
+            cones = []
+            options += ['--polygon', write_corners(folder / 'corners.txt', golden['corners']), '--spread', 'equidistant']
+        _, ply, report = self.embed(commands, folder, mesh, signature, cones, *options)
         self.row(name, mesh, signature, report)
         path = self.shared / 'meshes' / mesh
         self.run(commands, PYTHON, self.checker, path, ply, report_path(ply), '--weights-file', weights)
@@ -316,7 +321,7 @@ class Suite:
                 add(f'embed/{stem(mesh)}/{signature}', self.test_embed, mesh, signature)
         for golden in sorted((self.shared / 'golden').glob('*/golden.json')):
             folder = golden.parent
-            if folder.name.endswith('polygon') or quick and not folder.name.startswith(tuple(QUICK_GOLDEN)):
+            if quick and not folder.name.startswith(tuple(QUICK_GOLDEN)):
                 continue
             add(f'golden/{folder.name}', self.test_golden, folder)
         for signature in ONE_OF_EACH_FAMILY:
@@ -340,6 +345,12 @@ def stem(mesh):
 
 def report_path(ply):
     return ply.with_suffix('.json')
+
+
+def write_corners(path, corners):
+    """The file for --polygon; its path."""
+    path.write_text(''.join(f"{corner['vertex']} {' '.join(map(repr, corner['position']))}\n" for corner in corners))
+    return path
 
 
 # Faults to plant: each changes the embedding or the report in place.

@@ -107,12 +107,20 @@ std::vector<std::string> warnings_about(const EdgeWeights& weights, const std::v
     warnings.push_back(fmt::format("{} edges have the weight zero; the theory asks for positive weights",
                                    weights.zero_edges));
   if (!ears.empty())
-    warnings.push_back(
-        fmt::format("{} triangles have two edges on one mirror and become arcs, the first face {}: their "
-                    "areas are rounding errors; "
-                    "swap their inner edges, or mark their tips",
-                    ears.size(), ears.front().face));
+    warnings.push_back(fmt::format(
+        "{} triangles have two edges on one mirror or held side and become arcs, the first face {}: their "
+        "areas are rounding errors; "
+        "swap their inner edges, or mark their tips",
+        ears.size(), ears.front().face));
   return warnings;
+}
+
+// Equations (3), (4) and (7), and the sides that theorem 1 holds.
+BoundaryConditions boundary_conditions(const Mesh& mesh, const CutMesh& cut, const Tile& tile,
+                                       const Orbifold& orbifold, Spread spread) {
+  BoundaryConditions boundary = glue(cut, tile, orbifold);
+  hold_sides(mesh, cut, tile, spread, boundary);
+  return boundary;
 }
 
 // What is known of a mesh before its cones are, and its last cut.
@@ -158,8 +166,8 @@ EmbedResult embed_here(const Mesh& mesh, Preparation& prepared, const Orbifold& 
     prepared.cut_through = through;
   });
   const CutMesh& cut = prepared.cut;
-  Tile tile = basic_tile(orbifold, cut.arrangement);        // appendix A
-  BoundaryConditions boundary = glue(cut, tile, orbifold);  // (3), (4), (7)
+  Tile tile = basic_tile(orbifold, cut.arrangement);  // appendix A
+  BoundaryConditions boundary = boundary_conditions(mesh, cut, tile, orbifold, options.spread);
   const GluedEdges glued = glued_edges(cut, connectivity, boundary);
   require_apart(glued, boundary, orbifold);
   const SphericalEnergy energy(glued, weights, boundary);  // (2)
@@ -181,7 +189,8 @@ EmbedResult embed_here(const Mesh& mesh, Preparation& prepared, const Orbifold& 
       stage("optimize", [&] { return minimize(energy, laplacian, start, lbfgs); });  // algorithm 1
   Points& positions = result.minimum.positions;
   fix_gauge(tile, positions);
-  if (const std::optional<Matrix3> frame = resolving_frame(energy, positions)) {
+  const std::optional<Matrix3> frame = stays_put(tile) ? std::nullopt : resolving_frame(energy, positions);
+  if (frame) {
     tile = rotated(tile, *frame);
     boundary = glue(cut, tile, orbifold);
     const SphericalEnergy there(glued_edges(cut, connectivity, boundary), weights, boundary);

@@ -36,6 +36,11 @@ void check_embedding(const Embedding& embedding) {
     check_vertices(seam.left, vertices);
     check_vertices(seam.right, vertices);
   }
+  if (embedding.seams.empty())
+    throw ArgumentError(
+        "the embedding has no seams, as one into a fixed polygon has none: there are no symmetric copies "
+        "that "
+        "would tile the sphere");
   const long long largest = std::max<long long>(vertices, embedding.faces.rows());
   if (largest * std::max(embedding.group_order, 1) > std::numeric_limits<int>::max())
     throw ArgumentError(fmt::format("{} copies of {} faces are more than an int can count",

@@ -15,7 +15,7 @@ std::vector<Ear> find_ears(const CutMesh& cut, const Tile& tile, const BoundaryC
   }
   std::vector<Ear> ears;
   for (std::size_t s = 0; s < tile.sides.size(); ++s) {
-    if (tile.sides[s].partner != static_cast<int>(s)) continue;
+    if (!tile.sides[s].held() && tile.sides[s].partner != static_cast<int>(s)) continue;
     const std::vector<int>& side = boundary.sides[s];
     for (std::size_t k = 1; k + 1 < side.size(); ++k)
       if (faces_at[side[k]] == 1) ears.push_back({last_face[side[k]], side[k], -tile.sides[s].pole()});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Triangles that a mirror flattens.
+// Triangles that a mirror or a held side flattens.
 #pragma once
 
 #include <vector>
@@ -8,19 +8,19 @@
 
 namespace orbitutte {
 
-/// A triangle with two edges on one mirror. All three vertices stay on the mirror's great circle, so its
+/// A triangle with two edges on one mirror or held side. All three vertices stay on its great circle, so the
 /// image is an arc and its area zero, whatever the weights.
 struct Ear {
   int face = -1;
   int tip = -1;                       ///< the vertex between the two edges, which belongs to no other face
-  Vector3 outward = Vector3::Zero();  ///< the mirror's unit normal, away from the tile
+  Vector3 outward = Vector3::Zero();  ///< the side's unit normal, away from the tile
 };
 
 std::vector<Ear> find_ears(const CutMesh& cut, const Tile& tile, const BoundaryConditions& boundary);
 
-/// Rounds the tips of the ears to the outer side of their mirrors, by a few units in the last place: as near
-/// to the great circle as any rounded point of it, and the stored triangle is positively oriented instead of
-/// by chance. positions: n x 3.
+/// Rounds the tips of the ears outwards from their mirrors and sides, by a few units in the last place: as
+/// near to the great circle as any rounded point of it, and the stored triangle is positively oriented
+/// instead of by chance. positions: n x 3.
 void round_outward(const std::vector<Ear>& ears, Points& positions);
 
 }  // namespace orbitutte

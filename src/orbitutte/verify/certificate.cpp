@@ -2,7 +2,9 @@
 // Why this is a proof: seams with orthogonal transforms glue |G| copies of the cut disk to a closed surface
 // with a map to the sphere, and lay them on opposite sides of every seam. Positive triangles with edges
 // shorter than pi make the map a local homeomorphism away from the vertices, and by the area, |G| times
-// 4 pi/|G|, it covers the sphere once, so it is one at the vertices too.
+// 4 pi/|G|, it covers the sphere once, so it is one at the vertices too. Where the boundary is held on a
+// convex polygon instead, positive triangles cover every point as often as the boundary goes around it: once
+// inside the polygon, and not at all outside.
 #include "orbitutte/verify/certificate.h"
 
 #include <fmt/format.h>
@@ -15,9 +17,10 @@
 #include <unordered_map>
 
 #include "orbitutte/mesh/connectivity.h"
-#include "orbitutte/orbifold/signature.h"
+#include "orbitutte/orbifold/polygon.h"
 #include "orbitutte/orbifold/symmetry_group.h"
 #include "orbitutte/parallel.h"
+#include "orbitutte/verify/held_sides.h"
 #include "orbitutte/verify/orientation.h"
 #include "orbitutte/verify/spherical_triangle.h"
 
@@ -153,8 +156,16 @@ void cover_banks(const Seam& seam, std::size_t s, std::unordered_map<int, int>& 
   }
 }
 
-// Every boundary edge of the cut mesh lies in exactly one bank; paired vertices are copies of one input
-// vertex, and paired edges have their faces on opposite sides.
+// The cut vertices of the fixed cones, the corners of a polygon.
+std::vector<int> fixed_corners(const Embedding& embedding) {
+  std::vector<int> corners;
+  for (const ConeCopies& cone : embedding.cones)
+    if (cone.kind == ConeKind::fixed) corners.insert(corners.end(), cone.copies.begin(), cone.copies.end());
+  return corners;
+}
+
+// Every boundary edge of the cut mesh lies in exactly one bank, or between fixed corners; paired vertices are
+// copies of one input vertex, and paired edges have their faces on opposite sides.
 Check seam_gluing_check(const Embedding& embedding) {
   Offences offences;
   const int n_cut = static_cast<int>(embedding.source_vertex.size());
@@ -175,11 +186,27 @@ Check seam_gluing_check(const Embedding& embedding) {
     if (offences.any()) continue;
     cover_banks(seam, s, uncovered, offences);
   }
-  if (!uncovered.empty()) {
+  if (!uncovered.empty() && fixed_corners(embedding).empty()) {
     const auto first = *std::min_element(uncovered.begin(), uncovered.end());
     offences.add("the boundary edge ({}, {}) of the cut mesh lies in no seam", first.first, first.second);
   }
   return offences.check("seam_gluing");
+}
+
+// The boundary runs once around the polygon of the fixed corners, where there are any.
+Check held_sides_check(const Embedding& embedding) {
+  const std::string name = "held_sides";
+  const std::vector<int> corners = fixed_corners(embedding);
+  if (corners.empty()) return none(name, 0, {});
+  Offences offences;
+  const std::unordered_map<int, int> next = disk_boundary(embedding, offences);
+  if (next.empty()) return none(name, 1, "the cut mesh is no disk");
+  const int start = next.begin()->first;
+  std::vector<int> boundary = {start};
+  while (next.at(boundary.back()) != start) boundary.push_back(next.at(boundary.back()));
+  const std::vector<std::string> departures =
+      departures_from_sides(embedding.positions, std::move(boundary), corners);
+  return none(name, static_cast<long long>(departures.size()), departures.empty() ? "" : departures.front());
 }
 
 // Orthogonal transforms whose determinant is that of their kind.
@@ -215,7 +242,7 @@ double max_seam_residual(const Embedding& embedding) {
 Check cone_check(const Embedding& embedding) {
   Offences offences;
   try {
-    const Orbifold orbifold = parse_orbifold(embedding.signature);
+    const Orbifold orbifold = orbifold_of(embedding);
     if (orbifold.marks.size() != embedding.cones.size())
       offences.add("{} marks {} vertices, not {}", embedding.signature, orbifold.marks.size(),
                    embedding.cones.size());
@@ -225,7 +252,7 @@ Check cone_check(const Embedding& embedding) {
         offences.add("vertex {} is a {} of order {}, which {} does not ask for there", cone.vertex,
                      name(cone.kind), cone.order, embedding.signature);
     }
-  } catch (const ArgumentError& error) {
+  } catch (const Error& error) {
     offences.add("{}", error.what());
   }
   for (const ConeCopies& cone : embedding.cones) {
@@ -268,7 +295,7 @@ Check group_check(const Embedding& embedding) {
   const std::string name = "group_order";
   const double expected = embedding.group_order;
   try {
-    const int of_signature = parse_orbifold(embedding.signature).group_order;
+    const int of_signature = orbifold_of(embedding).group_order;
     if (of_signature != embedding.group_order)
       return {name, false, expected, static_cast<double>(of_signature),
               fmt::format("{} has a group of order {}, not {}", embedding.signature, of_signature,
@@ -347,6 +374,8 @@ Certificate certify(const Mesh& mesh, const Embedding& embedding) {
   checks.push_back(transform_check(embedding.seams));
   checks.push_back(cone_check(embedding));
   if (!all_passed(checks)) return certificate;
+  certificate.expected_area = area(orbifold_of(embedding));
+  checks.push_back(held_sides_check(embedding));
   checks.push_back(group_check(embedding));
   certificate.max_seam_residual = max_seam_residual(embedding);
   checks.push_back(at_most("seam_residual", certificate.max_seam_residual, seam_bound));
