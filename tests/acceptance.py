@@ -332,7 +332,7 @@ class Suite:
         for mesh, signature in [('my_man_maxp.off', '432'), ('my_man_maxp.off', '33'), ('camelhead.off', '*432'),
                                 ('camelhead.off', '3*2'), ('camelhead.off', '5*')]:
             for plant in (move_across_edge, mirror_map, mirror_positions, claim_another_group_order, claim_another_signature,
-                          claim_another_energy, exchange_seam_transform):
+                          claim_another_energy, claim_another_area, exchange_seam_transform):
                 add(f'fault/{plant.__name__}/{signature}', self.test_fault, mesh, signature, plant)
         for plant in (cover_twice, cover_twice_and_claim_it):
             add(f'fault/{plant.__name__}/22', self.test_fault, 'my_man_maxp.off', '22', plant)
@@ -396,6 +396,10 @@ def claim_another_signature(ply, report):
 
 def claim_another_energy(ply, report):
     report['energy'] *= 1 + 1e-6
+
+
+def claim_another_area(ply, report):
+    report['certificate']['expected_area'] *= 1 + 1e-6
 
 
 def exchange_seam_transform(ply, report):

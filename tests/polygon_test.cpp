@@ -419,7 +419,7 @@ TEST_F(PolygonCertificate, RejectsAnotherPolygonThanTheImage) {
     e.cones[2].vertex = 0;
     e.cones[2].copies = {0};
   };
-  EXPECT_THAT(rejection(another_vertex), Contains("cones"));
+  EXPECT_THAT(rejection(another_vertex), Contains("held_sides"));
   const auto no_vertex = [](Embedding& e) { e.cones[2].copies = {-7}; };
   EXPECT_THAT(rejection(no_vertex), Contains("cones"));
 }
