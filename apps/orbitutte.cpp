@@ -47,12 +47,14 @@ void add_embed(CLI::App& app, int& code) {
   command->add_option(
       "--cones", arguments->cones,
       "The marked vertices, 0-based, in the order of the symbol, or 'auto'; not for a polygon");
-  command->add_option("--polygon", arguments->polygon,
-                      "The corners of the polygon: a file of lines 'vertex x y z', counterclockwise");
+  auto* polygon =
+      command->add_option("--polygon", arguments->polygon,
+                          "The corners of the polygon: a file of lines 'vertex x y z', counterclockwise");
   command
       ->add_option("--spread", arguments->spread,
                    "How boundary vertices are spread along the polygon's sides: arc-length or equidistant")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->needs(polygon);
   command->add_option("-o,--output", arguments->output, "Write the embedding (binary PLY) here");
   command->add_option("--report", arguments->report, "Write the report (JSON) here");
   command->add_option("--weights", arguments->weights, "cotan or uniform")->capture_default_str();

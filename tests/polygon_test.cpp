@@ -189,6 +189,27 @@ TEST(Polygon, StraightCornersAreAllowed) {
   expect_certified(embedded(bent_disk(), corners));
 }
 
+TEST(Polygon, StraightCornersMayBeAsCloseAsCan) {
+  Corners corners = regular_polygon(3, 0.8);
+  const Vector3 here = corners[0].position, next = corners[1].position;
+  for (int k = 5; k > 0; --k)
+    corners.insert(corners.begin() + 1, {boundary_vertex(k), (here + 1e-7 * k * (next - here)).normalized()});
+  EXPECT_EQ(polygon_orbifold(corners).marks.size(), 8u);
+}
+
+TEST(Polygon, ASolverForManyEmbeddingsGivesTheSame) {
+  EmbedOptions options;
+  options.threads = 1;
+  EmbeddingSolver solver(bent_disk(), options);
+  for (const int corners : {3, 4, 3}) {
+    const Orbifold polygon = polygon_orbifold(regular_polygon(corners, 0.9));
+    const EmbedResult result = solver.embed(polygon, corner_vertices(polygon));
+    EXPECT_EQ(result.embedding.positions, embedded(bent_disk(), polygon.corners).embedding.positions);
+    expect_certified(
+        solver.embed(parse_orbifold("*222"), {boundary_vertex(0), boundary_vertex(9), boundary_vertex(20)}));
+  }
+}
+
 TEST(Polygon, EveryBoundaryVertexMayBeACorner) {
   expect_certified(embedded(bent_disk(), regular_polygon(on_boundary, 1.2)));
 }

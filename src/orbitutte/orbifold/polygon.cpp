@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <unordered_set>
@@ -13,7 +14,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double rounding = 1e-12;  // of unit vectors and of turns, radians
+constexpr double rounding = 1e-12;  // of positions on the unit sphere
 
 using Corners = std::vector<PolygonCorner>;
 
@@ -76,13 +77,25 @@ void require_sides(const Corners& corners) {
   }
 }
 
+// By how much the corners' neighbours lie left of the sides through them, to first order: the turn times the
+// shorter one of both sides. What rounded positions are off, this is off, however short the sides are.
+std::vector<double> bends(const Corners& corners) {
+  std::vector<double> result = turns(corners);
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Vector3 &here = corners[k].position, &next = corner_after(corners, k).position,
+                  &last = corners[(k + corners.size() - 1) % corners.size()].position;
+    result[k] *= std::min((next - here).norm(), (here - last).norm());
+  }
+  return result;
+}
+
 void require_left_turns(const Corners& corners) {
-  const std::vector<double> turn = turns(corners);
+  const std::vector<double> bend = bends(corners);
   const PolygonCorner* right_turn = nullptr;
   bool turns_left = false;
   for (std::size_t k = 0; k < corners.size(); ++k) {
-    turns_left = turns_left || turn[k] > rounding;
-    if (turn[k] < -rounding && !right_turn) right_turn = &corners[k];
+    turns_left = turns_left || bend[k] > rounding;
+    if (bend[k] < -rounding && !right_turn) right_turn = &corners[k];
   }
   if (!right_turn) return;
   if (turns_left)

@@ -255,10 +255,14 @@ Check cone_check(const Embedding& embedding) {
   } catch (const Error& error) {
     offences.add("{}", error.what());
   }
+  std::unordered_map<int, std::vector<int>> copies_of;  // of the cones' vertices
+  for (const ConeCopies& cone : embedding.cones) copies_of[cone.vertex];
+  for (int v = 0; v < static_cast<int>(embedding.source_vertex.size()); ++v) {
+    const auto at = copies_of.find(embedding.source_vertex[v]);
+    if (at != copies_of.end()) at->second.push_back(v);
+  }
   for (const ConeCopies& cone : embedding.cones) {
-    std::vector<int> copies;
-    for (int v = 0; v < static_cast<int>(embedding.source_vertex.size()); ++v)
-      if (embedding.source_vertex[v] == cone.vertex) copies.push_back(v);
+    const std::vector<int>& copies = copies_of[cone.vertex];
     std::vector<int> named = cone.copies;
     std::sort(named.begin(), named.end());
     if (copies.empty() || copies != named)
