@@ -11,10 +11,12 @@
 
 #include "commands.h"
 #include "orbitutte/embed.h"
+#include "orbitutte/mesh/corner_file.h"
 #include "orbitutte/mesh/file.h"
 #include "orbitutte/mesh/inspection.h"
 #include "orbitutte/mesh/mesh_io.h"
 #include "orbitutte/mesh/triangulation.h"
+#include "orbitutte/orbifold/polygon.h"
 #include "orbitutte/output/embedding_file.h"
 #include "orbitutte/output/report.h"
 
@@ -87,11 +89,36 @@ WeightKind parse_weights(const std::string& text) {
   throw ArgumentError(fmt::format("--weights is '{}'; it may be cotan or uniform", text));
 }
 
+Spread parse_spread(const std::string& text) {
+  if (text == "arc-length") return Spread::arc_length;
+  if (text == "equidistant") return Spread::equidistant;
+  throw ArgumentError(fmt::format("--spread is '{}'; it may be arc-length or equidistant", text));
+}
+
+// What is asked for: an orbifold, or a polygon with its corners.
+Orbifold orbifold_from(const EmbedArguments& arguments) {
+  const bool polygon = arguments.orbifold == polygon_signature;
+  if (!polygon && !arguments.polygon.empty())
+    throw ArgumentError(fmt::format(
+        "--polygon gives the corners of a fixed boundary, which {} has not; give --orbifold polygon",
+        arguments.orbifold));
+  if (!polygon && arguments.cones.empty())
+    throw ArgumentError("--cones is missing; mark vertices, or 'auto'");
+  if (!polygon) return parse_orbifold(arguments.orbifold);
+  if (arguments.polygon.empty())
+    throw ArgumentError(
+        "--polygon is missing: the file with the corners of the polygon, 'vertex x y z' each");
+  if (!arguments.cones.empty())
+    throw ArgumentError("--cones is not for polygons: the lines of --polygon name the vertices");
+  return polygon_orbifold(read_corners(arguments.polygon));
+}
+
 EmbedOptions options_from(const EmbedArguments& arguments) {
   EmbedOptions options;
   options.weights = {parse_weights(arguments.weights), arguments.clamp};
   options.weights_file = arguments.weights_file;
   options.cut.seed = arguments.cut_seed;
+  options.spread = parse_spread(arguments.spread);
   options.tolerance = arguments.tolerance;
   options.max_iterations = arguments.max_iterations;
   options.threads = arguments.threads;
@@ -149,9 +176,10 @@ void summarize(const EmbedArguments& arguments, const EmbedResult& result) {
 int embed_command(const EmbedArguments& arguments) {
   const Stopwatch total;
   EmbedOptions options = options_from(arguments);
-  const Orbifold orbifold = parse_orbifold(arguments.orbifold);
+  const Orbifold orbifold = orbifold_from(arguments);
   const bool automatic = arguments.cones == "auto";
-  std::vector<int> cones = automatic ? std::vector<int>() : parse_cones(arguments.cones);
+  std::vector<int> cones = corner_vertices(orbifold);
+  if (cones.empty() && !automatic) cones = parse_cones(arguments.cones);
 
   RunRecord run;
   const AnyMesh mesh = read_input(arguments.mesh, run);

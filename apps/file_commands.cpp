@@ -46,6 +46,9 @@ void check_energy(const PolygonMesh& mesh, const Embedding& embedding, const Rep
 std::vector<Check> check_claims(const Certificate& certificate, const Report& report) {
   return {claim("report_bijective", report.bijective == (certificate.bijective && report.converged),
                 fmt::format("the report says bijective = {}", report.bijective)),
+          claim("report_expected_area", std::abs(report.expected_area - certificate.expected_area) <= 1e-9,
+                fmt::format("the report expects the area {:.12g}, it is {:.12g}", report.expected_area,
+                            certificate.expected_area)),
           claim("report_nonpositive_faces", report.nonpositive_faces == certificate.nonpositive_faces,
                 fmt::format("the report names {} nonpositive faces, there are {}",
                             report.nonpositive_faces.size(), certificate.nonpositive_faces.size()))};

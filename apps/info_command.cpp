@@ -116,6 +116,8 @@ int types_command(bool json) {
       fmt::print("{:<8} {:>11}  {:<8} {}\n", family.family, family.group_order, name(family.topology),
                  family.marked_points);
     fmt::print("N is any order of 2 or more. Orders of two digits are separated by commas: 2,2,12.\n");
+    fmt::print(
+        "Besides, 'polygon': a disk onto a convex spherical polygon, its boundary fixed (--polygon).\n");
     return 0;
   }
   Json rows = Json::array();

@@ -40,12 +40,21 @@ void add_embed(CLI::App& app, int& code) {
       app.add_subcommand("embed", "Embed a mesh into a spherical orbifold and certify the result");
   auto arguments = std::make_shared<EmbedArguments>();
   command->add_option("mesh", arguments->mesh, "The mesh: OBJ, OFF, PLY or STL")->required();
-  command->add_option("--orbifold", arguments->orbifold, "Conway's symbol, e.g. 432, *532, 2,2,12")
-      ->required();
   command
-      ->add_option("--cones", arguments->cones,
-                   "The marked vertices, 0-based, in the order of the symbol, or 'auto'")
+      ->add_option("--orbifold", arguments->orbifold,
+                   "Conway's symbol, e.g. 432, *532, 2,2,12; or 'polygon', a fixed boundary")
       ->required();
+  command->add_option(
+      "--cones", arguments->cones,
+      "The marked vertices, 0-based, in the order of the symbol, or 'auto'; not for a polygon");
+  auto* polygon =
+      command->add_option("--polygon", arguments->polygon,
+                          "The corners of the polygon: a file of lines 'vertex x y z', counterclockwise");
+  command
+      ->add_option("--spread", arguments->spread,
+                   "How boundary vertices are spread along the polygon's sides: arc-length or equidistant")
+      ->capture_default_str()
+      ->needs(polygon);
   command->add_option("-o,--output", arguments->output, "Write the embedding (binary PLY) here");
   command->add_option("--report", arguments->report, "Write the report (JSON) here");
   command->add_option("--weights", arguments->weights, "cotan or uniform")->capture_default_str();

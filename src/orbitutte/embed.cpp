@@ -140,11 +140,18 @@ std::vector<std::string> warnings_about(const EdgeWeights& weights, const std::v
                                    weights.zero_edges));
   if (!ears.empty())
     warnings.push_back(fmt::format(
-        "{} faces have all edges but one on one mirror and must become arcs, the first face {}: their "
-        "areas are rounding errors; "
-        "swap their inner edges, or mark their tips",
+        "{} faces have all edges but one on one mirror or held side and must become arcs, the first face {}: "
+        "their areas are rounding errors; swap their inner edges, or mark their tips",
         count_faces(ears), ears.front().face));
   return warnings;
+}
+
+// Equations (3), (4) and (7), and the sides that theorem 1 holds.
+BoundaryConditions boundary_conditions(const Mesh& mesh, const CutMesh& cut, const Tile& tile,
+                                       const Orbifold& orbifold, Spread spread) {
+  BoundaryConditions boundary = glue(cut, tile, orbifold);
+  hold_sides(mesh, cut, tile, spread, boundary);
+  return boundary;
 }
 
 // What is known of a mesh before its cones are, and its last cut.
@@ -188,12 +195,12 @@ class InputFaces {
   FaceView view_;
 };
 
-// The input vertices of each mirror, along the boundary.
+// The input vertices of each mirror and held side, along the boundary.
 std::vector<std::vector<int>> mirrors_of(const Tile& tile, const BoundaryConditions& boundary,
                                          const std::vector<int>& source_vertex) {
   std::vector<std::vector<int>> mirrors;
   for (std::size_t s = 0; s < tile.sides.size(); ++s) {
-    if (tile.sides[s].partner != static_cast<int>(s)) continue;
+    if (!tile.sides[s].held() && tile.sides[s].partner != static_cast<int>(s)) continue;
     std::vector<int>& mirror = mirrors.emplace_back();
     for (const int v : boundary.sides[s]) mirror.push_back(source_vertex[v]);
   }
@@ -257,8 +264,8 @@ EmbedResult embed_here(const Mesh& mesh, Preparation& prepared, const Orbifold& 
     prepared.cut_through = through;
   });
   const CutMesh& cut = prepared.cut;
-  Tile tile = basic_tile(orbifold, cut.arrangement);        // appendix A
-  BoundaryConditions boundary = glue(cut, tile, orbifold);  // (3), (4), (7)
+  Tile tile = basic_tile(orbifold, cut.arrangement);  // appendix A
+  BoundaryConditions boundary = boundary_conditions(mesh, cut, tile, orbifold, options.spread);
   const GluedEdges glued = glued_edges(cut, connectivity, boundary);
   require_apart(glued, boundary, orbifold);
   const SphericalEnergy energy(glued, weights, boundary);  // (2)
@@ -280,7 +287,8 @@ EmbedResult embed_here(const Mesh& mesh, Preparation& prepared, const Orbifold& 
       stage("optimize", [&] { return minimize(energy, laplacian, start, lbfgs); });  // algorithm 1
   Points& positions = result.minimum.positions;
   fix_gauge(tile, positions);
-  if (const std::optional<Matrix3> frame = resolving_frame(energy, positions)) {
+  const std::optional<Matrix3> frame = stays_put(tile) ? std::nullopt : resolving_frame(energy, positions);
+  if (frame) {
     tile = rotated(tile, *frame);
     boundary = glue(cut, tile, orbifold);
     const SphericalEnergy there(glued_edges(cut, connectivity, boundary), weights, boundary);

@@ -14,6 +14,7 @@
 #include "orbitutte/mesh/weights.h"
 #include "orbitutte/orbifold/embedding.h"
 #include "orbitutte/orbifold/signature.h"
+#include "orbitutte/solve/boundary_arcs.h"
 #include "orbitutte/solve/lbfgs.h"
 #include "orbitutte/verify/certificate.h"
 #include "orbitutte/verify/distortion.h"
@@ -34,10 +35,11 @@ using ProgressCallback = std::function<bool(const Progress&)>;
 
 struct EmbedOptions {
   WeightOptions weights;
-  std::string weights_file;    ///< lines `i j w` (read_weights); when not empty, instead of `weights`
-  CutOptions cut;              ///< which of all cuts; it changes no length (N* turns about its axis)
-  LaplacianOptions laplacian;  ///< the linear solver
-  double tolerance = 1e-9;     ///< LbfgsOptions::tolerance
+  std::string weights_file;            ///< lines `i j w` (read_weights); when not empty, instead of `weights`
+  CutOptions cut;                      ///< which of all cuts; it changes no length (N* turns about its axis)
+  LaplacianOptions laplacian;          ///< the linear solver
+  Spread spread = Spread::arc_length;  ///< of boundary vertices along the sides of a fixed polygon
+  double tolerance = 1e-9;             ///< LbfgsOptions::tolerance
   int max_iterations = 2000;
   int threads = 0;  ///< 0: as many as the machine has; results do not depend on it
   ProgressCallback progress;

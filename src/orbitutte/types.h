@@ -58,6 +58,13 @@ struct Mesh {
   Faces F;   ///< m x 3
 };
 
+/// A corner of a spherical polygon: a vertex on the boundary of a mesh, and the unit vector at which it is
+/// held.
+struct PolygonCorner {
+  int vertex = -1;
+  Vector3 position = Vector3::Zero();
+};
+
 /// What a surface is, as far as spherical orbifolds ask.
 enum class Topology { sphere, disk, projective_plane, other };
 

@@ -21,6 +21,9 @@ struct ConwaySymbol {
   std::string text() const;
 };
 
+/// The signature of fixed boundaries, which no symbol of Conway's is: theorem 1, see polygon.h.
+inline const std::string polygon_signature = "polygon";
+
 /// A marked point of the orbifold: the angles around it add up to 2 pi/order, at a corner to pi/order.
 struct Mark {
   int order = 1;
@@ -34,6 +37,7 @@ struct Orbifold {
   Topology topology = Topology::sphere;  ///< what the mesh has to be
   std::vector<Mark> marks;               ///< in the order in which vertices are marked
   int inner_marks = 0;  ///< so many, the first, lie inside the surface, the others on its boundary
+  std::vector<PolygonCorner> corners;  ///< of a fixed polygon, one a mark; otherwise none (polygon.h)
 };
 
 /// Reads a symbol and finds its family. Orders may come in any arrangement.

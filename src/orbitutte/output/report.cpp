@@ -203,6 +203,7 @@ Report to_report(const Json& json) {
   report.converged = text(json, "termination") == name(Termination::converged);
   const Json& certificate = object(json, "certificate");
   report.bijective = boolean(certificate, "bijective");
+  report.expected_area = number(certificate, "expected_area");
   report.nonpositive_faces = integers(certificate, "nonpositive_faces");
   return report;
 }

@@ -34,6 +34,7 @@ struct Report {
   double energy = 0;
   bool converged = false;
   bool bijective = false;
+  double expected_area = 0;
   std::vector<int> nonpositive_faces;
 };
 

@@ -36,6 +36,10 @@ void check_embedding(const Embedding& embedding) {
     check_vertices(seam.left, vertices);
     check_vertices(seam.right, vertices);
   }
+  if (embedding.seams.empty())
+    throw ArgumentError(
+        "the embedding has no seams, as one into a fixed polygon has none: there are no symmetric copies that would "
+        "tile the sphere");
   const auto corners = static_cast<long long>(embedding.polygons.corners.size());
   const long long largest = std::max<long long>({vertices, embedding.faces.rows(), corners});
   if (largest * std::max(embedding.group_order, 1) > std::numeric_limits<int>::max())

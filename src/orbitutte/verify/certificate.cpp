@@ -3,7 +3,9 @@
 // with a map to the sphere, and lay them on opposite sides of every seam. Positive triangles with edges
 // shorter than pi make the map a local homeomorphism away from the vertices, and by the area, |G| times
 // 4 pi/|G|, it covers the sphere once, so it is one at the vertices too. A polygon stands for the triangles
-// between its edges and its middle; that it is convex is checked besides.
+// between its edges and its middle; that it is convex is checked besides. Where the boundary is held on a
+// convex polygon instead, positive triangles cover every point as often as the boundary goes around it: once
+// inside the polygon, and not at all outside.
 #include "orbitutte/verify/certificate.h"
 
 #include <fmt/format.h>
@@ -19,10 +21,11 @@
 #include <utility>
 
 #include "orbitutte/mesh/connectivity.h"
-#include "orbitutte/orbifold/signature.h"
+#include "orbitutte/orbifold/polygon.h"
 #include "orbitutte/orbifold/symmetry_group.h"
 #include "orbitutte/parallel.h"
 #include "orbitutte/verify/convexity.h"
+#include "orbitutte/verify/held_sides.h"
 #include "orbitutte/verify/orientation.h"
 #include "orbitutte/verify/spherical_triangle.h"
 
@@ -178,8 +181,16 @@ void cover_banks(const Seam& seam, std::size_t s, std::unordered_map<int, int>& 
   }
 }
 
-// Every boundary edge of the cut mesh lies in exactly one bank; paired vertices are copies of one input
-// vertex, and paired edges have their faces on opposite sides.
+// The cut vertices of the fixed cones, the corners of a polygon.
+std::vector<int> fixed_corners(const Embedding& embedding) {
+  std::vector<int> corners;
+  for (const ConeCopies& cone : embedding.cones)
+    if (cone.kind == ConeKind::fixed) corners.insert(corners.end(), cone.copies.begin(), cone.copies.end());
+  return corners;
+}
+
+// Every boundary edge of the cut mesh lies in exactly one bank, or between fixed corners; paired vertices are
+// copies of one input vertex, and paired edges have their faces on opposite sides.
 Check seam_gluing_check(const Embedding& embedding) {
   Offences offences;
   const int n_cut = static_cast<int>(embedding.source_vertex.size());
@@ -200,11 +211,27 @@ Check seam_gluing_check(const Embedding& embedding) {
     if (offences.any()) continue;
     cover_banks(seam, s, uncovered, offences);
   }
-  if (!uncovered.empty()) {
+  if (!uncovered.empty() && fixed_corners(embedding).empty()) {
     const auto first = *std::min_element(uncovered.begin(), uncovered.end());
     offences.add("the boundary edge ({}, {}) of the cut mesh lies in no seam", first.first, first.second);
   }
   return offences.check("seam_gluing");
+}
+
+// The boundary runs once around the polygon of the fixed corners, where there are any.
+Check held_sides_check(const Embedding& embedding) {
+  const std::string name = "held_sides";
+  const std::vector<int> corners = fixed_corners(embedding);
+  if (corners.empty()) return none(name, 0, {});
+  Offences offences;
+  const std::unordered_map<int, int> next = disk_boundary(embedding, offences);
+  if (next.empty()) return none(name, 1, "the cut mesh is no disk");
+  const int start = next.begin()->first;
+  std::vector<int> boundary = {start};
+  while (next.at(boundary.back()) != start) boundary.push_back(next.at(boundary.back()));
+  const std::vector<std::string> departures =
+      departures_from_sides(embedding.positions, std::move(boundary), corners);
+  return none(name, static_cast<long long>(departures.size()), departures.empty() ? "" : departures.front());
 }
 
 // Orthogonal transforms whose determinant is that of their kind.
@@ -240,7 +267,7 @@ double max_seam_residual(const Embedding& embedding) {
 Check cone_check(const Embedding& embedding) {
   Offences offences;
   try {
-    const Orbifold orbifold = parse_orbifold(embedding.signature);
+    const Orbifold orbifold = orbifold_of(embedding);
     if (orbifold.marks.size() != embedding.cones.size())
       offences.add("{} marks {} vertices, not {}", embedding.signature, orbifold.marks.size(),
                    embedding.cones.size());
@@ -250,13 +277,17 @@ Check cone_check(const Embedding& embedding) {
         offences.add("vertex {} is a {} of order {}, which {} does not ask for there", cone.vertex,
                      name(cone.kind), cone.order, embedding.signature);
     }
-  } catch (const ArgumentError& error) {
+  } catch (const Error& error) {
     offences.add("{}", error.what());
   }
+  std::unordered_map<int, std::vector<int>> copies_of;  // of the cones' vertices
+  for (const ConeCopies& cone : embedding.cones) copies_of[cone.vertex];
+  for (int v = 0; v < static_cast<int>(embedding.source_vertex.size()); ++v) {
+    const auto at = copies_of.find(embedding.source_vertex[v]);
+    if (at != copies_of.end()) at->second.push_back(v);
+  }
   for (const ConeCopies& cone : embedding.cones) {
-    std::vector<int> copies;
-    for (int v = 0; v < static_cast<int>(embedding.source_vertex.size()); ++v)
-      if (embedding.source_vertex[v] == cone.vertex) copies.push_back(v);
+    const std::vector<int>& copies = copies_of[cone.vertex];
     std::vector<int> named = cone.copies;
     std::sort(named.begin(), named.end());
     if (copies.empty() || copies != named)
@@ -293,7 +324,7 @@ Check group_check(const Embedding& embedding) {
   const std::string name = "group_order";
   const double expected = embedding.group_order;
   try {
-    const int of_signature = parse_orbifold(embedding.signature).group_order;
+    const int of_signature = orbifold_of(embedding).group_order;
     if (of_signature != embedding.group_order)
       return {name, false, expected, static_cast<double>(of_signature),
               fmt::format("{} has a group of order {}, not {}", embedding.signature, of_signature,
@@ -397,6 +428,8 @@ Certificate certify(int vertex_count, const FaceView& faces, const Embedding& em
   checks.push_back(transform_check(embedding.seams));
   checks.push_back(cone_check(embedding));
   if (!all_passed(checks)) return certificate;
+  certificate.expected_area = area(orbifold_of(embedding));
+  checks.push_back(held_sides_check(embedding));
   checks.push_back(group_check(embedding));
   certificate.max_seam_residual = max_seam_residual(embedding);
   checks.push_back(at_most("seam_residual", certificate.max_seam_residual, seam_bound));
