@@ -29,8 +29,8 @@ int info_command(const InfoArguments& arguments);
 int types_command(bool json);
 
 struct VerifyArguments {
-  std::string embedding, report, mesh;
-  bool json = false;
+  std::string embedding, report, mesh, weights_file;
+  bool theorem2 = false, json = false;
 };
 int verify_command(const VerifyArguments& arguments);
 

@@ -95,6 +95,10 @@ void add_verify(CLI::App& app, int& code) {
   command->add_option("embedding", arguments->embedding, "The embedding (PLY)")->required();
   command->add_option("report", arguments->report, "Its report (JSON)")->required();
   command->add_option("mesh", arguments->mesh, "The input mesh")->required();
+  command->add_option("--weights-file", arguments->weights_file,
+                      "The weights that the embedding was computed with, where they came from a file");
+  command->add_flag("--theorem2", arguments->theorem2,
+                    "Also the conditions of theorem 2; they change neither the verdict nor the exit code");
   command->add_flag("--json", arguments->json, "As JSON");
   command->callback([arguments, &code] { code = run([&] { return verify_command(*arguments); }); });
 }
