@@ -80,9 +80,11 @@ std::vector<int> parse_cones(const std::string& text) {
 }
 
 WeightKind parse_weights(const std::string& text) {
-  if (text == "cotan") return WeightKind::cotan;
-  if (text == "uniform") return WeightKind::uniform;
-  throw ArgumentError(fmt::format("--weights is '{}'; it may be cotan or uniform", text));
+  for (const WeightKind kind :
+       {WeightKind::cotan, WeightKind::delaunay, WeightKind::mean_value, WeightKind::uniform})
+    if (text == name(kind)) return kind;
+  throw ArgumentError(
+      fmt::format("--weights is '{}'; it may be cotan, delaunay, mean-value or uniform", text));
 }
 
 EmbedOptions options_from(const EmbedArguments& arguments) {

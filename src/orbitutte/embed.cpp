@@ -13,6 +13,7 @@
 #include "orbitutte/mesh/recognition.h"
 #include "orbitutte/parallel.h"
 #include "orbitutte/solve/ears.h"
+#include "orbitutte/solve/flipped_edges.h"
 #include "orbitutte/solve/frame.h"
 #include "orbitutte/solve/initial_embedding.h"
 
@@ -101,6 +102,12 @@ void fix_gauge(const Tile& tile, Points& positions) {
   positions.rowwise().normalize();
 }
 
+// The edges that have the weights: the mesh's, or those of a triangulation of its surface.
+const std::vector<std::array<int, 2>>& weighted_edges(const EdgeWeights& weights,
+                                                      const Connectivity& connectivity) {
+  return weights.triangulation ? weights.triangulation->connectivity.edges : connectivity.edges;
+}
+
 std::vector<std::string> warnings_about(const EdgeWeights& weights, const std::vector<Ear>& ears) {
   std::vector<std::string> warnings;
   if (weights.zero_edges > 0)
@@ -153,14 +160,21 @@ EmbedResult embed_here(const Mesh& mesh, Preparation& prepared, const Orbifold& 
     parallel_for(2, [&](int task) {
       if (task == 0)
         prepared.cut = cut_to_disk(mesh, connectivity, marked_vertices, orbifold.inner_marks, options.cut);
-      if (task == 1) order_ahead(*prepared.laplacians, connectivity.edges, static_cast<int>(mesh.V.rows()));
+      if (task == 1)
+        order_ahead(*prepared.laplacians, weighted_edges(weights, connectivity),
+                    static_cast<int>(mesh.V.rows()));
     });
     prepared.cut_through = through;
   });
   const CutMesh& cut = prepared.cut;
   Tile tile = basic_tile(orbifold, cut.arrangement);        // appendix A
   BoundaryConditions boundary = glue(cut, tile, orbifold);  // (3), (4), (7)
-  const GluedEdges glued = glued_edges(cut, connectivity, boundary);
+  const auto glued_along = [&](const BoundaryConditions& conditions) {
+    return weights.triangulation
+               ? flipped_edges(mesh.F, connectivity, *weights.triangulation, cut, conditions)
+               : glued_edges(cut, connectivity, conditions);
+  };
+  const GluedEdges glued = glued_along(boundary);
   require_apart(glued, boundary, orbifold);
   const SphericalEnergy energy(glued, weights, boundary);  // (2)
   LaplacianOptions laplacian_options = options.laplacian;
@@ -184,7 +198,7 @@ EmbedResult embed_here(const Mesh& mesh, Preparation& prepared, const Orbifold& 
   if (const std::optional<Matrix3> frame = resolving_frame(energy, positions)) {
     tile = rotated(tile, *frame);
     boundary = glue(cut, tile, orbifold);
-    const SphericalEnergy there(glued_edges(cut, connectivity, boundary), weights, boundary);
+    const SphericalEnergy there(glued_along(boundary), weights, boundary);
     positions = settle_in_frame(positions, *frame, there, boundary);
   }
   const std::vector<Ear> ears = find_ears(cut, tile, boundary);

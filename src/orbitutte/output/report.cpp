@@ -36,7 +36,13 @@ Json to_json(const Seam& seam) {
 }
 
 Json to_json(const EdgeWeights& weights) {
-  return {{"kind", name(weights.kind)}, {"clamp", weights.clamp}, {"clamped_edges", weights.clamped_edges}};
+  Json json = {
+      {"kind", name(weights.kind)}, {"clamp", weights.clamp}, {"clamped_edges", weights.clamped_edges}};
+  if (weights.triangulation) {
+    json["flips"] = weights.triangulation->flips.size();
+    json["blocked_edges"] = weights.triangulation->blocked_edges;
+  }
+  return json;
 }
 
 Json to_json(const Certificate& certificate) {
@@ -183,8 +189,9 @@ ConeCopies to_cone(const Json& json) {
 }
 
 WeightOptions to_weights(const Json& json) {
-  const WeightKind kind =
-      one_of({WeightKind::cotan, WeightKind::uniform, WeightKind::file}, text(json, "kind"), "the weights");
+  const WeightKind kind = one_of({WeightKind::cotan, WeightKind::delaunay, WeightKind::mean_value,
+                                  WeightKind::uniform, WeightKind::file},
+                                 text(json, "kind"), "the weights");
   return {kind, number(json, "clamp")};
 }
 

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/mesh/intrinsic_triangulation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "orbitutte/parallel.h"
+
+namespace orbitutte {
+namespace {
+
+constexpr double mollification = 1e-8;       // slack in units of the mean length
+constexpr double cocircular = 1e-9;          // cotangents whose sum is nearer to zero are not worth a flip,
+constexpr double cotangent_rounding = 1e-6;  // nor where it is that near to zero beside them
+constexpr std::size_t most_flips_per_edge = 100;
+
+// 16 times the squared area (W. Kahan, "Miscalculating area and angles of a needle-like triangle").
+double sixteen_squared_areas(double a, double b, double c) {
+  if (a < b) std::swap(a, b);
+  if (b < c) std::swap(b, c);
+  if (a < b) std::swap(a, b);
+  return (a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c));
+}
+
+double side(const Connectivity& connectivity, const std::vector<double>& length, int h) {
+  return length[connectivity.edge_of[h]];
+}
+
+// A point at the distances r and s from (0, 0) and (d, 0), above the line between them.
+struct PlanePoint {
+  double x, y;
+};
+PlanePoint lay_out(double d, double r, double s) {
+  return {(d * d + (r - s) * (r + s)) / (2 * d),
+          std::sqrt(std::max(0.0, sixteen_squared_areas(d, r, s))) / (2 * d)};
+}
+
+class DelaunayFlips {
+ public:
+  explicit DelaunayFlips(IntrinsicTriangulation& triangulation)
+      : T_(triangulation),
+        opposite_(triangulation.connectivity.opposite),
+        edge_of_(triangulation.connectivity.edge_of),
+        cotangent_(half_cotangents(triangulation.connectivity, triangulation.length)) {}
+
+  void run() {
+    halfedge_.assign(T_.length.size(), -1);
+    waiting_.assign(T_.length.size(), 0);
+    for (int h = 0; h < static_cast<int>(edge_of_.size()); ++h) halfedge_[edge_of_[h]] = h;
+    for (int e = 0; e < static_cast<int>(T_.length.size()); ++e) push(e);
+    const std::size_t most_flips = most_flips_per_edge * T_.length.size();
+    std::size_t before = 0;
+    do {
+      before = T_.flips.size();
+      flip_all_that_wait(most_flips);
+      for (const int e : std::exchange(blocked_, {})) push(e);  // what blocked them may be gone
+    } while (T_.flips.size() > before && T_.flips.size() < most_flips);
+    T_.blocked_edges = static_cast<int>(queue_.size());
+  }
+
+ private:
+  void flip_all_that_wait(std::size_t most_flips) {
+    for (std::size_t k = 0; k < queue_.size() && T_.flips.size() < most_flips; ++k) {
+      const int e = queue_[k];
+      waiting_[e] = 0;
+      if (is_delaunay(e)) continue;
+      const Flip flip = flip_of(halfedge_[e]);
+      if (is_blocked(flip)) {
+        blocked_.push_back(e);
+      } else {
+        apply(flip);
+      }
+    }
+    queue_.clear();
+  }
+
+  void push(int e) {
+    if (waiting_[e] || is_delaunay(e)) return;
+    waiting_[e] = 1;
+    queue_.push_back(e);
+  }
+
+  bool is_delaunay(int e) const {
+    const int h = halfedge_[e], g = opposite_[h];
+    if (g < 0) return true;
+    const double scale = std::abs(cotangent_[h]) + std::abs(cotangent_[g]);
+    return cotangent_[h] + cotangent_[g] >= -(cocircular + cotangent_rounding * scale);
+  }
+
+  Flip flip_of(int h) const {
+    Flip flip;
+    flip.h = h;
+    flip.g = opposite_[h];
+    flip.al = next_halfedge(flip.g);
+    flip.lb = previous_halfedge(flip.g);
+    if (origin(T_.F, flip.g) == origin(T_.F, h)) std::swap(flip.al, flip.lb);
+    flip.beyond_al = opposite_[flip.al];
+    flip.beyond_lb = opposite_[flip.lb];
+    return flip;
+  }
+
+  bool is_blocked(const Flip& flip) const {
+    const int bk = next_halfedge(flip.h), ka = previous_halfedge(flip.h);
+    const bool leaves_an_ear =
+        (opposite_[ka] < 0 && flip.beyond_al < 0) || (opposite_[bk] < 0 && flip.beyond_lb < 0);
+    const int l = origin(T_.F, previous_halfedge(flip.g));
+    return leaves_an_ear || origin(T_.F, ka) == l || are_joined(ka, l);
+  }
+
+  // Does an edge join the vertex where the half-edge begins to w, which is none of its face's? Walks around
+  // the former, in both directions where the boundary ends the first walk.
+  bool are_joined(int out, int w) const {
+    const int v = origin(T_.F, out);
+    for (const int across : {previous_halfedge(out), out}) {
+      int h = opposite_[across];
+      for (; h >= 0 && h / 3 != out / 3; h = opposite_[h]) {
+        const bool leaves = origin(T_.F, h) == v;
+        h = leaves ? previous_halfedge(h) : next_halfedge(h);
+        if ((leaves ? origin(T_.F, h) : target(T_.F, h)) == w) return true;
+      }
+      if (h >= 0) break;
+    }
+    return false;
+  }
+
+  double side(int h) const { return T_.length[edge_of_[h]]; }
+
+  // The distance from k to l, both faces laid out in the plane.
+  double diagonal(const Flip& flip) const {
+    const double ab = side(flip.h);
+    const PlanePoint k = lay_out(ab, side(previous_halfedge(flip.h)), side(next_halfedge(flip.h))),
+                     l = lay_out(ab, side(flip.al), side(flip.lb));
+    return std::hypot(k.x - l.x, k.y + l.y);
+  }
+
+  void apply(const Flip& flip) {
+    const int h = flip.h, g = flip.g, bk = next_halfedge(h), ka = previous_halfedge(h);
+    const double kl = diagonal(flip);
+    const int a = origin(T_.F, h), b = target(T_.F, h), k = origin(T_.F, ka),
+              l = origin(T_.F, previous_halfedge(g));
+    const std::array<int, 4> edges = {edge_of_[ka], edge_of_[flip.al], edge_of_[flip.lb], edge_of_[bk]},
+                             beyond = {opposite_[ka], flip.beyond_al, flip.beyond_lb, opposite_[bk]},
+                             place = {next_halfedge(h), previous_halfedge(h), next_halfedge(g),
+                                      previous_halfedge(g)};
+    int* const corner = T_.F.data();
+    corner[h] = l, corner[place[0]] = k, corner[place[1]] = a;
+    corner[g] = k, corner[place[2]] = l, corner[place[3]] = b;
+    for (int s = 0; s < 4; ++s) {
+      edge_of_[place[s]] = edges[s];
+      opposite_[place[s]] = beyond[s];
+      if (beyond[s] >= 0) opposite_[beyond[s]] = place[s];
+      halfedge_[edges[s]] = place[s];
+    }
+    const int e = edge_of_[h];
+    T_.connectivity.edges[e] = {k, l};
+    T_.length[e] = kl;
+    for (const int f : {h / 3, g / 3})
+      for (int s = 3 * f; s < 3 * f + 3; ++s)
+        cotangent_[s] = half_cotangent(side(s), side(next_halfedge(s)), side(previous_halfedge(s)));
+    T_.flips.push_back(flip);
+    for (const int near : edges) push(near);
+  }
+
+  IntrinsicTriangulation& T_;
+  std::vector<int>&opposite_, &edge_of_;
+  std::vector<double> cotangent_;
+  std::vector<int> halfedge_;         // one of every edge
+  std::vector<int> queue_, blocked_;  // edges
+  std::vector<char> waiting_;         // is the edge in the queue?
+};
+
+}  // namespace
+
+std::vector<double> mollified_lengths(const Mesh& mesh, const Connectivity& connectivity) {
+  const int count = static_cast<int>(connectivity.edges.size());
+  const auto difference = [&](int e) -> Vector3 {
+    const auto [i, j] = connectivity.edges[e];
+    return mesh.V.row(i) - mesh.V.row(j);
+  };
+  const double largest = parallel_max(count, [&](int e) { return difference(e).lpNorm<Eigen::Infinity>(); });
+  // A power of two near 1/largest: nothing overflows.
+  const double scale = largest > 0 ? std::exp2(-std::clamp(std::ilogb(largest), -1000, 1000)) : 1.0;
+  std::vector<double> length(count);
+  const double total = parallel_sum(count, [&](int e) { return length[e] = (scale * difference(e)).norm(); });
+  const double mean = total > 0 ? total / count : 1.0;
+  for (double& l : length) l /= mean;
+  const double missing = parallel_max(static_cast<int>(connectivity.edge_of.size()), [&](int h) {
+    return mollification + side(connectivity, length, h) - side(connectivity, length, next_halfedge(h)) -
+           side(connectivity, length, previous_halfedge(h));
+  });
+  for (double& l : length) l += missing;
+  return length;
+}
+
+double half_cotangent(double a, double b, double c) {
+  const double area = std::sqrt(sixteen_squared_areas(a, b, c));  // four times
+  return area > 0 ? 0.5 * (b * b + c * c - a * a) / area : 0.0;
+}
+
+double half_angle_tangent(double a, double b, double c) {
+  return std::sqrt(std::max(0.0, (a - (b - c)) * (a + (b - c))) / ((a + (b + c)) * ((b + c) - a)));
+}
+
+std::vector<double> half_cotangents(const Connectivity& connectivity, const std::vector<double>& length) {
+  const int halfedges = static_cast<int>(connectivity.edge_of.size());
+  std::vector<double> result(halfedges);
+  parallel_ranges(halfedges, [&](int begin, int end) {
+    for (int h = begin; h < end; ++h)
+      result[h] = half_cotangent(side(connectivity, length, h), side(connectivity, length, next_halfedge(h)),
+                                 side(connectivity, length, previous_halfedge(h)));
+  });
+  return result;
+}
+
+IntrinsicTriangulation intrinsic_delaunay(const Mesh& mesh, const Connectivity& connectivity) {
+  IntrinsicTriangulation result = {mesh.F, connectivity, mollified_lengths(mesh, connectivity), {}, 0};
+  DelaunayFlips(result).run();
+  return result;
+}
+
+}  // namespace orbitutte

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// Triangulations of a surface by geodesics, known by their edge lengths alone, and the edge flips that lead
+// to the intrinsic Delaunay triangulation (A. Bobenko, B. Springborn, "A discrete Laplace-Beltrami operator
+// for simplicial surfaces", Discrete Comput. Geom. 38 (2007); M. Fisher, B. Springborn, A. Bobenko, P.
+// Schroeder, "An algorithm for the construction of intrinsic Delaunay triangulations with applications to
+// digital geometry processing", SIGGRAPH courses 2006).
+#pragma once
+
+#include <vector>
+
+#include "orbitutte/mesh/connectivity.h"
+
+namespace orbitutte {
+
+/// A flip of the edge (a, b) between the faces (a, b, k) and (a, b, l), by the half-edges before it. Faces
+/// may run along the edge in the same direction. Afterwards h, next(h), previous(h) are lk, ka, al, and g,
+/// next(g), previous(g) are kl, lb, bk.
+struct Flip {
+  int h = -1;                          ///< ab, in the face of k: next(h) is bk, previous(h) is ka
+  int g = -1;                          ///< ab or ba, in the face of l: previous(g) begins at l
+  int al = -1, lb = -1;                ///< the other half-edges of that face, in either direction,
+  int beyond_al = -1, beyond_lb = -1;  ///< and those opposite to them, -1 on the boundary
+};
+
+/// Faces on the vertices of a mesh whose edges are geodesics of its surface. Connectivity::edges keeps the
+/// numbers of the mesh's edges, each flipped edge the one that it had before; its ends are in no order.
+struct IntrinsicTriangulation {
+  Faces F;                     ///< m x 3
+  Connectivity connectivity;   ///< of F
+  std::vector<double> length;  ///< of every edge, as mollified_lengths gives them
+  std::vector<Flip> flips;     ///< that lead here from the mesh, in this order
+  int blocked_edges = 0;  ///< edges that are not Delaunay, for their flip would leave no simplicial complex
+};
+
+/// The lengths of the edges in space, divided by their mean, and all longer by one small number (at most
+/// 1e-8), so that every triangle inequality holds by that much: triangles without area become thin ones, and
+/// nothing else changes (N. Sharp, K. Crane, "A Laplacian for nonmanifold triangle meshes", SGP 2020:
+/// intrinsic mollification).
+std::vector<double> mollified_lengths(const Mesh& mesh, const Connectivity& connectivity);
+
+/// Half the cotangent of the angle opposite to the side a of a triangle: (b^2 + c^2 - a^2)/(8 area).
+double half_cotangent(double a, double b, double c);
+
+/// tan(angle/2) of the angle opposite to the side a of a triangle.
+double half_angle_tangent(double a, double b, double c);
+
+/// For every half-edge half the cotangent of the angle opposite to it. 3 m.
+std::vector<double> half_cotangents(const Connectivity& connectivity, const std::vector<double>& length);
+
+/// Flips edges until each is Delaunay: the angles opposite to it add up to pi at most (but for rounding). An
+/// edge stays as it is where its flip would join two vertices by a second edge, or leave a vertex of the
+/// boundary with a single face: a vertex of degree two has no place of its own in a Tutte embedding. Edges
+/// of the boundary stay. Takes O(n) time on meshes as they are. The faces of `mesh` need not have consistent
+/// orientations.
+IntrinsicTriangulation intrinsic_delaunay(const Mesh& mesh, const Connectivity& connectivity);
+
+}  // namespace orbitutte
