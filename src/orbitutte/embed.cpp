@@ -6,8 +6,10 @@
 #include <Eigen/Geometry>
 #include <chrono>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
+#include "orbitutte/mesh/cone_weights.h"
 #include "orbitutte/mesh/extremities.h"
 #include "orbitutte/mesh/inspection.h"
 #include "orbitutte/mesh/recognition.h"
@@ -19,6 +21,8 @@
 
 namespace orbitutte {
 namespace {
+
+using std::numbers::pi;
 
 // Runs the stages, tells of each and times it.
 class Stages {
@@ -108,6 +112,17 @@ const std::vector<std::array<int, 2>>& weighted_edges(const EdgeWeights& weights
   return weights.triangulation ? weights.triangulation->connectivity.edges : connectivity.edges;
 }
 
+// The angles that the orbifold has at the marked vertices.
+std::vector<ConeAngle> cone_angles(const Orbifold& orbifold, const std::vector<int>& marked_vertices) {
+  std::vector<ConeAngle> cones;
+  for (std::size_t k = 0; k < orbifold.marks.size(); ++k) {
+    const auto& [order, kind] = orbifold.marks[k];
+    if (kind == ConeKind::fixed) continue;
+    cones.push_back({marked_vertices[k], (kind == ConeKind::rotation ? 2 : 1) * pi / order});
+  }
+  return cones;
+}
+
 std::vector<std::string> warnings_about(const EdgeWeights& weights, const std::vector<Ear>& ears) {
   std::vector<std::string> warnings;
   if (weights.zero_edges > 0)
@@ -148,11 +163,12 @@ EmbedResult embed_here(const Mesh& mesh, Preparation& prepared, const Orbifold& 
   });
   const Connectivity& connectivity = prepared.surface->connectivity;
   stage("weights", [&] {  // section 4
-    if (prepared.weights) return;
-    prepared.weights = options.weights_file.empty() ? edge_weights(mesh, connectivity, options.weights)
-                                                    : read_weights(options.weights_file, connectivity);
+    if (!prepared.weights)
+      prepared.weights = options.weights_file.empty() ? edge_weights(mesh, connectivity, options.weights)
+                                                      : read_weights(options.weights_file, connectivity);
+    result.weights = sharpened_at_cones(*prepared.weights, cone_angles(orbifold, marked_vertices));
   });
-  const EdgeWeights& weights = *prepared.weights;
+  const EdgeWeights& weights = result.weights;
   stage("cut", [&] {  // section 4.1; the elimination order is found at the same time
     const std::pair through(marked_vertices, orbifold.inner_marks);
     if (prepared.cut_through == through) return;
@@ -224,7 +240,6 @@ EmbedResult embed_here(const Mesh& mesh, Preparation& prepared, const Orbifold& 
   result.topology = prepared.surface->topology;
   result.unreferenced_vertices = prepared.surface->unreferenced_vertices;
   result.zero_area_faces = prepared.surface->zero_area_faces;
-  result.weights = weights;
   return result;
 }
 

@@ -15,10 +15,6 @@
 namespace orbitutte {
 namespace {
 
-// A weight of the Delaunay triangulation that is zero, between concyclic points, becomes this: the theory
-// asks for positive ones, and so little moves nothing that can be seen.
-constexpr double concyclic_weight = 1e-6;
-
 // Half the cotangent of the angle at vertex o of a triangle (i, j, o); zero where the triangle has no area
 // but rounding errors, as `inspect` counts them: their cotangents, 1e15 or so, would be rounding errors too.
 double half_cotangent(const Points& V, int i, int j, int o) {
@@ -74,11 +70,8 @@ EdgeWeights delaunay_weights(const Mesh& mesh, const Connectivity& connectivity,
   result.w = summed_over_sides(triangulation->connectivity,
                                half_cotangents(triangulation->connectivity, triangulation->length));
   for (double& w : result.w) {
-    if (w < -concyclic_weight) {
-      w = clamp;
-      ++result.clamped_edges;
-    }
-    w = std::max(w, concyclic_weight);
+    result.clamped_edges += is_negative(w) ? 1 : 0;
+    w = positive_weight(w, clamp);
   }
   result.triangulation = triangulation;
   return result;
@@ -166,6 +159,12 @@ std::string name(WeightKind kind) {
       return "file";
   }
   return {};
+}
+
+bool is_negative(double w) { return w < -concyclic_weight; }
+
+double positive_weight(double w, double clamp) {
+  return is_negative(w) ? clamp : std::max(w, concyclic_weight);
 }
 
 EdgeWeights edge_weights(const Mesh& mesh, const Connectivity& connectivity, const WeightOptions& options) {

@@ -10,10 +10,10 @@
 namespace orbitutte {
 
 enum class WeightKind {
-  cotan,     ///< w_ij = (cot a + cot b)/2 over the angles opposite to the edge; those not positive become
-             ///< `clamp`
-  delaunay,  ///< the same of the intrinsic Delaunay triangulation, whose weights are nonnegative; zeros
-             ///< become 1e-6, and those of blocked edges that are negative `clamp`
+  cotan,       ///< w_ij = (cot a + cot b)/2 over the angles opposite to the edge; those not positive become
+               ///< `clamp`
+  delaunay,    ///< the same of the intrinsic Delaunay triangulation, whose weights are nonnegative; zeros
+               ///< become 1e-6, and those of blocked edges that are negative `clamp`
   mean_value,  ///< w_ij = (l_i m_ij + l_j m_ji)/2, m_ij the mean value weight (tan(a/2) + tan(b/2))/|ij| over
                ///< the angles at i beside the edge, l_i half the mean length of the edges at i
   uniform,     ///< w_ij = 1
@@ -38,6 +38,17 @@ struct EdgeWeights {
   int zero_edges =
       0;  ///< weights of a file that are exactly zero: accepted, though the theory asks for w > 0
 };
+
+/// Weights of the Delaunay triangulation that are zero, between concyclic points, become this: the theory
+/// asks for positive ones, and so little moves nothing that can be seen.
+constexpr double concyclic_weight = 1e-6;
+
+/// Is a cotangent weight negative, beyond its rounding?
+bool is_negative(double w);
+
+/// What stands for a cotangent weight w of an intrinsic triangulation: `clamp` where it is negative, and
+/// concyclic_weight at least.
+double positive_weight(double w, double clamp);
 
 /// Weights on the uncut mesh, so that no cut can change them. Zero-area triangles have no cotangents and add
 /// nothing to `cotan`; `delaunay` and `mean_value` go by mollified_lengths. Mean value weights are made
