@@ -171,10 +171,10 @@ EmbedResult embed_here(const Mesh& mesh, Preparation& prepared, const Orbifold& 
   const EdgeWeights& weights = result.weights;
   stage("cut", [&] {  // section 4.1; the elimination order is found at the same time
     const std::pair through(marked_vertices, orbifold.inner_marks);
-    if (prepared.cut_through == through) return;
+    const bool is_cut = prepared.cut_through == through;
     prepared.cut_through.reset();
     parallel_for(2, [&](int task) {
-      if (task == 0)
+      if (task == 0 && !is_cut)
         prepared.cut = cut_to_disk(mesh, connectivity, marked_vertices, orbifold.inner_marks, options.cut);
       if (task == 1)
         order_ahead(*prepared.laplacians, weighted_edges(weights, connectivity),

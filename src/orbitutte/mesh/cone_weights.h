@@ -14,14 +14,14 @@ struct ConeAngle {
   double angle = 0;  ///< radians
 };
 
-/// The weights with those of the faces at the cones made anew, where they are cotangents of an intrinsic
-/// triangulation; others come back as they are. The Dirichlet energy is conformally invariant, so cotangents
-/// may be taken from any metric that is conformal to the surface's. At a cone whose angles T become S, that
-/// is the one of z -> z^b, b = S/T: sides r that meet at the cone become r^b, and the angles between them b
-/// times as large. There the conformal map is linear at the cone. In the mesh's own metric the elements there
-/// miss most of it, and the error falls with the distance r as slowly as (h/r)^(2b), h the length of an edge:
-/// on a mesh of 270,000 triangles it makes half of the mean angle distortion. A face with two cones stays as
-/// it is.
-EdgeWeights sharpened_at_cones(EdgeWeights weights, const std::vector<ConeAngle>& cones);
+/// Weights of an intrinsic Delaunay triangulation in a metric that is flat at the cones; others come back as
+/// they are. The Dirichlet energy is conformally invariant, so cotangents may be taken from any metric that
+/// is conformal to the surface's. At a cone whose angles, T in all, become S, that is the metric of z -> z^b,
+/// b = S/T: sides r that meet at the cone become r^b, and the angles between them b times as large. In it the
+/// conformal map is smooth at the cone. In the mesh's own metric the elements there miss most of it, and the
+/// error falls with the distance r as slowly as (h/r)^(2b), h the length of an edge: on a mesh of 270,000
+/// triangles it makes most of the mean angle distortion. A face with two cones stays as it is; flips make the
+/// triangulation Delaunay in the new metric.
+EdgeWeights sharpened_at_cones(const EdgeWeights& weights, const std::vector<ConeAngle>& cones);
 
 }  // namespace orbitutte

@@ -23,10 +23,6 @@ double sixteen_squared_areas(double a, double b, double c) {
   return (a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c));
 }
 
-double side(const Connectivity& connectivity, const std::vector<double>& length, int h) {
-  return length[connectivity.edge_of[h]];
-}
-
 // A point at the distances r and s from (0, 0) and (d, 0), above the line between them.
 struct PlanePoint {
   double x, y;
@@ -42,21 +38,20 @@ class DelaunayFlips {
       : T_(triangulation),
         opposite_(triangulation.connectivity.opposite),
         edge_of_(triangulation.connectivity.edge_of),
-        cotangent_(half_cotangents(triangulation.connectivity, triangulation.length)) {}
-
-  void run() {
-    halfedge_.assign(T_.length.size(), -1);
-    waiting_.assign(T_.length.size(), 0);
+        halfedge_(triangulation.connectivity.edges.size()),
+        waiting_(triangulation.connectivity.edges.size(), 0) {
     for (int h = 0; h < static_cast<int>(edge_of_.size()); ++h) halfedge_[edge_of_[h]] = h;
-    for (int e = 0; e < static_cast<int>(T_.length.size()); ++e) push(e);
-    const std::size_t most_flips = most_flips_per_edge * T_.length.size();
+  }
+
+  void run(const std::vector<int>& edges) {
+    for (const int e : edges) push(e);
+    const std::size_t most_flips = T_.flips.size() + most_flips_per_edge * halfedge_.size();
     std::size_t before = 0;
     do {
       before = T_.flips.size();
       flip_all_that_wait(most_flips);
       for (const int e : std::exchange(blocked_, {})) push(e);  // what blocked them may be gone
     } while (T_.flips.size() > before && T_.flips.size() < most_flips);
-    T_.blocked_edges = static_cast<int>(queue_.size());
   }
 
  private:
@@ -84,8 +79,8 @@ class DelaunayFlips {
   bool is_delaunay(int e) const {
     const int h = halfedge_[e], g = opposite_[h];
     if (g < 0) return true;
-    const double scale = std::abs(cotangent_[h]) + std::abs(cotangent_[g]);
-    return cotangent_[h] + cotangent_[g] >= -(cocircular + cotangent_rounding * scale);
+    const double left = T_.half_cotangent[h], right = T_.half_cotangent[g];
+    return left + right >= -(cocircular + cotangent_rounding * (std::abs(left) + std::abs(right)));
   }
 
   Flip flip_of(int h) const {
@@ -124,50 +119,49 @@ class DelaunayFlips {
     return false;
   }
 
-  double side(int h) const { return T_.length[edge_of_[h]]; }
-
-  // The distance from k to l, both faces laid out in the plane.
-  double diagonal(const Flip& flip) const {
-    const double ab = side(flip.h);
-    const PlanePoint k = lay_out(ab, side(previous_halfedge(flip.h)), side(next_halfedge(flip.h))),
-                     l = lay_out(ab, side(flip.al), side(flip.lb));
+  // The distance from k to l, both faces laid out in the plane, in the unit of the first.
+  double diagonal(const Flip& flip, double unit) const {
+    const std::vector<double>& length = T_.length;
+    const double ab = length[flip.h];
+    const PlanePoint k = lay_out(ab, length[previous_halfedge(flip.h)], length[next_halfedge(flip.h)]),
+                     l = lay_out(ab, unit * length[flip.al], unit * length[flip.lb]);
     return std::hypot(k.x - l.x, k.y + l.y);
   }
 
   void apply(const Flip& flip) {
     const int h = flip.h, g = flip.g, bk = next_halfedge(h), ka = previous_halfedge(h);
-    const double kl = diagonal(flip);
+    const double unit = T_.length[h] / T_.length[g], kl = diagonal(flip, unit);
     const int a = origin(T_.F, h), b = target(T_.F, h), k = origin(T_.F, ka),
               l = origin(T_.F, previous_halfedge(g));
     const std::array<int, 4> edges = {edge_of_[ka], edge_of_[flip.al], edge_of_[flip.lb], edge_of_[bk]},
                              beyond = {opposite_[ka], flip.beyond_al, flip.beyond_lb, opposite_[bk]},
                              place = {next_halfedge(h), previous_halfedge(h), next_halfedge(g),
                                       previous_halfedge(g)};
+    const std::array<double, 4> lengths = {T_.length[ka], unit * T_.length[flip.al],
+                                           unit * T_.length[flip.lb], T_.length[bk]};
     int* const corner = T_.F.data();
     corner[h] = l, corner[place[0]] = k, corner[place[1]] = a;
     corner[g] = k, corner[place[2]] = l, corner[place[3]] = b;
+    T_.length[h] = T_.length[g] = kl;
     for (int s = 0; s < 4; ++s) {
       edge_of_[place[s]] = edges[s];
       opposite_[place[s]] = beyond[s];
       if (beyond[s] >= 0) opposite_[beyond[s]] = place[s];
       halfedge_[edges[s]] = place[s];
+      T_.length[place[s]] = lengths[s];
     }
-    const int e = edge_of_[h];
-    T_.connectivity.edges[e] = {k, l};
-    T_.length[e] = kl;
-    for (const int f : {h / 3, g / 3})
-      for (int s = 3 * f; s < 3 * f + 3; ++s)
-        cotangent_[s] = half_cotangent(side(s), side(next_halfedge(s)), side(previous_halfedge(s)));
+    T_.connectivity.edges[edge_of_[h]] = {k, l};
+    measure_angles(T_, h / 3);
+    measure_angles(T_, g / 3);
     T_.flips.push_back(flip);
     for (const int near : edges) push(near);
   }
 
   IntrinsicTriangulation& T_;
   std::vector<int>&opposite_, &edge_of_;
-  std::vector<double> cotangent_;
   std::vector<int> halfedge_;         // one of every edge
-  std::vector<int> queue_, blocked_;  // edges
   std::vector<char> waiting_;         // is the edge in the queue?
+  std::vector<int> queue_, blocked_;  // edges
 };
 
 }  // namespace
@@ -185,9 +179,9 @@ std::vector<double> mollified_lengths(const Mesh& mesh, const Connectivity& conn
   const double total = parallel_sum(count, [&](int e) { return length[e] = (scale * difference(e)).norm(); });
   const double mean = total > 0 ? total / count : 1.0;
   for (double& l : length) l /= mean;
+  const auto side = [&](int h) { return length[connectivity.edge_of[h]]; };
   const double missing = parallel_max(static_cast<int>(connectivity.edge_of.size()), [&](int h) {
-    return mollification + side(connectivity, length, h) - side(connectivity, length, next_halfedge(h)) -
-           side(connectivity, length, previous_halfedge(h));
+    return mollification + side(h) - side(next_halfedge(h)) - side(previous_halfedge(h));
   });
   for (double& l : length) l += missing;
   return length;
@@ -202,21 +196,27 @@ double half_angle_tangent(double a, double b, double c) {
   return std::sqrt(std::max(0.0, (a - (b - c)) * (a + (b - c))) / ((a + (b + c)) * ((b + c) - a)));
 }
 
-std::vector<double> half_cotangents(const Connectivity& connectivity, const std::vector<double>& length) {
-  const int halfedges = static_cast<int>(connectivity.edge_of.size());
-  std::vector<double> result(halfedges);
-  parallel_ranges(halfedges, [&](int begin, int end) {
-    for (int h = begin; h < end; ++h)
-      result[h] = half_cotangent(side(connectivity, length, h), side(connectivity, length, next_halfedge(h)),
-                                 side(connectivity, length, previous_halfedge(h)));
+void measure_angles(IntrinsicTriangulation& triangulation, int face) {
+  const double* const length = &triangulation.length[3 * face];
+  for (int k = 0; k < 3; ++k)
+    triangulation.half_cotangent[3 * face + k] =
+        half_cotangent(length[k], length[(k + 1) % 3], length[(k + 2) % 3]);
+}
+
+IntrinsicTriangulation intrinsic_triangulation(const Mesh& mesh, const Connectivity& connectivity) {
+  const std::vector<double> length = mollified_lengths(mesh, connectivity);
+  IntrinsicTriangulation result = {mesh.F, connectivity, {}, {}, {}};
+  result.length.resize(mesh.F.size());
+  result.half_cotangent.resize(mesh.F.size());
+  parallel_ranges(static_cast<int>(mesh.F.rows()), [&](int begin, int end) {
+    for (int h = 3 * begin; h < 3 * end; ++h) result.length[h] = length[connectivity.edge_of[h]];
+    for (int f = begin; f < end; ++f) measure_angles(result, f);
   });
   return result;
 }
 
-IntrinsicTriangulation intrinsic_delaunay(const Mesh& mesh, const Connectivity& connectivity) {
-  IntrinsicTriangulation result = {mesh.F, connectivity, mollified_lengths(mesh, connectivity), {}, 0};
-  DelaunayFlips(result).run();
-  return result;
+void make_delaunay(IntrinsicTriangulation& triangulation, const std::vector<int>& edges) {
+  DelaunayFlips(triangulation).run(edges);
 }
 
 }  // namespace orbitutte

@@ -23,13 +23,15 @@ struct Flip {
 };
 
 /// Faces on the vertices of a mesh whose edges are geodesics of its surface. Connectivity::edges keeps the
-/// numbers of the mesh's edges, each flipped edge the one that it had before; its ends are in no order.
+/// numbers of the mesh's edges, each flipped edge the one that it had before; its ends are in no order. Each
+/// face has its own unit of length: two faces beside an edge need not agree on its length, only on what is
+/// similar, and angles, flips and cotangents know no more.
 struct IntrinsicTriangulation {
-  Faces F;                     ///< m x 3
-  Connectivity connectivity;   ///< of F
-  std::vector<double> length;  ///< of every edge, as mollified_lengths gives them
-  std::vector<Flip> flips;     ///< that lead here from the mesh, in this order
-  int blocked_edges = 0;  ///< edges that are not Delaunay, for their flip would leave no simplicial complex
+  Faces F;                             ///< m x 3
+  Connectivity connectivity;           ///< of F
+  std::vector<double> length;          ///< 3 m: of every half-edge, in its face's unit
+  std::vector<double> half_cotangent;  ///< 3 m: of the angle opposite to every half-edge
+  std::vector<Flip> flips;             ///< that lead here from the mesh, in this order
 };
 
 /// The lengths of the edges in space, divided by their mean, and all longer by one small number (at most
@@ -44,14 +46,17 @@ double half_cotangent(double a, double b, double c);
 /// tan(angle/2) of the angle opposite to the side a of a triangle.
 double half_angle_tangent(double a, double b, double c);
 
-/// For every half-edge half the cotangent of the angle opposite to it. 3 m.
-std::vector<double> half_cotangents(const Connectivity& connectivity, const std::vector<double>& length);
+/// Half the cotangents of a face's angles anew, after its lengths changed.
+void measure_angles(IntrinsicTriangulation& triangulation, int face);
 
-/// Flips edges until each is Delaunay: the angles opposite to it add up to pi at most (but for rounding). An
-/// edge stays as it is where its flip would join two vertices by a second edge, or leave a vertex of the
-/// boundary with a single face: a vertex of degree two has no place of its own in a Tutte embedding. Edges
-/// of the boundary stay. Takes O(n) time on meshes as they are. The faces of `mesh` need not have consistent
-/// orientations.
-IntrinsicTriangulation intrinsic_delaunay(const Mesh& mesh, const Connectivity& connectivity);
+/// The mesh's own triangulation, with mollified lengths.
+IntrinsicTriangulation intrinsic_triangulation(const Mesh& mesh, const Connectivity& connectivity);
+
+/// Flips edges until each is Delaunay: the angles opposite to it add up to pi at most (but for rounding). All
+/// but the given edges are Delaunay before. An edge stays as it is where its flip would join two vertices by
+/// a second edge, or leave a vertex of the boundary with a single face: a vertex of degree two has no place
+/// of its own in a Tutte embedding. Edges of the boundary stay. Takes O(n) time on meshes as they are. The
+/// faces need not have consistent orientations.
+void make_delaunay(IntrinsicTriangulation& triangulation, const std::vector<int>& edges);
 
 }  // namespace orbitutte

@@ -8,12 +8,17 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "orbitutte/mesh/file.h"
 #include "orbitutte/parallel.h"
 
 namespace orbitutte {
 namespace {
+
+// A weight of an intrinsic triangulation that is zero, between concyclic points, becomes this: the theory
+// asks for positive ones, and so little moves nothing that can be seen.
+constexpr double concyclic_weight = 1e-6;
 
 // Half the cotangent of the angle at vertex o of a triangle (i, j, o); zero where the triangle has no area
 // but rounding errors, as `inspect` counts them: their cotangents, 1e15 or so, would be rounding errors too.
@@ -64,17 +69,11 @@ EdgeWeights cotangent_weights(const Mesh& mesh, const Connectivity& connectivity
 }
 
 EdgeWeights delaunay_weights(const Mesh& mesh, const Connectivity& connectivity, double clamp) {
-  const auto triangulation = std::make_shared<IntrinsicTriangulation>(intrinsic_delaunay(mesh, connectivity));
-  EdgeWeights result;
-  result.clamp = clamp;
-  result.w = summed_over_sides(triangulation->connectivity,
-                               half_cotangents(triangulation->connectivity, triangulation->length));
-  for (double& w : result.w) {
-    result.clamped_edges += is_negative(w) ? 1 : 0;
-    w = positive_weight(w, clamp);
-  }
-  result.triangulation = triangulation;
-  return result;
+  IntrinsicTriangulation triangulation = intrinsic_triangulation(mesh, connectivity);
+  std::vector<int> all(connectivity.edges.size());
+  std::iota(all.begin(), all.end(), 0);
+  make_delaunay(triangulation, all);
+  return intrinsic_weights(std::move(triangulation), clamp);
 }
 
 // Half the mean length of the edges at every vertex.
@@ -161,10 +160,20 @@ std::string name(WeightKind kind) {
   return {};
 }
 
-bool is_negative(double w) { return w < -concyclic_weight; }
-
-double positive_weight(double w, double clamp) {
-  return is_negative(w) ? clamp : std::max(w, concyclic_weight);
+EdgeWeights intrinsic_weights(IntrinsicTriangulation triangulation, double clamp) {
+  EdgeWeights result;
+  result.kind = WeightKind::delaunay;
+  result.clamp = clamp;
+  result.w = summed_over_sides(triangulation.connectivity, triangulation.half_cotangent);
+  for (double& w : result.w) {
+    if (w < -concyclic_weight) {
+      w = clamp;
+      ++result.clamped_edges;
+    }
+    w = std::max(w, concyclic_weight);
+  }
+  result.triangulation = std::make_shared<IntrinsicTriangulation>(std::move(triangulation));
+  return result;
 }
 
 EdgeWeights edge_weights(const Mesh& mesh, const Connectivity& connectivity, const WeightOptions& options) {

@@ -39,23 +39,15 @@ struct EdgeWeights {
       0;  ///< weights of a file that are exactly zero: accepted, though the theory asks for w > 0
 };
 
-/// Weights of the Delaunay triangulation that are zero, between concyclic points, become this: the theory
-/// asks for positive ones, and so little moves nothing that can be seen.
-constexpr double concyclic_weight = 1e-6;
-
-/// Is a cotangent weight negative, beyond its rounding?
-bool is_negative(double w);
-
-/// What stands for a cotangent weight w of an intrinsic triangulation: `clamp` where it is negative, and
-/// concyclic_weight at least.
-double positive_weight(double w, double clamp);
-
 /// Weights on the uncut mesh, so that no cut can change them. Zero-area triangles have no cotangents and add
 /// nothing to `cotan`; `delaunay` and `mean_value` go by mollified_lengths. Mean value weights are made
 /// symmetric, since a minimiser of an energy knows no others: they are positive, but no longer reproduce
 /// linear maps (M. Floater, "Mean value coordinates", CAGD 20 (2003)). Throws ArgumentError for a clamp that
 /// is not positive and finite, and for WeightKind::file.
 EdgeWeights edge_weights(const Mesh& mesh, const Connectivity& connectivity, const WeightOptions& options);
+
+/// Cotangent weights of an intrinsic triangulation, as WeightKind::delaunay says.
+EdgeWeights intrinsic_weights(IntrinsicTriangulation triangulation, double clamp);
 
 /// Reads lines `i j w`, each undirected edge of the mesh once, in any order; further columns are ignored.
 /// Throws FileError, and MeshError naming the line and the edge: no edge of the mesh, given twice, missing, a

@@ -38,10 +38,7 @@ Json to_json(const Seam& seam) {
 Json to_json(const EdgeWeights& weights) {
   Json json = {
       {"kind", name(weights.kind)}, {"clamp", weights.clamp}, {"clamped_edges", weights.clamped_edges}};
-  if (weights.triangulation) {
-    json["flips"] = weights.triangulation->flips.size();
-    json["blocked_edges"] = weights.triangulation->blocked_edges;
-  }
+  if (weights.triangulation) json["flips"] = weights.triangulation->flips.size();
   return json;
 }
 
