@@ -144,6 +144,8 @@ void summarize(const EmbedArguments& arguments, const EmbedResult& result) {
   fmt::print(stderr, "not certified:\n");
   for (const Check& check : result.certificate.checks)
     if (!check.passed) fmt::print(stderr, "  {}: {}\n", check.name, check.detail);
+  if (result.intrinsic_certificate && result.intrinsic_certificate->bijective)
+    fmt::print(stderr, "certified of the intrinsic Delaunay triangulation: bijective\n");
 }
 
 }  // namespace

@@ -30,14 +30,24 @@ Check claim(std::string name, bool holds, std::string detail) {
 void check_energy(const Mesh& mesh, const Embedding& embedding, const Report& report,
                   std::vector<Check>& checks) {
   if (report.weights.kind == WeightKind::file) return;
-  const Connectivity connectivity = connect(mesh.F, static_cast<int>(mesh.V.rows()));
-  const double energy =
-      dirichlet_energy(connectivity, edge_weights(mesh, connectivity, report.weights), embedding);
+  const double energy = dirichlet_energy(mesh, report.weights, embedding);
   const double difference = std::abs(energy - report.energy);
   Check check = {"energy", difference <= 1e-9 * std::abs(energy), difference, 1e-9 * std::abs(energy), {}};
   if (!check.passed)
     check.detail = fmt::format("the energy is {:.12g}, the report says {:.12g}", energy, report.energy);
   checks.push_back(check);
+}
+
+// What the report says of the triangulation that has the weights.
+void check_intrinsic_claim(const Mesh& mesh, const Embedding& embedding, const Report& report,
+                           std::vector<Check>& checks) {
+  const EdgeWeights weights = weights_of(mesh, report.weights, embedding);
+  const bool bijective =
+      weights.triangulation && certify_intrinsic(mesh, embedding, *weights.triangulation).bijective;
+  checks.push_back(claim("report_intrinsic_bijective",
+                         *report.intrinsic_bijective == (bijective && report.converged),
+                         fmt::format("the report says bijective = {} of the intrinsic triangulation",
+                                     *report.intrinsic_bijective)));
 }
 
 std::vector<Check> check_claims(const Certificate& certificate, const Report& report) {
@@ -79,6 +89,7 @@ int verify_command(const VerifyArguments& arguments) {
   std::vector<Check> checks = certificate.checks;
   for (Check& check : check_claims(certificate, report)) checks.push_back(std::move(check));
   if (certificate.bijective) check_energy(mesh, embedding, report, checks);
+  if (report.intrinsic_bijective) check_intrinsic_claim(mesh, embedding, report, checks);
   bool bijective = certificate.bijective;
   for (const Check& check : checks) bijective = bijective && check.passed;
   print_checks(checks, bijective && report.converged, arguments.json);

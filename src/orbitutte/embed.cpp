@@ -137,10 +137,18 @@ std::vector<std::string> warnings_about(const EdgeWeights& weights, const std::v
   return warnings;
 }
 
+// What did not converge is not certified.
+void refuse(Certificate& certificate, const Minimum& minimum, const EmbedOptions& options) {
+  certificate.bijective = false;
+  certificate.checks.push_back({"converged", false, minimum.gradient_norm, options.tolerance,
+                                "the optimiser ended before it converged"});
+}
+
 // What is known of a mesh before its cones are, and its last cut.
 struct Preparation {
   std::optional<SoundSurface> surface;
   std::optional<EdgeWeights> weights;
+  std::vector<int> kept_faces;  // with which these were computed
   std::optional<std::pair<std::vector<int>, int>>
       cut_through;  // the marked vertices of `cut`, and how many lie inside
   CutMesh cut;
@@ -163,9 +171,10 @@ EmbedResult embed_here(const Mesh& mesh, Preparation& prepared, const Orbifold& 
   });
   const Connectivity& connectivity = prepared.surface->connectivity;
   stage("weights", [&] {  // section 4
-    if (!prepared.weights)
+    if (!prepared.weights || prepared.kept_faces != options.weights.kept_faces)
       prepared.weights = options.weights_file.empty() ? edge_weights(mesh, connectivity, options.weights)
                                                       : read_weights(options.weights_file, connectivity);
+    prepared.kept_faces = options.weights.kept_faces;
     result.weights = sharpened_at_cones(*prepared.weights, cone_angles(orbifold, marked_vertices));
   });
   const EdgeWeights& weights = result.weights;
@@ -230,12 +239,13 @@ EmbedResult embed_here(const Mesh& mesh, Preparation& prepared, const Orbifold& 
                       boundary.cones};
   stage("certify", [&] {
     result.certificate = certify(mesh, result.embedding);
+    if (!result.certificate.bijective && weights.triangulation)
+      result.intrinsic_certificate = certify_intrinsic(mesh, result.embedding, *weights.triangulation);
     result.distortion = measure_distortion(mesh, result.embedding);
   });
   if (result.minimum.termination != Termination::converged) {
-    result.certificate.bijective = false;
-    result.certificate.checks.push_back({"converged", false, result.minimum.gradient_norm, options.tolerance,
-                                         "the optimiser ended before it converged"});
+    refuse(result.certificate, result.minimum, options);
+    if (result.intrinsic_certificate) refuse(*result.intrinsic_certificate, result.minimum, options);
   }
   result.topology = prepared.surface->topology;
   result.unreferenced_vertices = prepared.surface->unreferenced_vertices;
@@ -243,11 +253,45 @@ EmbedResult embed_here(const Mesh& mesh, Preparation& prepared, const Orbifold& 
   return result;
 }
 
+// Can it help to keep the faces that the result turns over? Where they are many, it is double precision that
+// does not resolve them.
+bool may_keep_faces(const EmbedResult& result) {
+  const auto turned = static_cast<Eigen::Index>(result.certificate.nonpositive_faces.size());
+  return result.weights.triangulation && result.minimum.termination == Termination::converged && turned > 0 &&
+         turned <= 1 + result.embedding.faces.rows() / 100;
+}
+
+// The triangulation that has the weights may be embedded while thin triangles of the input, which are not
+// among its faces, are turned over. Then those become faces of it: the map is computed again, up to a few
+// times, and where that leads to a certificate, this is the result. Else the first one is.
+EmbedResult embed_or_keep_faces(const Mesh& mesh, Preparation& prepared, const Orbifold& orbifold,
+                                const std::vector<int>& marked_vertices, const EmbedOptions& options) {
+  constexpr int attempts = 4;
+  EmbedResult first = embed_here(mesh, prepared, orbifold, marked_vertices, options);
+  if (!may_keep_faces(first)) return first;
+  EmbedOptions keeping = options;
+  std::vector<int>& kept = keeping.weights.kept_faces;
+  std::vector<int> turned = first.certificate.nonpositive_faces;
+  for (int k = 0; k < attempts; ++k) {
+    kept.insert(kept.end(), turned.begin(), turned.end());
+    EmbedResult next = embed_here(mesh, prepared, orbifold, marked_vertices, keeping);
+    first.timings.insert(first.timings.end(), next.timings.begin(), next.timings.end());
+    if (next.certificate.bijective) {
+      next.timings = first.timings;
+      return next;
+    }
+    if (!may_keep_faces(next)) break;
+    turned = next.certificate.nonpositive_faces;
+  }
+  return first;
+}
+
 EmbedResult embed_prepared(const Mesh& mesh, Preparation& prepared, const Orbifold& orbifold,
                            const std::vector<int>& marked_vertices, const EmbedOptions& options) {
   if (options.threads < 0) throw ArgumentError("the number of threads must not be negative");
-  return with_threads(options.threads,
-                      [&] { return embed_here(mesh, prepared, orbifold, marked_vertices, options); });
+  return with_threads(options.threads, [&] {
+    return embed_or_keep_faces(mesh, prepared, orbifold, marked_vertices, options);
+  });
 }
 
 }  // namespace

@@ -39,8 +39,11 @@ class DelaunayFlips {
         opposite_(triangulation.connectivity.opposite),
         edge_of_(triangulation.connectivity.edge_of),
         halfedge_(triangulation.connectivity.edges.size()),
-        waiting_(triangulation.connectivity.edges.size(), 0) {
+        waiting_(triangulation.connectivity.edges.size(), 0),
+        kept_(triangulation.connectivity.edges.size(), 0) {
     for (int h = 0; h < static_cast<int>(edge_of_.size()); ++h) halfedge_[edge_of_[h]] = h;
+    for (const int f : triangulation.kept_faces)
+      for (int h = 3 * f; h < 3 * f + 3; ++h) kept_[edge_of_[h]] = 1;
   }
 
   void run(const std::vector<int>& edges) {
@@ -71,7 +74,7 @@ class DelaunayFlips {
   }
 
   void push(int e) {
-    if (waiting_[e] || is_delaunay(e)) return;
+    if (waiting_[e] || kept_[e] || is_delaunay(e)) return;
     waiting_[e] = 1;
     queue_.push_back(e);
   }
@@ -161,6 +164,7 @@ class DelaunayFlips {
   std::vector<int>&opposite_, &edge_of_;
   std::vector<int> halfedge_;         // one of every edge
   std::vector<char> waiting_;         // is the edge in the queue?
+  std::vector<char> kept_;            // has a kept face the edge?
   std::vector<int> queue_, blocked_;  // edges
 };
 
@@ -205,7 +209,7 @@ void measure_angles(IntrinsicTriangulation& triangulation, int face) {
 
 IntrinsicTriangulation intrinsic_triangulation(const Mesh& mesh, const Connectivity& connectivity) {
   const std::vector<double> length = mollified_lengths(mesh, connectivity);
-  IntrinsicTriangulation result = {mesh.F, connectivity, {}, {}, {}};
+  IntrinsicTriangulation result = {mesh.F, connectivity, {}, {}, {}, {}};
   result.length.resize(mesh.F.size());
   result.half_cotangent.resize(mesh.F.size());
   parallel_ranges(static_cast<int>(mesh.F.rows()), [&](int begin, int end) {

@@ -32,6 +32,7 @@ struct IntrinsicTriangulation {
   std::vector<double> length;          ///< 3 m: of every half-edge, in its face's unit
   std::vector<double> half_cotangent;  ///< 3 m: of the angle opposite to every half-edge
   std::vector<Flip> flips;             ///< that lead here from the mesh, in this order
+  std::vector<int> kept_faces;         ///< of the mesh: none of their edges is flipped
 };
 
 /// The lengths of the edges in space, divided by their mean, and all longer by one small number (at most
@@ -53,10 +54,10 @@ void measure_angles(IntrinsicTriangulation& triangulation, int face);
 IntrinsicTriangulation intrinsic_triangulation(const Mesh& mesh, const Connectivity& connectivity);
 
 /// Flips edges until each is Delaunay: the angles opposite to it add up to pi at most (but for rounding). All
-/// but the given edges are Delaunay before. An edge stays as it is where its flip would join two vertices by
-/// a second edge, or leave a vertex of the boundary with a single face: a vertex of degree two has no place
-/// of its own in a Tutte embedding. Edges of the boundary stay. Takes O(n) time on meshes as they are. The
-/// faces need not have consistent orientations.
+/// but the given edges are Delaunay before. An edge stays as it is where a kept face has it, where its flip
+/// would join two vertices by a second edge, or leave a vertex of the boundary with a single face: a vertex
+/// of degree two has no place of its own in a Tutte embedding. Edges of the boundary stay. Takes O(n) time on
+/// meshes as they are. The faces need not have consistent orientations.
 void make_delaunay(IntrinsicTriangulation& triangulation, const std::vector<int>& edges);
 
 }  // namespace orbitutte

@@ -68,12 +68,14 @@ EdgeWeights cotangent_weights(const Mesh& mesh, const Connectivity& connectivity
   return result;
 }
 
-EdgeWeights delaunay_weights(const Mesh& mesh, const Connectivity& connectivity, double clamp) {
+EdgeWeights delaunay_weights(const Mesh& mesh, const Connectivity& connectivity,
+                             const WeightOptions& options) {
   IntrinsicTriangulation triangulation = intrinsic_triangulation(mesh, connectivity);
+  triangulation.kept_faces = options.kept_faces;
   std::vector<int> all(connectivity.edges.size());
   std::iota(all.begin(), all.end(), 0);
   make_delaunay(triangulation, all);
-  return intrinsic_weights(std::move(triangulation), clamp);
+  return intrinsic_weights(std::move(triangulation), options.clamp);
 }
 
 // Half the mean length of the edges at every vertex.
@@ -135,7 +137,7 @@ int find_edge(const Connectivity& connectivity, int i, int j) {
 EdgeWeights weights_of_kind(const Mesh& mesh, const Connectivity& connectivity,
                             const WeightOptions& options) {
   if (options.kind == WeightKind::cotan) return cotangent_weights(mesh, connectivity, options.clamp);
-  if (options.kind == WeightKind::delaunay) return delaunay_weights(mesh, connectivity, options.clamp);
+  if (options.kind == WeightKind::delaunay) return delaunay_weights(mesh, connectivity, options);
   if (options.kind == WeightKind::mean_value) return mean_value_weights(mesh, connectivity);
   EdgeWeights uniform;
   uniform.w = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(connectivity.edges.size()));

@@ -25,7 +25,8 @@ std::string name(WeightKind kind);
 
 struct WeightOptions {
   WeightKind kind = WeightKind::cotan;
-  double clamp = 0.01;  ///< of cotangents that are not positive, > 0: the paper's value
+  double clamp = 0.01;          ///< of cotangents that are not positive, > 0: the paper's value
+  std::vector<int> kept_faces;  ///< of kind `delaunay`: faces whose edges are not flipped
 };
 
 struct EdgeWeights {

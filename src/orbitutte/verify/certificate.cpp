@@ -18,6 +18,7 @@
 #include "orbitutte/orbifold/signature.h"
 #include "orbitutte/orbifold/symmetry_group.h"
 #include "orbitutte/parallel.h"
+#include "orbitutte/verify/laid_out.h"
 #include "orbitutte/verify/orientation.h"
 #include "orbitutte/verify/spherical_triangle.h"
 
@@ -334,27 +335,63 @@ bool all_passed(const std::vector<Check>& checks) {
   return std::all_of(checks.begin(), checks.end(), [](const Check& check) { return check.passed; });
 }
 
-}  // namespace
-
-Certificate certify(const Mesh& mesh, const Embedding& embedding) {
-  Certificate certificate;
-  certificate.expected_area = 4 * pi / embedding.group_order;
+// That the cut mesh is the input's and its seams glue it to a surface; false where nothing else can be
+// computed safely.
+bool check_gluing(const Mesh& mesh, const Embedding& embedding, Certificate& certificate) {
   std::vector<Check>& checks = certificate.checks;
   checks.push_back(cut_mesh_check(mesh, embedding));
   checks.push_back(unit_check(embedding.positions));
-  if (!all_passed(checks)) return certificate;  // nothing else can be computed safely
+  if (!all_passed(checks)) return false;
   checks.push_back(seam_gluing_check(embedding));
   checks.push_back(transform_check(embedding.seams));
   checks.push_back(cone_check(embedding));
-  if (!all_passed(checks)) return certificate;
+  if (!all_passed(checks)) return false;
   checks.push_back(group_check(embedding));
   certificate.max_seam_residual = max_seam_residual(embedding);
   checks.push_back(at_most("seam_residual", certificate.max_seam_residual, seam_bound));
+  return true;
+}
+
+// That the images of the surface's faces cover the tile once.
+void check_faces(const Embedding& embedding, Certificate& certificate) {
+  std::vector<Check>& checks = certificate.checks;
   checks.push_back(orientation_check(embedding, certificate.nonpositive_faces));
   checks.push_back(edge_length_check(embedding, certificate.max_edge_length));
   checks.push_back(angle_check(embedding));
   checks.push_back(area_check(embedding, certificate));
   certificate.bijective = all_passed(checks);
+}
+
+// Flips of the mesh's edges lead to the triangulation's faces, whose corners are unit vectors.
+bool check_layout(const Embedding& layout, const IntrinsicTriangulation& triangulation,
+                  Certificate& certificate) {
+  Offences offences;
+  for (int h = 0; h < static_cast<int>(triangulation.F.size()); ++h)
+    if (layout.source_vertex[h] != origin(triangulation.F, h))
+      offences.add("flips do not lead to face {} of the triangulation", h / 3);
+  certificate.checks.push_back(offences.check("flips"));
+  Check unit = unit_check(layout.positions);
+  unit.name = "unit_corners";
+  certificate.checks.push_back(unit);
+  return all_passed(certificate.checks);
+}
+
+}  // namespace
+
+Certificate certify(const Mesh& mesh, const Embedding& embedding) {
+  Certificate certificate;
+  certificate.expected_area = 4 * pi / embedding.group_order;
+  if (check_gluing(mesh, embedding, certificate)) check_faces(embedding, certificate);
+  return certificate;
+}
+
+Certificate certify_intrinsic(const Mesh& mesh, const Embedding& embedding,
+                              const IntrinsicTriangulation& triangulation) {
+  Certificate certificate;
+  certificate.expected_area = 4 * pi / embedding.group_order;
+  if (!check_gluing(mesh, embedding, certificate)) return certificate;
+  const Embedding layout = laid_out(mesh, embedding, triangulation);
+  if (check_layout(layout, triangulation, certificate)) check_faces(layout, certificate);
   return certificate;
 }
 

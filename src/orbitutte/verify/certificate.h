@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "orbitutte/mesh/intrinsic_triangulation.h"
 #include "orbitutte/orbifold/embedding.h"
 
 namespace orbitutte {
@@ -35,5 +36,11 @@ struct Certificate {
 /// the input mesh, whose faces the cut mesh must have. Never throws on account of the embedding: whatever
 /// does not hold is a failed check.
 Certificate certify(const Mesh& mesh, const Embedding& embedding);
+
+/// The same of another triangulation of the mesh's surface, whose faces take the place of the mesh's: their
+/// images are laid out anew from the embedding and the triangulation's flips. Where it is bijective, the map
+/// that is spherical on each of those faces is a bijection, whatever the mesh's own triangles do.
+Certificate certify_intrinsic(const Mesh& mesh, const Embedding& embedding,
+                              const IntrinsicTriangulation& triangulation);
 
 }  // namespace orbitutte

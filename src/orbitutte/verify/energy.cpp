@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "orbitutte/verify/energy.h"
 
+#include <numbers>
+
+#include "orbitutte/mesh/cone_weights.h"
+#include "orbitutte/verify/laid_out.h"
 #include "orbitutte/verify/spherical_triangle.h"
 
 namespace orbitutte {
@@ -18,6 +22,24 @@ double dirichlet_energy(const Connectivity& connectivity, const EdgeWeights& wei
     energy += weights.w[e] * d * d;
   }
   return energy;
+}
+
+EdgeWeights weights_of(const Mesh& mesh, const WeightOptions& options, const Embedding& embedding) {
+  std::vector<ConeAngle> cones;
+  for (const ConeCopies& cone : embedding.cones) {
+    const double around = cone.kind == ConeKind::rotation ? 2 * std::numbers::pi : std::numbers::pi;
+    if (cone.kind != ConeKind::fixed) cones.push_back({cone.vertex, around / cone.order});
+  }
+  const Connectivity connectivity = connect(mesh.F, static_cast<int>(mesh.V.rows()));
+  return sharpened_at_cones(edge_weights(mesh, connectivity, options), cones);
+}
+
+double dirichlet_energy(const Mesh& mesh, const WeightOptions& options, const Embedding& embedding) {
+  const EdgeWeights weights = weights_of(mesh, options, embedding);
+  if (weights.triangulation)
+    return dirichlet_energy(weights.triangulation->connectivity, weights,
+                            laid_out(mesh, embedding, *weights.triangulation));
+  return dirichlet_energy(connect(mesh.F, static_cast<int>(mesh.V.rows())), weights, embedding);
 }
 
 }  // namespace orbitutte

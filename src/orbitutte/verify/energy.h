@@ -12,4 +12,12 @@ namespace orbitutte {
 double dirichlet_energy(const Connectivity& connectivity, const EdgeWeights& weights,
                         const Embedding& embedding);
 
+/// E with weights computed again from the mesh and the embedding's cones. Of intrinsic weights the edges are
+/// the geodesics of their triangulation, and d the arc length between images of their ends as laid_out has
+/// them. Throws ArgumentError for weights of a file.
+double dirichlet_energy(const Mesh& mesh, const WeightOptions& options, const Embedding& embedding);
+
+/// The weights of an embedding of the mesh, the cones taken into account where the kind does.
+EdgeWeights weights_of(const Mesh& mesh, const WeightOptions& options, const Embedding& embedding);
+
 }  // namespace orbitutte
