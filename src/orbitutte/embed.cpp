@@ -258,7 +258,18 @@ EmbedResult embed_here(const Mesh& mesh, Preparation& prepared, const Orbifold& 
 bool may_keep_faces(const EmbedResult& result) {
   const auto turned = static_cast<Eigen::Index>(result.certificate.nonpositive_faces.size());
   return result.weights.triangulation && result.minimum.termination == Termination::converged && turned > 0 &&
-         turned <= 1 + result.embedding.faces.rows() / 100;
+         turned <= 1 + result.embedding.faces.rows() / 50;
+}
+
+// The faces that share a vertex with one of some faces.
+std::vector<int> faces_around(const Faces& F, const std::vector<int>& faces, int vertex_count) {
+  std::vector<char> near(vertex_count, 0);
+  for (const int f : faces)
+    for (const int v : F.row(f)) near[v] = 1;
+  std::vector<int> result;
+  for (int f = 0; f < static_cast<int>(F.rows()); ++f)
+    if (near[F(f, 0)] || near[F(f, 1)] || near[F(f, 2)]) result.push_back(f);
+  return result;
 }
 
 // The triangulation that has the weights may be embedded while thin triangles of the input, which are not
@@ -273,7 +284,9 @@ EmbedResult embed_or_keep_faces(const Mesh& mesh, Preparation& prepared, const O
   std::vector<int>& kept = keeping.weights.kept_faces;
   std::vector<int> turned = first.certificate.nonpositive_faces;
   for (int k = 0; k < attempts; ++k) {
-    kept.insert(kept.end(), turned.begin(), turned.end());
+    for (const int f : faces_around(mesh.F, turned, static_cast<int>(mesh.V.rows()))) kept.push_back(f);
+    std::sort(kept.begin(), kept.end());
+    kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
     EmbedResult next = embed_here(mesh, prepared, orbifold, marked_vertices, keeping);
     first.timings.insert(first.timings.end(), next.timings.begin(), next.timings.end());
     if (next.certificate.bijective) {
