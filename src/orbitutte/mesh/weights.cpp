@@ -71,6 +71,10 @@ EdgeWeights cotangent_weights(const Mesh& mesh, const Connectivity& connectivity
 EdgeWeights delaunay_weights(const Mesh& mesh, const Connectivity& connectivity,
                              const WeightOptions& options) {
   IntrinsicTriangulation triangulation = intrinsic_triangulation(mesh, connectivity);
+  for (const int f : options.kept_faces)
+    if (f < 0 || f >= mesh.F.rows())
+      throw MeshError(
+          fmt::format("there is no face {} to keep; the mesh has the faces 0 to {}", f, mesh.F.rows() - 1));
   triangulation.kept_faces = options.kept_faces;
   std::vector<int> all(connectivity.edges.size());
   std::iota(all.begin(), all.end(), 0);

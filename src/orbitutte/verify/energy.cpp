@@ -28,7 +28,7 @@ EdgeWeights weights_of(const Mesh& mesh, const WeightOptions& options, const Emb
   std::vector<ConeAngle> cones;
   for (const ConeCopies& cone : embedding.cones) {
     const double around = cone.kind == ConeKind::rotation ? 2 * std::numbers::pi : std::numbers::pi;
-    if (cone.kind != ConeKind::fixed) cones.push_back({cone.vertex, around / cone.order});
+    if (cone.kind != ConeKind::fixed && cone.order > 0) cones.push_back({cone.vertex, around / cone.order});
   }
   const Connectivity connectivity = connect(mesh.F, static_cast<int>(mesh.V.rows()));
   return sharpened_at_cones(edge_weights(mesh, connectivity, options), cones);
