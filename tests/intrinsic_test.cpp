@@ -380,11 +380,20 @@ TEST(Cones, TwoOnOneFaceLeaveItAsItIs) {
 // --- gluing
 
 std::vector<ConeAngle> cones_of(const Orbifold& orbifold, const std::vector<int>& marks) {
+  const std::vector<double> angles = metric_angles(orbifold.marks);
   std::vector<ConeAngle> cones;
-  for (std::size_t k = 0; k < marks.size(); ++k)
-    cones.push_back(
-        {marks[k], (orbifold.marks[k].kind == ConeKind::rotation ? 2 : 1) * pi / orbifold.marks[k].order});
+  for (std::size_t k = 0; k < marks.size(); ++k) cones.push_back({marks[k], angles[k]});
   return cones;
+}
+
+TEST(Cones, HaveTheAnglesOfTheOrbifoldButThoseOfAFreeAxisTwice) {
+  const auto angles = [](const char* signature) { return metric_angles(parse_orbifold(signature).marks); };
+  EXPECT_EQ(angles("532"), (std::vector{2 * pi / 5, 2 * pi / 3, pi}));
+  EXPECT_EQ(angles("*222"), (std::vector{pi / 2, pi / 2, pi / 2}));
+  EXPECT_EQ(angles("2*2"), (std::vector{pi, pi / 2}));
+  EXPECT_EQ(angles("5*"), (std::vector{2 * pi / 5}));
+  EXPECT_EQ(angles("33"), (std::vector{4 * pi / 3, 4 * pi / 3}));
+  EXPECT_EQ(angles("*33"), (std::vector{2 * pi / 3, 2 * pi / 3}));
 }
 
 /// A mesh with many flips, cut and glued.
@@ -607,6 +616,22 @@ TEST(IntrinsicEmbedding, AngleDistortionFallsUnderRefinement) {
     EXPECT_LT(delaunay - 1, 0.75 * (before - 1));
     before = delaunay;
     mesh = test::subdivided(mesh);
+  }
+}
+
+// Along the axis of NN and *NN nothing but the error of the elements holds the map.
+TEST(IntrinsicEmbedding, DoesNotSlideToOneEndOfAFreeAxis) {
+  for (const std::string signature : {"22", "33", "55", "12,12", "*22", "*33", "*55", "*12,12"}) {
+    const Orbifold orbifold = parse_orbifold(signature);
+    const Mesh mesh = orbifold.topology == Topology::sphere ? test::perturbed(test::icosphere(4), 0.01, 3)
+                                                            : test::round_disk(24);
+    const std::vector<int> marks = choose_marked_vertices(mesh, orbifold);
+    const EmbedResult plain = embedded(mesh, signature, marks, with(WeightKind::cotan)),
+                      result = embedded(mesh, signature, marks, with(WeightKind::delaunay));
+    EXPECT_TRUE(result.certificate.bijective) << signature;
+    EXPECT_LT(result.certificate.max_edge_length, 1.2 * plain.certificate.max_edge_length) << signature;
+    EXPECT_LT(result.distortion.angle.mean, plain.distortion.angle.mean + 0.002) << signature;
+    EXPECT_GT(result.minimum.energy, 8 * pi / orbifold.group_order) << signature;
   }
 }
 

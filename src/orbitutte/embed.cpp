@@ -6,7 +6,6 @@
 #include <Eigen/Geometry>
 #include <chrono>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include "orbitutte/mesh/cone_weights.h"
@@ -21,8 +20,6 @@
 
 namespace orbitutte {
 namespace {
-
-using std::numbers::pi;
 
 // Runs the stages, tells of each and times it.
 class Stages {
@@ -112,14 +109,11 @@ const std::vector<std::array<int, 2>>& weighted_edges(const EdgeWeights& weights
   return weights.triangulation ? weights.triangulation->connectivity.edges : connectivity.edges;
 }
 
-// The angles that the orbifold has at the marked vertices.
 std::vector<ConeAngle> cone_angles(const Orbifold& orbifold, const std::vector<int>& marked_vertices) {
+  const std::vector<double> angles = metric_angles(orbifold.marks);
   std::vector<ConeAngle> cones;
-  for (std::size_t k = 0; k < orbifold.marks.size(); ++k) {
-    const auto& [order, kind] = orbifold.marks[k];
-    if (kind == ConeKind::fixed) continue;
-    cones.push_back({marked_vertices[k], (kind == ConeKind::rotation ? 2 : 1) * pi / order});
-  }
+  for (std::size_t k = 0; k < angles.size(); ++k)
+    if (angles[k] > 0) cones.push_back({marked_vertices[k], angles[k]});
   return cones;
 }
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "orbitutte/verify/energy.h"
 
-#include <numbers>
-
 #include "orbitutte/mesh/cone_weights.h"
+#include "orbitutte/orbifold/signature.h"
 #include "orbitutte/verify/laid_out.h"
 #include "orbitutte/verify/spherical_triangle.h"
 
@@ -25,11 +24,12 @@ double dirichlet_energy(const Connectivity& connectivity, const EdgeWeights& wei
 }
 
 EdgeWeights weights_of(const Mesh& mesh, const WeightOptions& options, const Embedding& embedding) {
+  std::vector<Mark> marks;
+  for (const ConeCopies& cone : embedding.cones) marks.push_back({cone.order, cone.kind});
+  const std::vector<double> angles = metric_angles(marks);
   std::vector<ConeAngle> cones;
-  for (const ConeCopies& cone : embedding.cones) {
-    const double around = cone.kind == ConeKind::rotation ? 2 * std::numbers::pi : std::numbers::pi;
-    if (cone.kind != ConeKind::fixed && cone.order > 0) cones.push_back({cone.vertex, around / cone.order});
-  }
+  for (std::size_t k = 0; k < angles.size(); ++k)
+    if (angles[k] > 0) cones.push_back({embedding.cones[k].vertex, angles[k]});
   const Connectivity connectivity = connect(mesh.F, static_cast<int>(mesh.V.rows()));
   return sharpened_at_cones(edge_weights(mesh, connectivity, options), cones);
 }
