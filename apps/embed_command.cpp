@@ -84,9 +84,11 @@ std::vector<int> parse_cones(const std::string& text) {
 }
 
 WeightKind parse_weights(const std::string& text) {
-  if (text == "cotan") return WeightKind::cotan;
-  if (text == "uniform") return WeightKind::uniform;
-  throw ArgumentError(fmt::format("--weights is '{}'; it may be cotan or uniform", text));
+  for (const WeightKind kind :
+       {WeightKind::cotan, WeightKind::delaunay, WeightKind::mean_value, WeightKind::uniform})
+    if (text == name(kind)) return kind;
+  throw ArgumentError(
+      fmt::format("--weights is '{}'; it may be cotan, delaunay, mean-value or uniform", text));
 }
 
 Spread parse_spread(const std::string& text) {
@@ -169,6 +171,8 @@ void summarize(const EmbedArguments& arguments, const EmbedResult& result) {
   fmt::print(stderr, "not certified:\n");
   for (const Check& check : result.certificate.checks)
     if (!check.passed) fmt::print(stderr, "  {}: {}\n", check.name, check.detail);
+  if (result.intrinsic_certificate && result.intrinsic_certificate->bijective)
+    fmt::print(stderr, "certified of the intrinsic Delaunay triangulation: bijective\n");
 }
 
 }  // namespace

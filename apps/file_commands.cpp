@@ -31,9 +31,11 @@ Check claim(std::string name, bool holds, std::string detail) {
 }
 
 // The weights that the embedding was computed with; none where they came from a file that is not at hand.
-std::optional<EdgeWeights> weights_of(const Mesh& mesh, const Connectivity& connectivity, const Report& report,
-                                      const std::string& file) {
-  if (report.weights.kind != WeightKind::file) return edge_weights(mesh, connectivity, report.weights);
+std::optional<EdgeWeights> weights_at_hand(const Mesh& mesh, const Connectivity& connectivity,
+                                           const Embedding& embedding, const Report& report,
+                                           const std::string& file) {
+  if (report.weights.kind != WeightKind::file)
+    return weights_of(mesh, connectivity, report.weights, embedding);
   if (file.empty()) return std::nullopt;
   return read_weights(file, connectivity);
 }
@@ -53,8 +55,8 @@ bool has_cover(const Certificate& certificate) {
     return std::any_of(certificate.checks.begin(), certificate.checks.end(),
                        [&](const Check& check) { return check.name == name && check.passed; });
   };
-  return passed("cut_mesh") && passed("unit_positions") && passed("seam_transforms") && passed("seam_gluing") &&
-         passed("group_order");
+  return passed("cut_mesh") && passed("unit_positions") && passed("seam_transforms") &&
+         passed("seam_gluing") && passed("group_order");
 }
 
 Theorem2 not_run(const char* reason) {
@@ -67,7 +69,18 @@ Theorem2 theorem2_of(const Connectivity& connectivity, const std::optional<EdgeW
                      const Embedding& embedding, const Certificate& certificate) {
   if (!has_cover(certificate)) return not_run("the copies of the embedding do not fit together");
   if (!weights) return not_run("the weights came from a file: give it with --weights-file");
+  if (weights->triangulation) return not_run("the weights belong to edges of an intrinsic triangulation");
   return check_theorem2(connectivity, *weights, embedding);
+}
+
+// What the report says of the triangulation that has the weights.
+Check intrinsic_claim(const Mesh& mesh, const Embedding& embedding, const EdgeWeights& weights,
+                      const Report& report) {
+  const bool bijective =
+      weights.triangulation && certify_intrinsic(mesh, embedding, *weights.triangulation).bijective;
+  return claim("report_intrinsic_bijective", *report.intrinsic_bijective == (bijective && report.converged),
+               fmt::format("the report says bijective = {} of the intrinsic triangulation",
+                           *report.intrinsic_bijective));
 }
 
 std::vector<Check> check_claims(const Certificate& certificate, const Report& report) {
@@ -99,8 +112,9 @@ Json to_json(const std::vector<Check>& checks) {
 }
 
 Json to_json(const RepresentationInertia& part) {
-  return {{"dimension", part.dimension}, {"multiplicity", part.multiplicity}, {"unknowns", part.unknowns},
-          {"negative", part.negative},   {"kernel", part.kernel},             {"coordinates", part.coordinates},
+  return {{"dimension", part.dimension}, {"multiplicity", part.multiplicity},
+          {"unknowns", part.unknowns},   {"negative", part.negative},
+          {"kernel", part.kernel},       {"coordinates", part.coordinates},
           {"shift", part.shift}};
 }
 
@@ -159,14 +173,18 @@ int verify_command(const VerifyArguments& arguments) {
   const Triangulation triangulation = triangulate(mesh);
   const Mesh triangles = {mesh.V, on_vertices(triangulation, mesh.corners)};
   const Connectivity connectivity = connect(mesh, triangulation);
-  const std::optional<EdgeWeights> weights = weights_of(triangles, connectivity, report, arguments.weights_file);
+  const std::optional<EdgeWeights> weights =
+      weights_at_hand(triangles, connectivity, embedding, report, arguments.weights_file);
 
   const Certificate certificate = certify(mesh, embedding);
   Verdict verdict;
   verdict.checks = certificate.checks;
   for (Check& check : check_claims(certificate, report)) verdict.checks.push_back(std::move(check));
   if (certificate.bijective && weights)
-    verdict.checks.push_back(energy_check(dirichlet_energy(connectivity, *weights, embedding), report));
+    verdict.checks.push_back(
+        energy_check(dirichlet_energy(triangles, connectivity, *weights, embedding), report));
+  if (report.intrinsic_bijective && weights)
+    verdict.checks.push_back(intrinsic_claim(triangles, embedding, *weights, report));
   bool bijective = certificate.bijective;
   for (const Check& check : verdict.checks) bijective = bijective && check.passed;
   verdict.bijective = bijective && report.converged;
@@ -203,8 +221,8 @@ std::string version_text() {
   const Backend backend = available_backends().front();
   const bool gpl = backend == Backend::cholmod;
   const InertiaMethod inertia = available_inertia_methods().front();
-  return fmt::format("orbitutte {} ({})\nlinear algebra: {}, BLAS: {}; inertia: {}\nlicence: {}", version, commit,
-                     name(backend), blas_description(), name(inertia),
+  return fmt::format("orbitutte {} ({})\nlinear algebra: {}, BLAS: {}; inertia: {}\nlicence: {}", version,
+                     commit, name(backend), blas_description(), name(inertia),
                      gpl ? "sources MIT; this binary GPL-2.0-or-later through CHOLMOD's supernodal module"
                          : "MIT (with Eigen, MPL-2.0)");
 }

@@ -8,6 +8,7 @@ is no part of it: where it is missing, everything is skipped. Needs numpy.
   embed         every family on every mesh: verify_embedding.py and 'orbitutte verify' accept; exit 0 exactly when certified
   tile          the tiling of one embedding of each family is a closed surface of Euler characteristic 2, counterclockwise
   golden        the reference's energies to 1e-9 (relative) and edge lengths to 1e-7, with the reference's weights
+  weights       Delaunay and mean value weights on every mesh: as embed, and Delaunay is nearer to conformal than the clamp
   cut-seed      20 cuts of the same mesh: no edge length changes by more than 1e-8
   polygons      meshes of polygons, made of the same meshes: certified, convex, in their order; the checker accepts the map
                 divided into triangles, energy and gradient included; the tiling in polygons is a closed sphere
@@ -51,7 +52,9 @@ ALL_SEEDS = {('my_man_maxp.off', '532'): 20, ('david_50k.off', '532'): 20, ('cam
              ('boy.ply', '1x'): 20, ('quotient.ply', '5x'): 20}
 
 # May fail to be bijective in double precision, saying so (exit code 5).
-KNOWN_HARD = {'octocat.off'}
+KNOWN_HARD = ['octocat.off']
+KNOWN_HARD_INTRINSICALLY = ['thingi_62415.obj']  # only with Delaunay weights
+QUICK_WEIGHTS = ['my_man_maxp.off', 'itokawa.off', 'camelhead.off', 'fandisk.off']
 
 MAX_ITERATIONS_THREE_CONES = 14
 
@@ -352,6 +355,22 @@ class Suite:
         expect(found['bijective'] == (code == 0), 'verify_embedding and the report disagree')
         self.run(commands, self.orbitutte, 'verify', ply, report_path(ply), path, codes=(code,))
 
+    def test_weights(self, name, commands, folder, mesh, signature):
+        cones, path = self.marked(mesh, signature), self.shared / 'meshes' / mesh
+        angle = {}
+        for weights in ('cotan', 'delaunay', 'mean-value'):
+            codes = (0, 5) if mesh in KNOWN_HARD + KNOWN_HARD_INTRINSICALLY else (0,)
+            code, ply, report = self.embed(commands, folder, mesh, signature, cones, '--weights', weights, name=weights, codes=codes)
+            expect(report['weights']['kind'] == weights, f"the report has weights {report['weights']['kind']}")
+            expect(report['certificate']['bijective'] == (code == 0), f'exit code {code}, but the report says otherwise')
+            self.run(commands, self.orbitutte, 'verify', ply, report_path(ply), path, codes=(code,))
+            if code == 0:
+                self.run(commands, PYTHON, self.checker, path, ply, report_path(ply))
+            angle[weights] = report['distortion']['angle']['mean']
+        if mesh not in KNOWN_HARD + KNOWN_HARD_INTRINSICALLY:
+            expect(angle['delaunay'] <= angle['cotan'] + 1e-3,
+                   f"mean angle distortion {angle['delaunay']:.4f} with Delaunay weights, {angle['cotan']:.4f} with the clamp")
+
     def test_tile(self, name, commands, folder, mesh, signature):
         _, ply, report = self.embed(commands, folder, mesh, signature, self.marked(mesh, signature))
         tiling = folder / 'tiling.ply'
@@ -414,11 +433,11 @@ class Suite:
             expect(report['iterations'] <= MAX_ITERATIONS_THREE_CONES,
                    f"{report['iterations']} iterations, more than {MAX_ITERATIONS_THREE_CONES}")
 
-    def test_cut_seed(self, name, commands, folder, mesh, signature, seeds):
+    def test_cut_seed(self, name, commands, folder, mesh, signature, seeds, weights='cotan'):
         cones = self.marked(mesh, signature)
         reference, cuts = None, set()
         for seed in range(seeds):
-            _, ply, report = self.embed(commands, folder, mesh, signature, cones, '--cut-seed', seed)
+            _, ply, report = self.embed(commands, folder, mesh, signature, cones, '--cut-seed', seed, '--weights', weights)
             cuts.add(json.dumps([seam['left'] for seam in report['seams']]))
             keys, lengths = edge_lengths(Ply(ply))
             if reference is None:
@@ -459,6 +478,10 @@ class Suite:
         # Long ones first, so that none is left alone at the end.
         for (mesh, signature), seeds in (QUICK_SEEDS if quick else ALL_SEEDS).items():
             add(f'cut-seed/{stem(mesh)}/{signature}', self.test_cut_seed, mesh, signature, seeds)
+            add(f'cut-seed/{stem(mesh)}/{signature}/delaunay', self.test_cut_seed, mesh, signature, seeds, 'delaunay')
+        for mesh, (topology, _, _) in self.meshes.items():
+            if not quick or mesh in QUICK_WEIGHTS:
+                add(f'weights/{stem(mesh)}', self.test_weights, mesh, '432' if topology == 'sphere' else '*432')
         if quick:
             chosen = QUICK_MESHES
         else:

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <unordered_set>
 
+#include "orbitutte/mesh/cone_weights.h"
 #include "orbitutte/mesh/extremities.h"
 #include "orbitutte/mesh/inspection.h"
 #include "orbitutte/mesh/recognition.h"
@@ -17,6 +18,7 @@
 #include "orbitutte/mesh/weak_places.h"
 #include "orbitutte/parallel.h"
 #include "orbitutte/solve/ears.h"
+#include "orbitutte/solve/flipped_edges.h"
 #include "orbitutte/solve/frame.h"
 #include "orbitutte/solve/initial_embedding.h"
 
@@ -133,6 +135,20 @@ void fix_gauge(const Tile& tile, Points& positions) {
   positions.rowwise().normalize();
 }
 
+// The edges that have the weights: the mesh's, or those of a triangulation of its surface.
+const std::vector<std::array<int, 2>>& weighted_edges(const EdgeWeights& weights,
+                                                      const Connectivity& connectivity) {
+  return weights.triangulation ? weights.triangulation->connectivity.edges : connectivity.edges;
+}
+
+std::vector<ConeAngle> cone_angles(const Orbifold& orbifold, const std::vector<int>& marked_vertices) {
+  const std::vector<double> angles = metric_angles(orbifold.marks);
+  std::vector<ConeAngle> cones;
+  for (std::size_t k = 0; k < angles.size(); ++k)
+    if (angles[k] > 0) cones.push_back({marked_vertices[k], angles[k]});
+  return cones;
+}
+
 std::vector<std::string> warnings_about(const EdgeWeights& weights, const std::vector<Ear>& ears) {
   std::vector<std::string> warnings;
   if (weights.zero_edges > 0)
@@ -154,12 +170,20 @@ BoundaryConditions boundary_conditions(const Mesh& mesh, const CutMesh& cut, con
   return boundary;
 }
 
+// What did not converge is not certified.
+void refuse(Certificate& certificate, const Minimum& minimum, const EmbedOptions& options) {
+  certificate.bijective = false;
+  certificate.checks.push_back({"converged", false, minimum.gradient_norm, options.tolerance,
+                                "the optimiser ended before it converged"});
+}
+
 // What is known of a mesh before its cones are, and its last cut.
 struct Preparation {
   std::optional<Triangulation> polygons;  // that the triangles make up; none where all faces are triangles
   std::vector<std::string> warnings;      // about the polygons
   std::optional<SoundSurface> surface;
   std::optional<EdgeWeights> weights;
+  std::vector<int> kept_faces;  // with which these were computed
   std::optional<std::pair<std::vector<int>, int>>
       cut_through;  // the marked vertices of `cut`, and how many lie inside
   CutMesh cut;
@@ -247,26 +271,35 @@ EmbedResult embed_here(const Mesh& mesh, Preparation& prepared, const Orbifold& 
   });
   const Connectivity& connectivity = prepared.surface->connectivity;
   stage("weights", [&] {  // section 4
-    if (prepared.weights) return;
-    prepared.weights = options.weights_file.empty() ? edge_weights(mesh, connectivity, options.weights)
-                                                    : read_weights(options.weights_file, connectivity);
+    if (!prepared.weights || prepared.kept_faces != options.weights.kept_faces)
+      prepared.weights = options.weights_file.empty() ? edge_weights(mesh, connectivity, options.weights)
+                                                      : read_weights(options.weights_file, connectivity);
+    prepared.kept_faces = options.weights.kept_faces;
+    result.weights = sharpened_at_cones(*prepared.weights, cone_angles(orbifold, marked_vertices));
   });
-  const EdgeWeights& weights = *prepared.weights;
+  const EdgeWeights& weights = result.weights;
   stage("cut", [&] {  // section 4.1; the elimination order is found at the same time
     const std::pair through(marked_vertices, orbifold.inner_marks);
-    if (prepared.cut_through == through) return;
+    const bool is_cut = prepared.cut_through == through;
     prepared.cut_through.reset();
     parallel_for(2, [&](int task) {
-      if (task == 0)
+      if (task == 0 && !is_cut)
         prepared.cut = cut_to_disk(mesh, connectivity, marked_vertices, orbifold.inner_marks, options.cut);
-      if (task == 1) order_ahead(*prepared.laplacians, connectivity.edges, static_cast<int>(mesh.V.rows()));
+      if (task == 1)
+        order_ahead(*prepared.laplacians, weighted_edges(weights, connectivity),
+                    static_cast<int>(mesh.V.rows()));
     });
     prepared.cut_through = through;
   });
   const CutMesh& cut = prepared.cut;
   Tile tile = basic_tile(orbifold, cut.arrangement);  // appendix A
   BoundaryConditions boundary = boundary_conditions(mesh, cut, tile, orbifold, options.spread);
-  const GluedEdges glued = glued_edges(cut, connectivity, boundary);
+  const auto glued_along = [&](const BoundaryConditions& conditions) {
+    return weights.triangulation
+               ? flipped_edges(mesh.F, connectivity, *weights.triangulation, cut, conditions)
+               : glued_edges(cut, connectivity, conditions);
+  };
+  const GluedEdges glued = glued_along(boundary);
   require_apart(glued, boundary, orbifold);
   const SphericalEnergy energy(glued, weights, boundary);  // (2)
   LaplacianOptions laplacian_options = options.laplacian;
@@ -291,7 +324,7 @@ EmbedResult embed_here(const Mesh& mesh, Preparation& prepared, const Orbifold& 
   if (frame) {
     tile = rotated(tile, *frame);
     boundary = glue(cut, tile, orbifold);
-    const SphericalEnergy there(glued_edges(cut, connectivity, boundary), weights, boundary);
+    const SphericalEnergy there(glued_along(boundary), weights, boundary);
     positions = settle_in_frame(positions, *frame, there, boundary);
   }
   const InputFaces faces(prepared, mesh.F), cut_faces(prepared, cut.F, cut.turned);
@@ -310,6 +343,8 @@ EmbedResult embed_here(const Mesh& mesh, Preparation& prepared, const Orbifold& 
                       cut_faces.polygons()};
   stage("certify", [&] {
     result.certificate = certify(static_cast<int>(mesh.V.rows()), faces.view(), result.embedding);
+    if (!result.certificate.bijective && weights.triangulation)
+      result.intrinsic_certificate = certify_intrinsic(mesh, result.embedding, *weights.triangulation);
     result.distortion = measure_distortion(mesh, result.embedding);
   });
   if (!result.certificate.nonpositive_faces.empty())
@@ -318,15 +353,59 @@ EmbedResult embed_here(const Mesh& mesh, Preparation& prepared, const Orbifold& 
         collapsing_faces(faces.view(), mirrors_of(tile, boundary, cut.source_vertex), marked_vertices),
         result);
   if (result.minimum.termination != Termination::converged) {
-    result.certificate.bijective = false;
-    result.certificate.checks.push_back({"converged", false, result.minimum.gradient_norm, options.tolerance,
-                                         "the optimiser ended before it converged"});
+    refuse(result.certificate, result.minimum, options);
+    if (result.intrinsic_certificate) refuse(*result.intrinsic_certificate, result.minimum, options);
   }
   result.topology = prepared.surface->topology;
   result.unreferenced_vertices = prepared.surface->unreferenced_vertices;
   result.zero_area_faces = prepared.surface->zero_area_faces;
-  result.weights = weights;
   return result;
+}
+
+// Can it help to keep the faces that the result turns over? Where they are many, it is double precision that
+// does not resolve them.
+bool may_keep_faces(const EmbedResult& result) {
+  const auto turned = static_cast<Eigen::Index>(result.certificate.nonpositive_faces.size());
+  return result.weights.triangulation && result.minimum.termination == Termination::converged && turned > 0 &&
+         turned <= 1 + result.embedding.faces.rows() / 50;
+}
+
+// The faces that share a vertex with one of some faces.
+std::vector<int> faces_around(const Faces& F, const std::vector<int>& faces, int vertex_count) {
+  std::vector<char> near(vertex_count, 0);
+  for (const int f : faces)
+    for (const int v : F.row(f)) near[v] = 1;
+  std::vector<int> result;
+  for (int f = 0; f < static_cast<int>(F.rows()); ++f)
+    if (near[F(f, 0)] || near[F(f, 1)] || near[F(f, 2)]) result.push_back(f);
+  return result;
+}
+
+// The triangulation that has the weights may be embedded while thin triangles of the input, which are not
+// among its faces, are turned over. Then those become faces of it: the map is computed again, up to a few
+// times, and where that leads to a certificate, this is the result. Else the first one is.
+EmbedResult embed_or_keep_faces(const Mesh& mesh, Preparation& prepared, const Orbifold& orbifold,
+                                const std::vector<int>& marked_vertices, const EmbedOptions& options) {
+  constexpr int attempts = 4;
+  EmbedResult first = embed_here(mesh, prepared, orbifold, marked_vertices, options);
+  if (!may_keep_faces(first)) return first;
+  EmbedOptions keeping = options;
+  std::vector<int>& kept = keeping.weights.kept_faces;
+  std::vector<int> turned = first.certificate.nonpositive_faces;
+  for (int k = 0; k < attempts; ++k) {
+    for (const int f : faces_around(mesh.F, turned, static_cast<int>(mesh.V.rows()))) kept.push_back(f);
+    std::sort(kept.begin(), kept.end());
+    kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+    EmbedResult next = embed_here(mesh, prepared, orbifold, marked_vertices, keeping);
+    first.timings.insert(first.timings.end(), next.timings.begin(), next.timings.end());
+    if (next.certificate.bijective) {
+      next.timings = first.timings;
+      return next;
+    }
+    if (!may_keep_faces(next)) break;
+    turned = next.certificate.nonpositive_faces;
+  }
+  return first;
 }
 
 std::vector<int> far_from_each_other(const Mesh& mesh, const SoundSurface& surface,
@@ -339,8 +418,9 @@ std::vector<int> far_from_each_other(const Mesh& mesh, const SoundSurface& surfa
 EmbedResult embed_prepared(const Mesh& mesh, Preparation& prepared, const Orbifold& orbifold,
                            const std::vector<int>& marked_vertices, const EmbedOptions& options) {
   if (options.threads < 0) throw ArgumentError("the number of threads must not be negative");
-  return with_threads(options.threads,
-                      [&] { return embed_here(mesh, prepared, orbifold, marked_vertices, options); });
+  return with_threads(options.threads, [&] {
+    return embed_or_keep_faces(mesh, prepared, orbifold, marked_vertices, options);
+  });
 }
 
 }  // namespace

@@ -45,14 +45,16 @@ struct EmbedOptions {
   ProgressCallback progress;
 };
 
-/// Wall-clock seconds per stage, in the order in which they ran.
+/// Wall-clock seconds per stage, in the order in which they ran; a stage that ran again has further entries.
 using Timings = std::vector<std::pair<std::string, double>>;
 
 struct EmbedResult {
   Embedding embedding;
   EdgeWeights weights;
-  Minimum minimum;  ///< how the optimiser fared; its positions are those of the input vertices
-  Certificate certificate;
+  Minimum minimum;          ///< how the optimiser fared; its positions are those of the input vertices
+  Certificate certificate;  ///< of the input's triangles
+  /// Of the triangulation that has the weights, where it is not the input's and that is not bijective.
+  std::optional<Certificate> intrinsic_certificate;
   Distortion distortion;
   Topology topology = Topology::sphere;
   int unreferenced_vertices = 0;

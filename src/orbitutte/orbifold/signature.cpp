@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "orbitutte/orbifold/families.h"
@@ -230,6 +231,17 @@ Orbifold parse_orbifold(const std::string& signature) {
   orbifold.marks = marks_of(symbol);
   orbifold.inner_marks = static_cast<int>(symbol.rotations.size());
   return orbifold;
+}
+
+std::vector<double> metric_angles(const std::vector<Mark>& marks) {
+  const bool slides = marks.size() == 2 && marks[0].order == marks[1].order && marks[0].kind == marks[1].kind;
+  std::vector<double> angles;
+  for (const auto& [order, kind] : marks) {
+    const double around = kind == ConeKind::rotation ? 2 * std::numbers::pi : std::numbers::pi;
+    const bool is_cone = kind != ConeKind::fixed && order > 0;
+    angles.push_back(is_cone ? (slides ? 2 : 1) * around / order : 0.0);
+  }
+  return angles;
 }
 
 std::vector<FamilyDescription> families() {

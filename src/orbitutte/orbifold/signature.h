@@ -45,6 +45,13 @@ struct Orbifold {
 /// orders that make a Euclidean or hyperbolic orbifold or none at all (teardrops, spindles, order one).
 Orbifold parse_orbifold(const std::string& signature);
 
+/// The angle of each mark in the metric that weights take at cones (sharpened_at_cones), radians; 0 where the
+/// mark is no cone. It is the mark's own, but twice that where two alike are all there are: these lie
+/// opposite to each other, and the map may slide along their axis at no cost but the error of the elements
+/// there. With their own angles nothing would be left of that, and arcs, shorter than the plane's, would draw
+/// the whole mesh towards one of them.
+std::vector<double> metric_angles(const std::vector<Mark>& marks);
+
 /// A row of `orbitutte types`.
 struct FamilyDescription {
   std::string family;       ///< "532", "22N", "*NN", ...

@@ -35,6 +35,7 @@ struct Report {
   bool converged = false;
   bool bijective = false;
   double expected_area = 0;
+  std::optional<bool> intrinsic_bijective;  ///< of the triangulation that has the weights, where that is told
   std::vector<int> nonpositive_faces;
 };
 

@@ -26,6 +26,7 @@
 #include "orbitutte/parallel.h"
 #include "orbitutte/verify/convexity.h"
 #include "orbitutte/verify/held_sides.h"
+#include "orbitutte/verify/laid_out.h"
 #include "orbitutte/verify/orientation.h"
 #include "orbitutte/verify/spherical_triangle.h"
 
@@ -411,34 +412,69 @@ bool all_passed(const std::vector<Check>& checks) {
   return std::all_of(checks.begin(), checks.end(), [](const Check& check) { return check.passed; });
 }
 
-}  // namespace
-
-Certificate certify(int vertex_count, const FaceView& faces, const Embedding& embedding) {
-  Certificate certificate;
+// That the cut mesh is the input's; false where nothing else can be computed safely.
+bool check_input(int vertex_count, const FaceView& faces, const Embedding& embedding,
+                 Certificate& certificate) {
   certificate.expected_area = 4 * pi / embedding.group_order;
+  certificate.checks.push_back(cut_mesh_check(vertex_count, faces, embedding));
+  certificate.checks.push_back(unit_check(embedding.positions));
+  return all_passed(certificate.checks);
+}
+
+// That seams or held sides glue the cut mesh to a surface; false as before. triangles: the embedding, its
+// polygons divided.
+bool check_gluing(const Embedding& embedding, const Embedding& triangles, Certificate& certificate) {
   std::vector<Check>& checks = certificate.checks;
-  checks.push_back(cut_mesh_check(vertex_count, faces, embedding));
-  checks.push_back(unit_check(embedding.positions));
-  if (!all_passed(checks)) return certificate;  // nothing else can be computed safely
-  std::optional<DividedPolygons> polygons;
-  if (embedding.polygons.count() > 0) polygons = divide_from_middles(embedding);
-  const Embedding& triangles = polygons ? polygons->embedding : embedding;
-  const std::vector<int> face_of = polygons ? polygons->face_of : std::vector<int>();
   checks.push_back(seam_gluing_check(triangles));
   checks.push_back(transform_check(embedding.seams));
   checks.push_back(cone_check(embedding));
-  if (!all_passed(checks)) return certificate;
+  if (!all_passed(checks)) return false;
   certificate.expected_area = area(orbifold_of(embedding));
   checks.push_back(held_sides_check(embedding));
   checks.push_back(group_check(embedding));
   certificate.max_seam_residual = max_seam_residual(embedding);
   checks.push_back(at_most("seam_residual", certificate.max_seam_residual, seam_bound));
+  return true;
+}
+
+// That the images of the surface's faces cover the tile once. face_of: the face that each triangle is part
+// of, or empty.
+void check_faces(const Embedding& embedding, const Embedding& triangles, const std::vector<int>& face_of,
+                 Certificate& certificate) {
+  std::vector<Check>& checks = certificate.checks;
   checks.push_back(orientation_check(triangles, face_of, certificate.nonpositive_faces));
-  if (polygons) checks.push_back(convexity_check(embedding, certificate.nonpositive_faces));
   checks.push_back(edge_length_check(embedding, certificate.max_edge_length));
   checks.push_back(angle_check(triangles));
   checks.push_back(area_check(triangles, certificate));
   certificate.bijective = all_passed(checks);
+}
+
+// Flips of the mesh's edges lead to the triangulation's faces, whose corners are unit vectors.
+bool check_layout(const Embedding& layout, const IntrinsicTriangulation& triangulation,
+                  Certificate& certificate) {
+  Offences offences;
+  for (int h = 0; h < static_cast<int>(triangulation.F.size()); ++h)
+    if (layout.source_vertex[h] != origin(triangulation.F, h))
+      offences.add("flips do not lead to face {} of the triangulation", h / 3);
+  certificate.checks.push_back(offences.check("flips"));
+  Check unit = unit_check(layout.positions);
+  unit.name = "unit_corners";
+  certificate.checks.push_back(unit);
+  return all_passed(certificate.checks);
+}
+
+}  // namespace
+
+Certificate certify(int vertex_count, const FaceView& faces, const Embedding& embedding) {
+  Certificate certificate;
+  if (!check_input(vertex_count, faces, embedding, certificate)) return certificate;
+  std::optional<DividedPolygons> polygons;
+  if (embedding.polygons.count() > 0) polygons = divide_from_middles(embedding);
+  const Embedding& triangles = polygons ? polygons->embedding : embedding;
+  if (!check_gluing(embedding, triangles, certificate)) return certificate;
+  check_faces(embedding, triangles, polygons ? polygons->face_of : std::vector<int>(), certificate);
+  if (polygons) certificate.checks.push_back(convexity_check(embedding, certificate.nonpositive_faces));
+  certificate.bijective = all_passed(certificate.checks);
   return certificate;
 }
 
@@ -448,6 +484,17 @@ Certificate certify(const Mesh& mesh, const Embedding& embedding) {
 
 Certificate certify(const PolygonMesh& mesh, const Embedding& embedding) {
   return certify(mesh.vertex_count(), FaceView(mesh.corners, mesh.face_start), embedding);
+}
+
+Certificate certify_intrinsic(const Mesh& mesh, const Embedding& embedding,
+                              const IntrinsicTriangulation& triangulation) {
+  Certificate certificate;
+  if (!check_input(static_cast<int>(mesh.V.rows()), FaceView(mesh.F), embedding, certificate))
+    return certificate;
+  if (!check_gluing(embedding, embedding, certificate)) return certificate;
+  const Embedding layout = laid_out(mesh, embedding, triangulation);
+  if (check_layout(layout, triangulation, certificate)) check_faces(layout, layout, {}, certificate);
+  return certificate;
 }
 
 }  // namespace orbitutte

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "orbitutte/mesh/intrinsic_triangulation.h"
 #include "orbitutte/mesh/polygon_mesh.h"
 #include "orbitutte/orbifold/embedding.h"
 
@@ -48,5 +49,11 @@ Certificate certify(const PolygonMesh& mesh, const Embedding& embedding);
 
 /// The same for a mesh of so many vertices with these faces, whichever they are.
 Certificate certify(int vertex_count, const FaceView& faces, const Embedding& embedding);
+
+/// The same of another triangulation of the mesh's surface, whose faces take the place of the mesh's: their
+/// images are laid out anew from the embedding and the triangulation's flips. Where it is bijective, the map
+/// that is spherical on each of those faces is a bijection, whatever the mesh's own triangles do.
+Certificate certify_intrinsic(const Mesh& mesh, const Embedding& embedding,
+                              const IntrinsicTriangulation& triangulation);
 
 }  // namespace orbitutte
