@@ -4,10 +4,26 @@
 #include "orbitutte/mesh/cone_weights.h"
 #include "orbitutte/orbifold/signature.h"
 #include "orbitutte/verify/edge_images.h"
+#include "orbitutte/verify/edge_images.h"
 #include "orbitutte/verify/laid_out.h"
 #include "orbitutte/verify/spherical_triangle.h"
 
 namespace orbitutte {
+namespace {
+
+// Of faces whose corners have positions of their own; an edge is as long in one of its faces as in the other.
+double energy_of_layout(const Embedding& layout, const std::vector<int>& edge_of, const Eigen::VectorXd& w) {
+  std::vector<char> done(w.size(), 0);
+  double energy = 0;
+  for (int h = 0; h < static_cast<int>(edge_of.size()); ++h) {
+    if (std::exchange(done[edge_of[h]], 1)) continue;
+    const double d = arc_length(layout.positions.row(h), layout.positions.row(next_halfedge(h)));
+    energy += w[edge_of[h]] * d * d;
+  }
+  return energy;
+}
+
+}  // namespace
 
 double dirichlet_energy(const Connectivity& connectivity, const EdgeWeights& weights,
                         const Embedding& embedding) {
@@ -33,8 +49,8 @@ EdgeWeights weights_of(const Mesh& mesh, const Connectivity& connectivity, const
 double dirichlet_energy(const Mesh& mesh, const Connectivity& connectivity, const EdgeWeights& weights,
                         const Embedding& embedding) {
   if (!weights.triangulation) return dirichlet_energy(connectivity, weights, embedding);
-  return dirichlet_energy(weights.triangulation->connectivity, weights,
-                          laid_out(mesh, embedding, *weights.triangulation));
+  const std::vector<int>& edge_of = weights.triangulation->connectivity.edge_of;
+  return energy_of_layout(laid_out(mesh, embedding, *weights.triangulation), edge_of, weights.w);
 }
 
 }  // namespace orbitutte
