@@ -52,8 +52,7 @@ ALL_SEEDS = {('my_man_maxp.off', '532'): 20, ('david_50k.off', '532'): 20, ('cam
              ('boy.ply', '1x'): 20, ('quotient.ply', '5x'): 20}
 
 # May fail to be bijective in double precision, saying so (exit code 5).
-KNOWN_HARD = ['octocat.off']
-KNOWN_HARD_INTRINSICALLY = ['thingi_62415.obj']  # only with Delaunay weights
+KNOWN_HARD = {'octocat.off'}
 QUICK_WEIGHTS = ['my_man_maxp.off', 'itokawa.off', 'camelhead.off', 'fandisk.off']
 
 MAX_ITERATIONS_THREE_CONES = 14
@@ -359,7 +358,7 @@ class Suite:
         cones, path = self.marked(mesh, signature), self.shared / 'meshes' / mesh
         angle = {}
         for weights in ('cotan', 'delaunay', 'mean-value'):
-            codes = (0, 5) if mesh in KNOWN_HARD + KNOWN_HARD_INTRINSICALLY else (0,)
+            codes = (0, 5) if mesh in KNOWN_HARD else (0,)
             code, ply, report = self.embed(commands, folder, mesh, signature, cones, '--weights', weights, name=weights, codes=codes)
             expect(report['weights']['kind'] == weights, f"the report has weights {report['weights']['kind']}")
             expect(report['certificate']['bijective'] == (code == 0), f'exit code {code}, but the report says otherwise')
@@ -367,7 +366,7 @@ class Suite:
             if code == 0:
                 self.run(commands, PYTHON, self.checker, path, ply, report_path(ply))
             angle[weights] = report['distortion']['angle']['mean']
-        if mesh not in KNOWN_HARD + KNOWN_HARD_INTRINSICALLY:
+        if mesh not in KNOWN_HARD:
             expect(angle['delaunay'] <= angle['cotan'] + 1e-3,
                    f"mean angle distortion {angle['delaunay']:.4f} with Delaunay weights, {angle['cotan']:.4f} with the clamp")
 

@@ -631,7 +631,7 @@ TEST(IntrinsicEmbedding, DoesNotSlideToOneEndOfAFreeAxis) {
     const EmbedResult plain = embedded(mesh, signature, marks, with(WeightKind::cotan)),
                       result = embedded(mesh, signature, marks, with(WeightKind::delaunay));
     EXPECT_TRUE(result.certificate.bijective) << signature;
-    EXPECT_LT(result.certificate.max_edge_length, 1.2 * plain.certificate.max_edge_length) << signature;
+    EXPECT_LT(result.certificate.max_edge_length, 1.5) << signature;  // at the far end: above 2
     EXPECT_LT(result.distortion.angle.mean, plain.distortion.angle.mean + 0.002) << signature;
     EXPECT_GT(result.minimum.energy, 8 * pi / orbifold.group_order) << signature;
   }

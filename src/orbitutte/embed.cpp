@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 #include <unordered_set>
 
@@ -370,20 +371,29 @@ bool may_keep_faces(const EmbedResult& result) {
          turned <= 1 + result.embedding.faces.rows() / 50;
 }
 
-// The faces that share a vertex with one of some faces.
-std::vector<int> faces_around(const Faces& F, const std::vector<int>& faces, int vertex_count) {
-  std::vector<char> near(vertex_count, 0);
+// `kept` with the faces that share a vertex with one of `faces`; ascending.
+std::vector<int> with_faces_around(const std::vector<int>& faces, const std::vector<int>& kept,
+                                   const Mesh& mesh) {
+  std::vector<char> near(mesh.V.rows(), 0), chosen(mesh.F.rows(), 0);
+  for (const int f : kept) chosen[f] = 1;
   for (const int f : faces)
-    for (const int v : F.row(f)) near[v] = 1;
+    for (const int v : mesh.F.row(f)) near[v] = 1;
   std::vector<int> result;
-  for (int f = 0; f < static_cast<int>(F.rows()); ++f)
-    if (near[F(f, 0)] || near[F(f, 1)] || near[F(f, 2)]) result.push_back(f);
+  for (int f = 0; f < static_cast<int>(mesh.F.rows()); ++f)
+    if (chosen[f] || near[mesh.F(f, 0)] || near[mesh.F(f, 1)] || near[mesh.F(f, 2)]) result.push_back(f);
   return result;
 }
 
+std::vector<int> all_faces(const Faces& F) {
+  std::vector<int> faces(F.rows());
+  std::iota(faces.begin(), faces.end(), 0);
+  return faces;
+}
+
 // The triangulation that has the weights may be embedded while thin triangles of the input, which are not
-// among its faces, are turned over. Then those become faces of it: the map is computed again, up to a few
-// times, and where that leads to a certificate, this is the result. Else the first one is.
+// among its faces, are turned over. Then those and the faces around them become faces of it, and the map is
+// computed again, up to a few times; at last with all faces kept, which leaves the paper's weights but for
+// the cones. The first that is certified is the result; where none is, the very first.
 EmbedResult embed_or_keep_faces(const Mesh& mesh, Preparation& prepared, const Orbifold& orbifold,
                                 const std::vector<int>& marked_vertices, const EmbedOptions& options) {
   constexpr int attempts = 4;
@@ -393,16 +403,15 @@ EmbedResult embed_or_keep_faces(const Mesh& mesh, Preparation& prepared, const O
   std::vector<int>& kept = keeping.weights.kept_faces;
   std::vector<int> turned = first.certificate.nonpositive_faces;
   for (int k = 0; k < attempts; ++k) {
-    for (const int f : faces_around(mesh.F, turned, static_cast<int>(mesh.V.rows()))) kept.push_back(f);
-    std::sort(kept.begin(), kept.end());
-    kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+    const bool is_last = k + 1 == attempts;
+    kept = is_last ? all_faces(mesh.F) : with_faces_around(turned, kept, mesh);
     EmbedResult next = embed_here(mesh, prepared, orbifold, marked_vertices, keeping);
     first.timings.insert(first.timings.end(), next.timings.begin(), next.timings.end());
     if (next.certificate.bijective) {
       next.timings = first.timings;
       return next;
     }
-    if (!may_keep_faces(next)) break;
+    if (!may_keep_faces(next)) k = std::max(k, attempts - 2);
     turned = next.certificate.nonpositive_faces;
   }
   return first;
