@@ -9,6 +9,7 @@ is no part of it: where it is missing, everything is skipped. Needs numpy.
   tile          the tiling of one embedding of each family is a closed surface of Euler characteristic 2, counterclockwise
   golden        the reference's energies to 1e-9 (relative) and edge lengths to 1e-7, with the reference's weights
   weights       Delaunay and mean value weights on every mesh: as embed, and Delaunay is nearer to conformal than the clamp
+  polygon       the tile of *222 as a fixed polygon: certified, and the map is more sheared than that into the orbifold
   cut-seed      20 cuts of the same mesh: no edge length changes by more than 1e-8
   polygons      meshes of polygons, made of the same meshes: certified, convex, in their order; the checker accepts the map
                 divided into triangles, energy and gradient included; the tiling in polygons is a closed sphere
@@ -289,6 +290,9 @@ class Suite:
             table[mesh] = (topology, [int(v) for v in marked.split(',')], None if interior == '-' else int(interior))
         return table
 
+    def disks(self):
+        return [mesh for mesh, (topology, _, _) in self.meshes.items() if topology == 'disk']
+
     # Running the program; the commands of a test are kept, to be shown where it fails.
 
     def run(self, commands, *command, codes=(0,)):
@@ -432,6 +436,22 @@ class Suite:
             expect(report['iterations'] <= MAX_ITERATIONS_THREE_CONES,
                    f"{report['iterations']} iterations, more than {MAX_ITERATIONS_THREE_CONES}")
 
+    def test_polygon(self, name, commands, folder, mesh, spread):
+        _, ply, free = self.embed(commands, folder, mesh, '*222', self.marked(mesh, '*222'), name='free')
+        vertices = [cone['vertex'] for cone in free['cones']]
+        positions = Ply(ply).positions[vertices]
+        corners = [{'vertex': v, 'position': x.tolist()} for v, x in zip(vertices, positions)]
+        if np.linalg.det(positions) < 0:  # the marked vertices run clockwise around the mesh
+            corners.reverse()
+        _, ply, held = self.embed(commands, folder, mesh, 'polygon', [], '--polygon', write_corners(folder / 'corners.txt', corners),
+                                  '--spread', spread, name='held')
+        self.row(name, mesh, 'polygon', held)
+        path = self.path(mesh)
+        self.run(commands, PYTHON, self.checker, path, ply, report_path(ply))
+        self.run(commands, self.orbitutte, 'verify', ply, report_path(ply), path)
+        worse = held['distortion']['angle']['mean'] / free['distortion']['angle']['mean']
+        expect(worse > 1, f'a held boundary makes the angle distortion {worse:.3f} times that of a free one')
+
     def test_cut_seed(self, name, commands, folder, mesh, signature, seeds, weights='cotan'):
         cones = self.marked(mesh, signature)
         reference, cuts = None, set()
@@ -503,6 +523,9 @@ class Suite:
                                       ('camelhead.off', '3*2', quadrangulated), ('camelhead.off', '5*', quadrangulated)]:
             if not quick or (mesh, signature) in [('my_man_maxp.off', '532'), ('camelhead.off', '3*2')]:
                 add(f'polygons/{make.__name__}/{stem(mesh)}/{signature}', self.test_polygons, mesh, signature, make)
+        for mesh in ['camelhead.off', 'fandisk.off'] if quick else self.disks():
+            for spread in ['arc-length', 'equidistant']:
+                add(f'polygon/{stem(mesh)}/{spread}', self.test_polygon, mesh, spread)
         for mesh, signature in [('my_man_maxp.off', '532'), ('my_man_maxp.off', '33'), ('camelhead.off', '*432'),
                                 ('camelhead.off', '3*2'), ('camelhead.off', '5*'), ('boy.ply', '3x')]:
             add(f'repeat/{stem(mesh)}/{signature}', self.test_repeat, mesh, signature)

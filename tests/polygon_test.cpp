@@ -326,8 +326,8 @@ TEST(Polygon, SpheresAreRefused) {
 class CornerFile : public testing::Test {
  protected:
   Corners read(const std::string& text) const {
-    write_file(path_, text);
-    return read_corners(path_);
+    write_file(path, text);
+    return read_corners(path);
   }
   std::string refused(const std::string& text) const {
     try {
@@ -337,9 +337,9 @@ class CornerFile : public testing::Test {
     }
     return "accepted";
   }
-  void TearDown() override { std::filesystem::remove(path_); }
+  void TearDown() override { std::filesystem::remove(path); }
 
-  const std::string path_ =
+  const std::string path =
       (std::filesystem::temp_directory_path() /
        ("orbitutte_corners_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) +
         ".txt"))
@@ -357,13 +357,13 @@ TEST_F(CornerFile, GivesAVertexAndAUnitVectorALine) {
 }
 
 TEST_F(CornerFile, FaultsAreNamedWithFileLineAndVertex) {
-  EXPECT_THAT(refused("1 1 0 0\n2 0 2 0\n"), AllOf(HasSubstr(path_), HasSubstr("line 2"), names(2)));
+  EXPECT_THAT(refused("1 1 0 0\n2 0 2 0\n"), AllOf(HasSubstr(path), HasSubstr("line 2"), names(2)));
   EXPECT_THAT(refused("1 1 0 0\n2 0 0 0\n"), AllOf(HasSubstr("line 2"), names(2)));
   EXPECT_THAT(refused("1 1 0 0\n2 0 nan 0\n"), AllOf(HasSubstr("line 2"), names(2)));
   EXPECT_THAT(refused("1 1 0 0 0\n"), AllOf(HasSubstr("line 1"), names(1)));
   EXPECT_THAT(refused("1 1 0\n2 0 1 0\n"), HasSubstr("line 1"));
   EXPECT_THAT(refused("1.5 1 0 0\n"), HasSubstr("line 1"));
-  EXPECT_THROW(read_corners(path_ + ".nowhere"), FileError);
+  EXPECT_THROW(read_corners(path + ".nowhere"), FileError);
 }
 
 // The certificate
@@ -372,9 +372,9 @@ class PolygonCertificate : public testing::Test {
  protected:
   // Plants a fault; the names of the checks that fail.
   Names rejection(const std::function<void(Embedding&)>& plant) const {
-    Embedding embedding = result_.embedding;
+    Embedding embedding = result.embedding;
     plant(embedding);
-    const Certificate certificate = certify(mesh_, embedding);
+    const Certificate certificate = certify(mesh, embedding);
     EXPECT_FALSE(certificate.bijective);
     Names failed;
     for (const Check& check : certificate.checks) {
@@ -384,17 +384,17 @@ class PolygonCertificate : public testing::Test {
     return failed;
   }
 
-  const Mesh mesh_ = bent_disk();
-  const EmbedResult result_ = embedded(mesh_, regular_polygon(4, 0.9));
+  const Mesh mesh = bent_disk();
+  const EmbedResult result = embedded(mesh, regular_polygon(4, 0.9));
 };
 
 TEST_F(PolygonCertificate, ExpectsTheAreaOfThePolygon) {
-  const Points& X = result_.embedding.positions;
-  const auto corner = [&](int k) -> Vector3 { return X.row(result_.embedding.cones[k].vertex); };
+  const Points& X = result.embedding.positions;
+  const auto corner = [&](int k) -> Vector3 { return X.row(result.embedding.cones[k].vertex); };
   const double two_triangles =
       signed_area(corner(0), corner(1), corner(2)) + signed_area(corner(0), corner(2), corner(3));
-  EXPECT_NEAR(result_.certificate.expected_area, two_triangles, 1e-14);
-  EXPECT_NEAR(result_.certificate.signed_area, two_triangles, 1e-12);
+  EXPECT_NEAR(result.certificate.expected_area, two_triangles, 1e-14);
+  EXPECT_NEAR(result.certificate.signed_area, two_triangles, 1e-12);
 }
 
 TEST_F(PolygonCertificate, RejectsAVertexOffItsSide) {

@@ -14,7 +14,7 @@ std::vector<double> equal_fractions(std::size_t count) {
 
 std::vector<double> arc_fractions(const std::vector<int>& side, const Mesh& mesh,
                                   const std::vector<int>& source, Spread spread) {
-  const std::vector<double> equal = equal_fractions(side.size());
+  std::vector<double> equal = equal_fractions(side.size());
   if (spread == Spread::equidistant) return equal;
   std::vector<double> at = {0};
   for (std::size_t k = 1; k < side.size(); ++k)

@@ -264,6 +264,20 @@ double max_seam_residual(const Embedding& embedding) {
   return residual;
 }
 
+// The copies of the cones' input vertices among the cut vertices, ascending.
+std::unordered_map<int, std::vector<int>> copies_of_cones(const Embedding& embedding) {
+  const int n_cut = static_cast<int>(embedding.source_vertex.size());
+  std::unordered_map<int, std::vector<int>> copies;
+  std::vector<char> is_cone(n_cut, 0);  // by input vertex
+  for (const ConeCopies& cone : embedding.cones) {
+    copies[cone.vertex];
+    if (cone.vertex >= 0 && cone.vertex < n_cut) is_cone[cone.vertex] = 1;
+  }
+  for (int v = 0; v < n_cut; ++v)
+    if (const int source = embedding.source_vertex[v]; is_cone[source]) copies[source].push_back(v);
+  return copies;
+}
+
 // The marks are those of the signature, in its order, and name all copies of their vertices.
 Check cone_check(const Embedding& embedding) {
   Offences offences;
@@ -281,14 +295,9 @@ Check cone_check(const Embedding& embedding) {
   } catch (const Error& error) {
     offences.add("{}", error.what());
   }
-  std::unordered_map<int, std::vector<int>> copies_of;  // of the cones' vertices
-  for (const ConeCopies& cone : embedding.cones) copies_of[cone.vertex];
-  for (int v = 0; v < static_cast<int>(embedding.source_vertex.size()); ++v) {
-    const auto at = copies_of.find(embedding.source_vertex[v]);
-    if (at != copies_of.end()) at->second.push_back(v);
-  }
+  const std::unordered_map<int, std::vector<int>> copies_of = copies_of_cones(embedding);
   for (const ConeCopies& cone : embedding.cones) {
-    const std::vector<int>& copies = copies_of[cone.vertex];
+    const std::vector<int>& copies = copies_of.at(cone.vertex);
     std::vector<int> named = cone.copies;
     std::sort(named.begin(), named.end());
     if (copies.empty() || copies != named)
