@@ -201,6 +201,26 @@ INSTANTIATE_TEST_SUITE_P(Polygons, PolygonsOfEveryFamily,
                            return name;
                          });
 
+TEST(Polygons, ProjectivePlanesAreEmbeddedWithFacesTurnedWhereTheyDisagree) {
+  const PolygonMesh mesh = test::quadrangulated(test::projective_plane(1));
+  for (const std::string signature : {"1x", "3x"}) {
+    const auto [unused, result] = embedded(mesh, signature, uniform_weights());
+    EXPECT_TRUE(result.certificate.bijective) << failures(result.certificate);
+    EXPECT_TRUE(all_corners_turn_left(result.embedding));
+    EXPECT_EQ(inspect(tile_sphere(result.embedding).mesh).topology, Topology::sphere);
+    const FaceView faces = result.embedding.input_faces();
+    int turned = 0;
+    for (int f = 0; f < faces.count(); ++f) {
+      const std::vector<int> source = sources({faces[f].begin(), faces[f].end()}, result.embedding);
+      const std::vector<int> face = test::face_lists(mesh)[f];
+      if (source == face) continue;
+      EXPECT_EQ(source, (std::vector<int>{face[0], face[3], face[2], face[1]}));
+      ++turned;
+    }
+    EXPECT_GT(turned, 0);
+  }
+}
+
 TEST(Polygons, RegularSolidsAreEmbedded) {
   for (const PolygonMesh& mesh :
        {test::cube(), test::dual(test::icosahedron()), test::prism(7), test::pyramid(6)}) {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <compare>
 #include <queue>
+#include <tuple>
 
 namespace orbitutte {
 namespace {
@@ -99,7 +99,7 @@ struct Side {
   bool same_edge(const Side& other) const {
     return lower == other.lower && upper == other.upper && face == other.face;
   }
-  auto operator<=>(const Side&) const = default;
+  auto key() const { return std::tuple(lower, upper, face, halfedge); }
 };
 
 std::vector<Side> sorted_sides(const PolygonMesh& mesh, const Triangulation& triangulation) {
@@ -113,7 +113,7 @@ std::vector<Side> sorted_sides(const PolygonMesh& mesh, const Triangulation& tri
     const auto [lower, upper] = std::minmax(mesh.corners[from], mesh.corners[to]);
     sides.push_back({lower, upper, to == next ? -1 : face, h});
   }
-  std::sort(sides.begin(), sides.end());
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.key() < b.key(); });
   return sides;
 }
 

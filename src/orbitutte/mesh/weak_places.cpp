@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 
 #include "orbitutte/mesh/contacts.h"
 #include "orbitutte/mesh/triangulation.h"
@@ -106,6 +107,13 @@ Places faces_on_the_boundary(const PolygonTopology& surface, const std::vector<c
     if (contacts > 1 && !has_chord) places.add("face {} meets the boundary in {} places", f, contacts);
   }
   return places;
+}
+
+// Is the surface a projective plane? There, vertices that two faces share need not separate anything.
+bool is_projective_plane(const PolygonTopology& surface) {
+  if (std::find(surface.twin.begin(), surface.twin.end(), -1) != surface.twin.end()) return false;
+  const std::set<int> vertices(surface.origin.begin(), surface.origin.end());
+  return static_cast<int>(vertices.size()) - surface.corner_count() / 2 + surface.face_count() == 1;
 }
 
 Places double_contact_places(const PolygonTopology& surface, int vertex_count) {
@@ -298,7 +306,8 @@ std::vector<WeakPlace> find_weak_places(const PolygonMesh& mesh) {
       .append_to(places, "what it cuts off becomes an arc, unless a vertex there is marked");
   faces_on_the_boundary(surface, on_boundary)
       .append_to(places, "what it cuts off becomes an arc, unless a vertex there is marked");
-  if (!is_triangle_mesh(mesh))  // two triangles that share two vertices share the edge between them
+  const bool may_touch_twice = !is_triangle_mesh(mesh);  // two triangles share the edge between two vertices
+  if (may_touch_twice && !is_projective_plane(surface))
     double_contact_places(surface, mesh.vertex_count())
         .append_to(places, "what they enclose becomes an arc, unless a vertex there is marked");
   return places;
@@ -308,6 +317,7 @@ std::vector<int> collapsing_faces(const FaceView& faces, const std::vector<std::
                                   const std::vector<int>& marks) {
   Collapse collapse(faces, marks);
   for (const std::vector<int>& mirror : mirrors) collapse.onto(mirror);
+  if (is_projective_plane(collapse.surface())) return {};
   for (const DoubleContact& contact : double_contacts(collapse.surface(), collapse.vertex_count()))
     collapse.between(contact);
   return collapse.faces();
