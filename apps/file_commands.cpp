@@ -30,8 +30,8 @@ Check claim(std::string name, bool holds, std::string detail) {
 }
 
 // The weights that the embedding was computed with; none where they came from a file that is not at hand.
-std::optional<EdgeWeights> weights_of(const Mesh& mesh, const Connectivity& connectivity, const Report& report,
-                                      const std::string& file) {
+std::optional<EdgeWeights> weights_of(const Mesh& mesh, const Connectivity& connectivity,
+                                      const Report& report, const std::string& file) {
   if (report.weights.kind != WeightKind::file) return edge_weights(mesh, connectivity, report.weights);
   if (file.empty()) return std::nullopt;
   return read_weights(file, connectivity);
@@ -52,8 +52,8 @@ bool has_cover(const Certificate& certificate) {
     return std::any_of(certificate.checks.begin(), certificate.checks.end(),
                        [&](const Check& check) { return check.name == name && check.passed; });
   };
-  return passed("cut_mesh") && passed("unit_positions") && passed("seam_transforms") && passed("seam_gluing") &&
-         passed("group_order");
+  return passed("cut_mesh") && passed("unit_positions") && passed("seam_transforms") &&
+         passed("seam_gluing") && passed("group_order");
 }
 
 Theorem2 not_run(const char* reason) {
@@ -95,8 +95,9 @@ Json to_json(const std::vector<Check>& checks) {
 }
 
 Json to_json(const RepresentationInertia& part) {
-  return {{"dimension", part.dimension}, {"multiplicity", part.multiplicity}, {"unknowns", part.unknowns},
-          {"negative", part.negative},   {"kernel", part.kernel},             {"coordinates", part.coordinates},
+  return {{"dimension", part.dimension}, {"multiplicity", part.multiplicity},
+          {"unknowns", part.unknowns},   {"negative", part.negative},
+          {"kernel", part.kernel},       {"coordinates", part.coordinates},
           {"shift", part.shift}};
 }
 
@@ -195,8 +196,8 @@ std::string version_text() {
   const Backend backend = available_backends().front();
   const bool gpl = backend == Backend::cholmod;
   const InertiaMethod inertia = available_inertia_methods().front();
-  return fmt::format("orbitutte {} ({})\nlinear algebra: {}, BLAS: {}; inertia: {}\nlicence: {}", version, commit,
-                     name(backend), blas_description(), name(inertia),
+  return fmt::format("orbitutte {} ({})\nlinear algebra: {}, BLAS: {}; inertia: {}\nlicence: {}", version,
+                     commit, name(backend), blas_description(), name(inertia),
                      gpl ? "sources MIT; this binary GPL-2.0-or-later through CHOLMOD's supernodal module"
                          : "MIT (with Eigen, MPL-2.0)");
 }
