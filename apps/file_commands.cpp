@@ -221,10 +221,11 @@ std::string version_text() {
   const Backend backend = available_backends().front();
   const bool gpl = backend == Backend::cholmod;
   const InertiaMethod inertia = available_inertia_methods().front();
-  return fmt::format("orbitutte {} ({})\nlinear algebra: {}, BLAS: {}; inertia: {}\nlicence: {}", version,
+  return fmt::format("orbitutte {} ({})\nlinear algebra: {}, BLAS: {}; inertia: {}\nlicence: {}{}", version,
                      commit, name(backend), blas_description(), name(inertia),
                      gpl ? "sources MIT; this binary GPL-2.0-or-later through CHOLMOD's supernodal module"
-                         : "MIT (with Eigen, MPL-2.0)");
+                         : "MIT (with Eigen, MPL-2.0)",
+                     inertia == InertiaMethod::mumps ? "; MUMPS CeCILL-C" : "");
 }
 
 }  // namespace orbitutte::cli

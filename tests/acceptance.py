@@ -15,6 +15,7 @@ is no part of it: where it is missing, everything is skipped. Needs numpy.
                 divided into triangles, energy and gradient included; the tiling in polygons is a closed sphere
   repeat        two runs give the same bytes, but for times and memory in the report
   fault         'orbitutte verify' rejects, with exit code 5, embeddings and reports that were tampered with
+  theorem2      'orbitutte verify --theorem2' finds both of its conditions to hold, and never changes the exit code
 """
 import argparse
 import collections
@@ -486,6 +487,25 @@ class Suite:
         (folder / 'faulty.json').write_text(json.dumps(report))
         self.run(commands, self.orbitutte, 'verify', folder / 'faulty.ply', folder / 'faulty.json', path, codes=(5,))
 
+    def theorem2(self, commands, *arguments, codes=(0,)):
+        done = self.run(commands, self.orbitutte, 'verify', *arguments, '--theorem2', '--json', codes=codes)
+        return json.loads(done.stdout)['theorem2']
+
+    def test_theorem2(self, name, commands, folder, mesh, signature):
+        _, ply, report = self.embed(commands, folder, mesh, signature, self.marked(mesh, signature))
+        files = [ply, report_path(ply), self.shared / 'meshes' / mesh]
+        found = self.theorem2(commands, *files)
+        expect(found['holds'], f"theorem 2: {found['status']} {found['detail']}, {found['negative_eigenvalues']} negative eigenvalues, "
+                               f"kernel {found['kernel_dimension']}, longest edge {found['max_edge_length']}")
+        weights = folder / 'weights.txt'
+        keys, _ = edge_lengths(Ply(ply))
+        np.savetxt(weights, np.column_stack([keys >> 32, keys & 0xffffffff, np.ones(len(keys))]), fmt='%d %d %g')
+        self.embed(commands, folder, mesh, signature, self.marked(mesh, signature), '--weights-file', weights)
+        found = self.theorem2(commands, *files)
+        expect(found['status'] == 'not run' and '--weights-file' in found['detail'], 'theorem 2 was run without its weights')
+        found = self.theorem2(commands, *files, '--weights-file', weights)
+        expect(found['status'] == 'measured', f"theorem 2 with weights from a file: {found['status']} {found['detail']}")
+
     # All tests: name -> a function of the name, the list of commands and the folder.
 
     def tests(self, quick):
@@ -526,6 +546,9 @@ class Suite:
         for mesh in ['camelhead.off', 'fandisk.off'] if quick else self.disks():
             for spread in ['arc-length', 'equidistant']:
                 add(f'polygon/{stem(mesh)}/{spread}', self.test_polygon, mesh, spread)
+        for signature in ['532', '33', '*33', '5*', '3x'] if quick else ONE_OF_EACH_FAMILY:
+            mesh = 'camelhead.off' if '*' in signature else 'boy.ply' if 'x' in signature else 'my_man_maxp.off'
+            add(f'theorem2/{signature}', self.test_theorem2, mesh, signature)
         for mesh, signature in [('my_man_maxp.off', '532'), ('my_man_maxp.off', '33'), ('camelhead.off', '*432'),
                                 ('camelhead.off', '3*2'), ('camelhead.off', '5*'), ('boy.ply', '3x')]:
             add(f'repeat/{stem(mesh)}/{signature}', self.test_repeat, mesh, signature)

@@ -24,7 +24,8 @@ std::vector<std::vector<int>> multiplication_table(const SymmetryGroup& group) {
   return products;
 }
 
-/// A(g, g k) = a(k) with random a(k) = a(1/k): it commutes with every translation f(g) -> f(h g), and is symmetric.
+/// A(g, g k) = a(k) with random a(k) = a(1/k): it commutes with every translation f(g) -> f(h g), and is
+/// symmetric.
 MatrixXd random_commuting_matrix(const std::vector<std::vector<int>>& products) {
   const int order = static_cast<int>(products.size());
   std::mt19937 random(1);
@@ -37,7 +38,8 @@ MatrixXd random_commuting_matrix(const std::vector<std::vector<int>>& products) 
   return A + A.transpose().eval();
 }
 
-/// Q' P_g Q for every g, where P_g takes the basis vector of h to that of g h, and Q spans an invariant space.
+/// Q' P_g Q for every g, where P_g takes the basis vector of h to that of g h, and Q spans an invariant
+/// space.
 Representation restricted(const std::vector<std::vector<int>>& products, const MatrixXd& Q) {
   Representation result;
   result.dimension = static_cast<int>(Q.cols());

@@ -12,14 +12,15 @@ namespace orbitutte {
 /// An orthogonal action of a group: matrices[g] matrices[h] = matrices[g h].
 struct Representation {
   int dimension = 1;
-  int multiplicity = 1;                   ///< how often it occurs in the space of all functions on the group
-  std::vector<Eigen::MatrixXd> matrices;  ///< |G|, dimension x dimension, in the order of the group's elements
+  int multiplicity = 1;  ///< how often it occurs in the space of all functions on the group
+  std::vector<Eigen::MatrixXd>
+      matrices;  ///< |G|, dimension x dimension, in the order of the group's elements
 };
 
-/// The irreducible representations of a group over the real numbers, one of each kind, those of least dimension
-/// first; the sum of multiplicity * dimension is |G|. They are the eigenspaces of a random symmetric matrix that
-/// commutes with all translations of functions on the group (Dixon 1970). Time O(|G|^3). Throws std::logic_error
-/// where what comes out is no decomposition.
+/// The irreducible representations of a group over the real numbers, one of each kind, those of least
+/// dimension first; the sum of multiplicity * dimension is |G|. They are the eigenspaces of a random
+/// symmetric matrix that commutes with all translations of functions on the group (Dixon 1970). Time
+/// O(|G|^3). Throws std::logic_error where what comes out is no decomposition.
 std::vector<Representation> irreducible_representations(const SymmetryGroup& group);
 
 /// How often an irreducible representation and the group's own action on space have a vector in common: the

@@ -47,7 +47,8 @@ class Lifting {
     for (int v = 0; v < static_cast<int>(stabilizers.size()); ++v) follow_seams(v);
     for (int c = 0; c < static_cast<int>(lift.size()); ++c)
       if (lift[c] == unknown)
-        throw MeshError(fmt::format("no seams lead from vertex {} to its copy {}", embedding.source_vertex[c], c));
+        throw MeshError(
+            fmt::format("no seams lead from vertex {} to its copy {}", embedding.source_vertex[c], c));
   }
 
   std::vector<std::vector<int>> stabilizers;
@@ -69,8 +70,8 @@ class Lifting {
     return std::vector<std::vector<int>>(vertices);
   }
 
-  // Every closed way through the seams brings v back to itself by an element of its stabilizer; those that close with
-  // the last step of a search generate it.
+  // Every closed way through the seams brings v back to itself by an element of its stabilizer; those that
+  // close with the last step of a search generate it.
   void follow_seams(int v) {
     lift[v] = identity;
     std::vector<int> reached = {v};

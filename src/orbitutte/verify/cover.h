@@ -19,7 +19,8 @@ struct CoverEdge {
   double length;  ///< the arc length between positions(i) and g positions(j), radians
 };
 
-/// Copy h of vertex i lies at h positions(i); copies h and h s are the same where s is in the stabilizer of i.
+/// Copy h of vertex i lies at h positions(i); copies h and h s are the same where s is in the stabilizer of
+/// i.
 struct Cover {
   Points positions;                           ///< n x 3, unit
   std::vector<std::vector<int>> stabilizers;  ///< n: generators, elements of the group; none for most
@@ -28,8 +29,8 @@ struct Cover {
 };
 
 /// The edges are those of the uncut mesh, the group that of the seams. The embedding must have passed the
-/// certificate's checks cut_mesh, seam_transforms, seam_gluing and group_order. Throws MeshError where the seams do
-/// not join the copies of a vertex, ArgumentError where a transform is not in the group.
+/// certificate's checks cut_mesh, seam_transforms, seam_gluing and group_order. Throws MeshError where the
+/// seams do not join the copies of a vertex, ArgumentError where a transform is not in the group.
 Cover cover_of(const Connectivity& connectivity, const EdgeWeights& weights, const Embedding& embedding,
                const SymmetryGroup& group);
 

@@ -20,7 +20,8 @@ constexpr const char* breakdown =
 
 class EigenCounter : public InertiaCounter {
  public:
-  EigenCounter(const SymmetricMatrix& lower, Eigen::VectorXd scale) : lower_(lower), scale_(std::move(scale)) {
+  EigenCounter(const SymmetricMatrix& lower, Eigen::VectorXd scale)
+      : lower_(lower), scale_(std::move(scale)) {
     factor_.analyzePattern(lower_);
   }
 
@@ -33,7 +34,8 @@ class EigenCounter : public InertiaCounter {
   }
 
  private:
-  /// Pivots that are too small make L grow, which shows where the factor solves a system whose solution is known.
+  /// Pivots that are too small make L grow, which shows where the factor solves a system whose solution is
+  /// known.
   bool trustworthy(const SymmetricMatrix& shifted) const {
     const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(shifted.rows(), 1, 2);
     const Eigen::VectorXd b = shifted.selfadjointView<Eigen::Lower>() * x;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How many eigenvalues of a sparse symmetric matrix lie below a number, by LDL' and Sylvester's law of inertia.
+// How many eigenvalues of a sparse symmetric matrix lie below a number, by LDL' and Sylvester's law of
+// inertia.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -24,8 +25,8 @@ std::string name(InertiaMethod method);
 /// The methods in this binary; the first is the default.
 std::vector<InertiaMethod> available_inertia_methods();
 
-/// The inertia could not be found: the factorisation broke down, or memory ran out; what() names the package that
-/// would help, where one would.
+/// The inertia could not be found: the factorisation broke down, or memory ran out; what() names the package
+/// that would help, where one would.
 class InertiaNotFound : public Error {
  public:
   using Error::Error;
@@ -41,8 +42,8 @@ class InertiaCounter {
   virtual long eigenvalues_below(double shift) = 0;
 };
 
-/// `lower` (n x n): the lower triangle of A, its diagonal stored in full; `scale` (n): the diagonal of D, positive.
-/// Throws ArgumentError where the method is not in this binary, InertiaNotFound.
+/// `lower` (n x n): the lower triangle of A, its diagonal stored in full; `scale` (n): the diagonal of D,
+/// positive. Throws ArgumentError where the method is not in this binary, InertiaNotFound.
 std::unique_ptr<InertiaCounter> inertia_counter(const SymmetricMatrix& lower, const Eigen::VectorXd& scale,
                                                 InertiaMethod method);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// N. Aigerman, S. Z. Kovalsky, Y. Lipman, "Spherical Orbifold Tutte Embeddings" (2017), theorem 2; after L. Lovasz,
-// "Steinitz representations of polyhedra and the Colin de Verdiere number", Journal of Combinatorial Theory B 82
-// (2001).
+// N. Aigerman, S. Z. Kovalsky, Y. Lipman, "Spherical Orbifold Tutte Embeddings" (2017), theorem 2; after L.
+// Lovasz, "Steinitz representations of polyhedra and the Colin de Verdiere number", Journal of Combinatorial
+// Theory B 82 (2001).
 #include "orbitutte/verify/theorem2.h"
 
 #include <fmt/format.h>
@@ -56,7 +56,8 @@ VectorXd vertex_scale(const Cover& cover) {
   return energy_over_area(cover) * cover.area + least_scale * sum_at_vertices(cover, coupling);
 }
 
-// The rows of W times the coordinates, at one vertex of every orbit; nothing but rounding at a stationary map.
+// The rows of W times the coordinates, at one vertex of every orbit; nothing but rounding at a stationary
+// map.
 Points coordinate_residuals(const Cover& cover, const SymmetryGroup& group) {
   Points r = Points::Zero(cover.positions.rows(), 3);
   const Points& X = cover.positions;
@@ -76,8 +77,8 @@ Representation space(const SymmetryGroup& group) {
   return result;
 }
 
-// |D^-1/2 W X| in the Frobenius norm, over the |G| sheets: at a vertex with a stabilizer, the sum over its edges in
-// the cover is what the stabilizer fixes of the sum over its edges here.
+// |D^-1/2 W X| in the Frobenius norm, over the |G| sheets: at a vertex with a stabilizer, the sum over its
+// edges in the cover is what the stabilizer fixes of the sum over its edges here.
 double residual_norm(const Cover& cover, const SymmetryGroup& group, const VectorXd& scale) {
   const Points r = coordinate_residuals(cover, group);
   const Representation natural = space(group);
@@ -202,6 +203,12 @@ struct Problem {
   InertiaMethod method;
 };
 
+std::unique_ptr<InertiaCounter> counter_of(const Representation& rho, const Unknowns& unknowns,
+                                           const Problem& problem) {
+  return inertia_counter(assemble(problem.cover, rho, unknowns), by_unknown(problem.scale, unknowns),
+                         problem.method);
+}
+
 RepresentationInertia inertia_of(const Representation& rho, const Problem& problem) {
   const Unknowns unknowns = unknowns_of(problem.cover, rho, problem.scale);
   RepresentationInertia part;
@@ -210,9 +217,7 @@ RepresentationInertia inertia_of(const Representation& rho, const Problem& probl
   part.unknowns = unknowns.count();
   part.coordinates = occurrences_in_space(rho, problem.group);
   if (part.unknowns == 0) return part;
-  const std::unique_ptr<InertiaCounter> counter =
-      inertia_counter(assemble(problem.cover, rho, unknowns), by_unknown(problem.scale, unknowns), problem.method);
-  count_inertia(*counter, problem.least_shift, part);
+  count_inertia(*counter_of(rho, unknowns, problem), problem.least_shift, part);
   return part;
 }
 
@@ -237,7 +242,8 @@ void judge(const Problem& problem, Theorem2& result) {
     if (conclusive(part, problem)) continue;
     result.status = Theorem2::Status::inconclusive;
     result.detail = fmt::format(
-        "no shift separates the kernel from the rest of the spectrum; the coordinates are in the kernel to {:.1e}",
+        "no shift separates the kernel from the rest of the spectrum; the coordinates are in the kernel to "
+        "{:.1e}",
         result.kernel_residual);
   }
 }
@@ -255,7 +261,8 @@ double longest_edge(const Cover& cover) {
 }
 
 Check count_check(std::string name, long value, long expected) {
-  Check check = {std::move(name), value == expected, static_cast<double>(value), static_cast<double>(expected), {}};
+  Check check = {
+      std::move(name), value == expected, static_cast<double>(value), static_cast<double>(expected), {}};
   if (!check.passed) check.detail = fmt::format("there are {}, not {}", value, expected);
   return check;
 }
@@ -315,6 +322,20 @@ Theorem2 check_theorem2(const Connectivity& connectivity, const EdgeWeights& wei
     result.detail = "memory ran out";
   }
   return result;
+}
+
+long cover_eigenvalues_below(const Connectivity& connectivity, const EdgeWeights& weights,
+                             const Embedding& embedding, double shift, const Theorem2Options& options) {
+  const SymmetryGroup group = group_of(embedding);
+  const Cover cover = cover_of(connectivity, weights, embedding, group);
+  const Problem problem = {cover, group, vertex_scale(cover), least_shift, options.method};
+  long below = 0;
+  for (const Representation& rho : irreducible_representations(group)) {
+    const Unknowns unknowns = unknowns_of(cover, rho, problem.scale);
+    if (unknowns.count() > 0)
+      below += rho.multiplicity * counter_of(rho, unknowns, problem)->eigenvalues_below(shift);
+  }
+  return below;
 }
 
 }  // namespace orbitutte
