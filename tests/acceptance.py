@@ -360,7 +360,7 @@ class Suite:
         self.run(commands, self.orbitutte, 'verify', ply, report_path(ply), path, codes=(code,))
 
     def test_weights(self, name, commands, folder, mesh, signature):
-        cones, path = self.marked(mesh, signature), self.shared / 'meshes' / mesh
+        cones, path = self.marked(mesh, signature), self.path(mesh)
         angle = {}
         for weights in ('cotan', 'delaunay', 'mean-value'):
             codes = (0, 5) if mesh in KNOWN_HARD else (0,)
@@ -493,7 +493,7 @@ class Suite:
 
     def test_theorem2(self, name, commands, folder, mesh, signature):
         _, ply, report = self.embed(commands, folder, mesh, signature, self.marked(mesh, signature))
-        files = [ply, report_path(ply), self.shared / 'meshes' / mesh]
+        files = [ply, report_path(ply), self.path(mesh)]
         found = self.theorem2(commands, *files)
         expect(found['holds'], f"theorem 2: {found['status']} {found['detail']}, {found['negative_eigenvalues']} negative eigenvalues, "
                                f"kernel {found['kernel_dimension']}, longest edge {found['max_edge_length']}")
