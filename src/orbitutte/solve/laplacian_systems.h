@@ -18,7 +18,7 @@ class LaplacianReuse {
   Kept kept = Kept::order;
   std::vector<std::array<int, 2>> edges;         ///< of the graph that was dissected
   std::shared_ptr<const Dissection> dissection;  ///< null: none was
-  SparseMatrix disk_laplacian;  ///< of the last cut disk
+  SparseMatrix disk_laplacian;                   ///< of the last cut disk
   std::shared_ptr<const Substructure> disk_factor;
 };
 
