@@ -194,7 +194,7 @@ def measure(program, run, meshes, folder):
         embedding, report = pathlib.Path(here, 'map.ply'), pathlib.Path(here, 'map.json')
         marked = cones(run, meshes)
         row['exit'], _, row['embed_seconds'] = call(program, 'embed', run.source.path, '--orbifold', run.signature, '--cones', marked,
-                                                    '--threads', 1, '--quiet', '-o', embedding, '--report', report)
+                                                    '--threads', 1, '--weights', 'cotan', '--quiet', '-o', embedding, '--report', report)
         if not report.exists():
             return row | {'marks': marked}
         row |= description(json.loads(report.read_text(encoding='utf-8')))
