@@ -65,12 +65,12 @@ Theorem2 not_run(const char* reason) {
   return theorem2;
 }
 
-Theorem2 theorem2_of(const Connectivity& connectivity, const std::optional<EdgeWeights>& weights,
-                     const Embedding& embedding, const Certificate& certificate) {
+Theorem2 theorem2_of(const Mesh& mesh, const Connectivity& connectivity,
+                     const std::optional<EdgeWeights>& weights, const Embedding& embedding,
+                     const Certificate& certificate) {
   if (!has_cover(certificate)) return not_run("the copies of the embedding do not fit together");
   if (!weights) return not_run("the weights came from a file: give it with --weights-file");
-  if (weights->triangulation) return not_run("the weights belong to edges of an intrinsic triangulation");
-  return check_theorem2(connectivity, *weights, embedding);
+  return check_theorem2(mesh, connectivity, *weights, embedding);
 }
 
 // What the report says of the triangulation that has the weights.
@@ -188,7 +188,8 @@ int verify_command(const VerifyArguments& arguments) {
   bool bijective = certificate.bijective;
   for (const Check& check : verdict.checks) bijective = bijective && check.passed;
   verdict.bijective = bijective && report.converged;
-  if (arguments.theorem2) verdict.theorem2 = theorem2_of(connectivity, weights, embedding, certificate);
+  if (arguments.theorem2)
+    verdict.theorem2 = theorem2_of(triangles, connectivity, weights, embedding, certificate);
   arguments.json ? print_json(verdict) : print_text(verdict);
   if (!bijective) return rejected;
   return report.converged ? accepted : not_converged;

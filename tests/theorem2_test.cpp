@@ -47,6 +47,23 @@ TEST(Theorem2, HoldsForTheSamplesOfAllFamilies) {
   }
 }
 
+// Weights of edges that cross the cut, and are no edges of the mesh.
+TEST(Theorem2, HoldsForIntrinsicWeights) {
+  EmbedOptions options;
+  options.threads = 1;
+  options.weights.kind = WeightKind::delaunay;
+  for (const char* signature : {"532", "33", "225", "*432", "*22", "3*2", "5*", "1x", "3x"}) {
+    const test::SampleEmbedding sample = test::make_sample(signature, options);
+    EXPECT_FALSE(sample.result.weights.triangulation->flips.empty()) << signature;
+    const Theorem2 theorem2 = check_theorem2(sample.mesh, connectivity_of(sample.mesh), sample.result.weights,
+                                             sample.embedding());
+    EXPECT_EQ(name(theorem2.status), "measured") << signature << ": " << theorem2.detail;
+    EXPECT_EQ(theorem2.negative, 1) << signature;
+    EXPECT_EQ(theorem2.kernel, 3) << signature;
+    EXPECT_LT(theorem2.kernel_residual, 1e-6) << signature;
+  }
+}
+
 TEST(Theorem2, EveryMethodCountsTheSame) {
   for (const InertiaMethod method : available_inertia_methods()) {
     for (const char* signature : {"532", "33", "*432", "*22", "3*2", "5*"}) {

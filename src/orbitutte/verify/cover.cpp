@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "orbitutte/verify/edge_images.h"
+#include "orbitutte/verify/laid_out.h"
 #include "orbitutte/verify/spherical_triangle.h"
 
 namespace orbitutte {
@@ -112,13 +114,55 @@ std::vector<CoverEdge> cover_edges(const Connectivity& connectivity, const EdgeW
   std::vector<CoverEdge> edges;
   edges.reserve(connectivity.edges.size());
   visit_edges(connectivity, embedding, [&](int e, int from, int to) {
-    edges.push_back({embedding.source_vertex[from], embedding.source_vertex[to], lifting.between(from, to), weights.w[e],
-                     arc_length(embedding.positions.row(from), embedding.positions.row(to))});
+    edges.push_back({embedding.source_vertex[from], embedding.source_vertex[to], lifting.between(from, to),
+                     weights.w[e], arc_length(embedding.positions.row(from), embedding.positions.row(to))});
   });
   return edges;
 }
 
+// The element that takes a vertex's position to where a corner of a face lies; any where several do, since
+// they differ by the vertex's stabilizer.
+int element_between(const Vector3& position, const Vector3& corner, const SymmetryGroup& group) {
+  int nearest = 0;
+  double distance = (position - corner).squaredNorm();
+  for (int g = 1; g < group.order() && distance > 1e-20; ++g) {
+    const double d = (group.elements()[g] * position - corner).squaredNorm();
+    if (d < distance) nearest = g, distance = d;
+  }
+  return nearest;
+}
+
+// Of faces whose corners have positions of their own.
+std::vector<CoverEdge> layout_edges(const Embedding& layout, const EdgeWeights& weights,
+                                    const Points& positions, const SymmetryGroup& group) {
+  const std::vector<int>& edge_of = weights.triangulation->connectivity.edge_of;
+  std::vector<char> done(weights.w.size(), 0);
+  std::vector<CoverEdge> edges;
+  for (int h = 0; h < static_cast<int>(edge_of.size()); ++h) {
+    if (std::exchange(done[edge_of[h]], 1)) continue;
+    const int next = next_halfedge(h), i = layout.source_vertex[h], j = layout.source_vertex[next];
+    const Vector3 from = layout.positions.row(h), to = layout.positions.row(next);
+    const int at_from = element_between(positions.row(i), from, group),
+              at_to = element_between(positions.row(j), to, group);
+    const int g = at_from == at_to
+                      ? 0
+                      : element(group, group.elements()[at_from].transpose() * group.elements()[at_to]);
+    edges.push_back({i, j, g, weights.w[edge_of[h]], arc_length(from, to)});
+  }
+  return edges;
+}
+
 }  // namespace
+
+Cover cover_of_layout(const Mesh& mesh, const EdgeWeights& weights, const Embedding& embedding,
+                      const SymmetryGroup& group) {
+  Lifting lifting(embedding, group);
+  const int vertices = static_cast<int>(lifting.stabilizers.size());
+  const Embedding layout = laid_out(mesh, embedding, *weights.triangulation);
+  const Points positions = embedding.positions.topRows(vertices);
+  std::vector<CoverEdge> edges = layout_edges(layout, weights, positions, group);
+  return {positions, std::move(lifting.stabilizers), vertex_areas(layout, vertices), std::move(edges)};
+}
 
 Cover cover_of(const Connectivity& connectivity, const EdgeWeights& weights, const Embedding& embedding,
                const SymmetryGroup& group) {

@@ -34,4 +34,8 @@ struct Cover {
 Cover cover_of(const Connectivity& connectivity, const EdgeWeights& weights, const Embedding& embedding,
                const SymmetryGroup& group);
 
+/// The same with the edges and faces of the intrinsic triangulation that has the weights.
+Cover cover_of_layout(const Mesh& mesh, const EdgeWeights& weights, const Embedding& embedding,
+                      const SymmetryGroup& group);
+
 }  // namespace orbitutte

@@ -32,8 +32,9 @@ class EdgeIndex {
   std::vector<int> start_;
 };
 
-/// Calls visit(e, a, b) once for every edge e of the uncut mesh, as one of the embedding's faces, triangles or
-/// polygons, has it between the cut vertices a and b. The faces must be those of the mesh, cut (see certify).
+/// Calls visit(e, a, b) once for every edge e of the uncut mesh, as one of the embedding's faces, triangles
+/// or polygons, has it between the cut vertices a and b. The faces must be those of the mesh, cut (see
+/// certify).
 template <typename Visit>
 void visit_edges(const Connectivity& connectivity, const Embedding& embedding, const Visit& visit) {
   const FaceView faces = embedding.input_faces();

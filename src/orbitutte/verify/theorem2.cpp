@@ -297,10 +297,9 @@ bool Theorem2::holds() const {
          std::all_of(all.begin(), all.end(), [](const Check& check) { return check.passed; });
 }
 
-Theorem2 check_theorem2(const Connectivity& connectivity, const EdgeWeights& weights,
-                        const Embedding& embedding, const Theorem2Options& options) {
-  const SymmetryGroup group = group_of(embedding);
-  const Cover cover = cover_of(connectivity, weights, embedding, group);
+namespace {
+
+Theorem2 check_cover(const Cover& cover, const SymmetryGroup& group, const Theorem2Options& options) {
   Theorem2 result;
   result.method = options.method;
   result.max_edge_length = longest_edge(cover);
@@ -322,6 +321,21 @@ Theorem2 check_theorem2(const Connectivity& connectivity, const EdgeWeights& wei
     result.detail = "memory ran out";
   }
   return result;
+}
+
+}  // namespace
+
+Theorem2 check_theorem2(const Connectivity& connectivity, const EdgeWeights& weights,
+                        const Embedding& embedding, const Theorem2Options& options) {
+  const SymmetryGroup group = group_of(embedding);
+  return check_cover(cover_of(connectivity, weights, embedding, group), group, options);
+}
+
+Theorem2 check_theorem2(const Mesh& mesh, const Connectivity& connectivity, const EdgeWeights& weights,
+                        const Embedding& embedding, const Theorem2Options& options) {
+  if (!weights.triangulation) return check_theorem2(connectivity, weights, embedding, options);
+  const SymmetryGroup group = group_of(embedding);
+  return check_cover(cover_of_layout(mesh, weights, embedding, group), group, options);
 }
 
 long cover_eigenvalues_below(const Connectivity& connectivity, const EdgeWeights& weights,

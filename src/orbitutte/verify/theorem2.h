@@ -70,6 +70,10 @@ std::string name(Theorem2::Status status);
 Theorem2 check_theorem2(const Connectivity& connectivity, const EdgeWeights& weights,
                         const Embedding& embedding, const Theorem2Options& options = {});
 
+/// The same with weights of any kind; the edges of intrinsic ones are those of their triangulation.
+Theorem2 check_theorem2(const Mesh& mesh, const Connectivity& connectivity, const EdgeWeights& weights,
+                        const Embedding& embedding, const Theorem2Options& options = {});
+
 /// How many eigenvalues of W x = lambda D x, as above, the whole cover has below `shift`, with multiplicity.
 /// Throws InertiaNotFound, and as cover_of does.
 long cover_eigenvalues_below(const Connectivity& connectivity, const EdgeWeights& weights,
