@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// A map of a cut mesh onto the basic tile of a spherical orbifold S^2/G: what is certified, measured, tiled
+// A map of a cut mesh onto the basic tile of an orbifold, S^2/G or R^2/G: what is certified, measured, tiled
 // and written.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "orbitutte/types.h"
+#include "orbitutte/orbifold/geometry.h"
 
 namespace orbitutte {
 
@@ -21,7 +21,7 @@ std::string name(SeamKind kind);
 struct Seam {
   std::vector<int> left;                    ///< cut vertices
   std::vector<int> right;                   ///< cut vertices, as many as in left
-  Matrix3 transform = Matrix3::Identity();  ///< an element of O(3)
+  Matrix3 transform = Matrix3::Identity();  ///< an element of O(3), or an isometry of the plane
 
   SeamKind kind() const;
 };
@@ -41,13 +41,15 @@ struct ConeCopies {
 
 struct Embedding {
   std::string signature;  ///< Conway's symbol
-  int group_order = 1;    ///< |G|
-  Points positions;       ///< n_cut x 3, on the unit sphere; vertices that no face uses sit at the north pole
-  Faces faces;            ///< m x 3, the faces of the input in their order, on cut vertices
+  int group_order = 1;    ///< |G|; 0 in the plane, where it is infinite
+  Points
+      positions;  ///< n_cut x 3, on the unit sphere (or z = 1); vertices that no face uses sit at (0, 0, 1)
+  Faces faces;    ///< m x 3, the faces of the input in their order, on cut vertices
   std::vector<int>
       source_vertex;  ///< n_cut: the input vertex; the first n cut vertices are the input vertices
   std::vector<Seam> seams;
   std::vector<ConeCopies> cones;
+  Geometry geometry = Geometry::spherical;
 };
 
 }  // namespace orbitutte
