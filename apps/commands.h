@@ -11,6 +11,7 @@ namespace orbitutte::cli {
 
 struct EmbedArguments {
   std::string mesh, orbifold, cones, output, report;
+  std::string polygon, spread = "arc-length";
   std::string weights = "cotan", weights_file;
   double clamp = 0.01, tolerance = 1e-9;
   std::uint64_t cut_seed = 0;
@@ -28,8 +29,8 @@ int info_command(const InfoArguments& arguments);
 int types_command(bool json);
 
 struct VerifyArguments {
-  std::string embedding, report, mesh;
-  bool json = false;
+  std::string embedding, report, mesh, weights_file;
+  bool theorem2 = false, json = false;
 };
 int verify_command(const VerifyArguments& arguments);
 
@@ -37,6 +38,11 @@ struct TileArguments {
   std::string embedding, report, output;
 };
 int tile_command(const TileArguments& arguments);
+
+struct ExportArguments {
+  std::string embedding, report, mesh, output, chart = "stereographic";
+};
+int export_command(const ExportArguments& arguments);
 
 struct SampleArguments {
   std::string output, shape = "figure";

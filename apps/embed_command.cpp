@@ -7,12 +7,16 @@
 #include <charconv>
 #include <chrono>
 #include <cstdio>
+#include <variant>
 
 #include "commands.h"
 #include "orbitutte/embed.h"
+#include "orbitutte/mesh/corner_file.h"
 #include "orbitutte/mesh/file.h"
 #include "orbitutte/mesh/inspection.h"
 #include "orbitutte/mesh/mesh_io.h"
+#include "orbitutte/mesh/triangulation.h"
+#include "orbitutte/orbifold/polygon.h"
 #include "orbitutte/output/embedding_file.h"
 #include "orbitutte/output/report.h"
 
@@ -80,9 +84,35 @@ std::vector<int> parse_cones(const std::string& text) {
 }
 
 WeightKind parse_weights(const std::string& text) {
-  if (text == "cotan") return WeightKind::cotan;
-  if (text == "uniform") return WeightKind::uniform;
-  throw ArgumentError(fmt::format("--weights is '{}'; it may be cotan or uniform", text));
+  for (const WeightKind kind :
+       {WeightKind::cotan, WeightKind::delaunay, WeightKind::mean_value, WeightKind::uniform})
+    if (text == name(kind)) return kind;
+  throw ArgumentError(
+      fmt::format("--weights is '{}'; it may be cotan, delaunay, mean-value or uniform", text));
+}
+
+Spread parse_spread(const std::string& text) {
+  if (text == "arc-length") return Spread::arc_length;
+  if (text == "equidistant") return Spread::equidistant;
+  throw ArgumentError(fmt::format("--spread is '{}'; it may be arc-length or equidistant", text));
+}
+
+// What is asked for: an orbifold, or a polygon with its corners.
+Orbifold orbifold_from(const EmbedArguments& arguments) {
+  const bool polygon = arguments.orbifold == polygon_signature;
+  if (!polygon && !arguments.polygon.empty())
+    throw ArgumentError(fmt::format(
+        "--polygon gives the corners of a fixed boundary, which {} has not; give --orbifold polygon",
+        arguments.orbifold));
+  if (!polygon && arguments.cones.empty())
+    throw ArgumentError("--cones is missing; mark vertices, or 'auto'");
+  if (!polygon) return parse_orbifold(arguments.orbifold);
+  if (arguments.polygon.empty())
+    throw ArgumentError(
+        "--polygon is missing: the file with the corners of the polygon, 'vertex x y z' each");
+  if (!arguments.cones.empty())
+    throw ArgumentError("--cones is not for polygons: the lines of --polygon name the vertices");
+  return polygon_orbifold(read_corners(arguments.polygon));
 }
 
 EmbedOptions options_from(const EmbedArguments& arguments) {
@@ -90,32 +120,30 @@ EmbedOptions options_from(const EmbedArguments& arguments) {
   options.weights = {parse_weights(arguments.weights), arguments.clamp};
   options.weights_file = arguments.weights_file;
   options.cut.seed = arguments.cut_seed;
+  options.spread = parse_spread(arguments.spread);
   options.tolerance = arguments.tolerance;
   options.max_iterations = arguments.max_iterations;
   options.threads = arguments.threads;
   return options;
 }
 
-// The mesh as triangles. Where a face is none, a worse defect is told first.
-Mesh triangles_of(PolygonMesh polygons) {
-  const int faces = polygons.face_count();
-  for (int f = 0; f < faces; ++f) {
-    if (polygons.face_degree(f) == 3) continue;
-    require_embeddable(inspect(polygons));
-    break;
-  }
-  return to_triangle_mesh(std::move(polygons));
+using AnyMesh = std::variant<Mesh, PolygonMesh>;
+
+AnyMesh triangles_or_polygons(PolygonMesh polygons) {
+  if (is_triangle_mesh(polygons)) return to_triangle_mesh(std::move(polygons));
+  require_embeddable(inspect(polygons));
+  return polygons;
 }
 
 // Reads the mesh, and notes what the report says of its file.
-Mesh read_input(const std::string& path, RunRecord& run) {
+AnyMesh read_input(const std::string& path, RunRecord& run) {
   const Stopwatch reading;
   const MeshFormat format = mesh_format(path);
   const std::string bytes = read_file(path);
   run.mesh_path = path;
   run.input_sha256 = sha256(bytes);
   try {
-    Mesh mesh = triangles_of(parse_mesh(bytes, format));
+    AnyMesh mesh = triangles_or_polygons(parse_mesh(bytes, format));
     run.read_seconds = reading.seconds();
     return mesh;
   } catch (const MeshError& error) {
@@ -127,9 +155,10 @@ void summarize(const EmbedArguments& arguments, const EmbedResult& result) {
   const Minimum& minimum = result.minimum;
   std::vector<int> cones;
   for (const ConeCopies& cone : result.embedding.cones) cones.push_back(cone.vertex);
-  fmt::print(stderr, "{}: {} vertices, {} triangles, a {}, onto {} (group of order {}), cones {}\n",
-             arguments.mesh, minimum.positions.rows(), result.embedding.faces.rows(), name(result.topology),
-             result.embedding.signature, result.embedding.group_order, fmt::join(cones, ","));
+  fmt::print(stderr, "{}: {} vertices, {} faces, a {}, onto {} (group of order {}), cones {}\n",
+             arguments.mesh, minimum.positions.rows(), result.embedding.input_faces().count(),
+             name(result.topology), result.embedding.signature, result.embedding.group_order,
+             fmt::join(cones, ","));
   fmt::print(stderr, "energy {:.12g} after {} iterations, gradient {:.1e}: {}\n", minimum.energy,
              minimum.iterations, minimum.gradient_norm, name(minimum.termination));
   fmt::print(stderr, "area distortion: mean {:.4g}, max {:.4g}; angle distortion: mean {:.4g}, max {:.4g}\n",
@@ -142,6 +171,8 @@ void summarize(const EmbedArguments& arguments, const EmbedResult& result) {
   fmt::print(stderr, "not certified:\n");
   for (const Check& check : result.certificate.checks)
     if (!check.passed) fmt::print(stderr, "  {}: {}\n", check.name, check.detail);
+  if (result.intrinsic_certificate && result.intrinsic_certificate->bijective)
+    fmt::print(stderr, "certified of the intrinsic Delaunay triangulation: bijective\n");
 }
 
 }  // namespace
@@ -149,15 +180,16 @@ void summarize(const EmbedArguments& arguments, const EmbedResult& result) {
 int embed_command(const EmbedArguments& arguments) {
   const Stopwatch total;
   EmbedOptions options = options_from(arguments);
-  const Orbifold orbifold = parse_orbifold(arguments.orbifold);
+  const Orbifold orbifold = orbifold_from(arguments);
   const bool automatic = arguments.cones == "auto";
-  std::vector<int> cones = automatic ? std::vector<int>() : parse_cones(arguments.cones);
+  std::vector<int> cones = corner_vertices(orbifold);
+  if (cones.empty() && !automatic) cones = parse_cones(arguments.cones);
 
   RunRecord run;
-  const Mesh mesh = read_input(arguments.mesh, run);
+  const AnyMesh mesh = read_input(arguments.mesh, run);
 
   if (automatic) {
-    cones = choose_marked_vertices(mesh, orbifold);
+    cones = std::visit([&](const auto& known) { return choose_marked_vertices(known, orbifold); }, mesh);
     if (!arguments.quiet) fmt::print(stderr, "--cones {}\n", fmt::join(cones, ","));
   }
   const ProgressLine line(arguments.quiet);
@@ -165,7 +197,8 @@ int embed_command(const EmbedArguments& arguments) {
     line.show(progress);
     return true;
   };
-  const EmbedResult result = embed(mesh, orbifold, cones, options);
+  const EmbedResult result =
+      std::visit([&](const auto& known) { return embed(known, orbifold, cones, options); }, mesh);
   line.clear();
   for (const std::string& warning : result.warnings) fmt::print(stderr, "orbitutte: warning: {}\n", warning);
 

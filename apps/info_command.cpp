@@ -7,6 +7,7 @@
 #include "commands.h"
 #include "orbitutte/mesh/inspection.h"
 #include "orbitutte/mesh/mesh_io.h"
+#include "orbitutte/mesh/weak_places.h"
 #include "orbitutte/orbifold/signature.h"
 
 namespace orbitutte::cli {
@@ -18,13 +19,23 @@ constexpr int sound = 0, defective = 3;
 
 std::vector<std::string> targets(const Inspection& inspection) {
   std::vector<std::string> result;
-  if (inspection.triangles != inspection.faces) return result;
   for (const FamilyDescription& family : families())
     if (family.topology == inspection.topology) result.push_back(family.family);
   return result;
 }
 
 double degrees(double radians) { return radians * 180 / std::numbers::pi; }
+
+std::vector<WeakPlace> weak_places(const PolygonMesh& mesh, const Inspection& inspection) {
+  return inspection.defects.empty() ? find_weak_places(mesh) : std::vector<WeakPlace>();
+}
+
+Json to_json(const std::vector<WeakPlace>& places) {
+  Json rows = Json::array();
+  for (const WeakPlace& place : places)
+    rows.push_back({{"kind", name(place.kind)}, {"count", place.count}, {"message", place.message}});
+  return rows;
+}
 
 Json to_json(const std::string& path, const Inspection& inspection) {
   Json loops = Json::array(), defects = Json::array();
@@ -57,7 +68,7 @@ Json to_json(const std::string& path, const Inspection& inspection) {
           {"embeds_into", targets(inspection)}};
 }
 
-void print_text(const std::string& path, const Inspection& inspection) {
+void print_text(const std::string& path, const Inspection& inspection, const std::vector<WeakPlace>& places) {
   fmt::print("{}: {}\n", path, inspection.defects.empty() ? name(inspection.topology) : "defective");
   fmt::print("  vertices {} ({} in no face), edges {}, faces {} ({} triangles, up to {} corners)\n",
              inspection.vertices, inspection.unreferenced_vertices, inspection.edges, inspection.faces,
@@ -67,16 +78,16 @@ void print_text(const std::string& path, const Inspection& inspection) {
              inspection.boundary.size());
   for (const std::vector<int>& loop : inspection.boundary)
     fmt::print("    boundary of {} edges through vertex {}\n", loop.size(), loop.front());
-  fmt::print("  angles {:.3g} to {:.3g} degrees, edges {:.4g} to {:.4g}, zero-area faces {}\n",
-             degrees(inspection.min_angle), degrees(inspection.max_angle), inspection.min_edge_length,
-             inspection.max_edge_length, inspection.zero_area_faces);
+  if (inspection.triangles > 0)
+    fmt::print("  angles {:.3g} to {:.3g} degrees, edges {:.4g} to {:.4g}, zero-area faces {}\n",
+               degrees(inspection.min_angle), degrees(inspection.max_angle), inspection.min_edge_length,
+               inspection.max_edge_length, inspection.zero_area_faces);
   fmt::print("  cotangent weights: {} negative, {} zero\n", inspection.negative_cotangent_edges,
              inspection.zero_cotangent_edges);
   for (const Defect& defect : inspection.defects) fmt::print("  defect: {}\n", defect.message);
+  for (const WeakPlace& place : places) fmt::print("  not 3-connected: {}\n", place.message);
   if (const std::vector<std::string> into = targets(inspection); !into.empty()) {
     fmt::print("  embeds into {}\n", fmt::join(into, ", "));
-  } else if (inspection.defects.empty() && inspection.triangles != inspection.faces) {
-    fmt::print("  embeds into nothing as it is: triangulate its polygons\n");
   } else if (inspection.defects.empty()) {
     fmt::print("  embeds into none of the families there are yet\n");
   }
@@ -85,11 +96,15 @@ void print_text(const std::string& path, const Inspection& inspection) {
 }  // namespace
 
 int info_command(const InfoArguments& arguments) {
-  const Inspection inspection = inspect(read_mesh(arguments.mesh));
+  const PolygonMesh mesh = read_mesh(arguments.mesh);
+  const Inspection inspection = inspect(mesh);
+  const std::vector<WeakPlace> places = weak_places(mesh, inspection);
   if (arguments.json) {
-    fmt::print("{}\n", to_json(arguments.mesh, inspection).dump(1));
+    Json json = to_json(arguments.mesh, inspection);
+    json["weak_places"] = to_json(places);
+    fmt::print("{}\n", json.dump(1));
   } else {
-    print_text(arguments.mesh, inspection);
+    print_text(arguments.mesh, inspection, places);
   }
   return inspection.defects.empty() ? sound : defective;
 }
@@ -101,6 +116,8 @@ int types_command(bool json) {
       fmt::print("{:<8} {:>11}  {:<8} {}\n", family.family, family.group_order, name(family.topology),
                  family.marked_points);
     fmt::print("N is any order of 2 or more. Orders of two digits are separated by commas: 2,2,12.\n");
+    fmt::print(
+        "Besides, 'polygon': a disk onto a convex spherical polygon, its boundary fixed (--polygon).\n");
     return 0;
   }
   Json rows = Json::array();

@@ -40,15 +40,25 @@ void add_embed(CLI::App& app, int& code) {
       app.add_subcommand("embed", "Embed a mesh into a spherical orbifold and certify the result");
   auto arguments = std::make_shared<EmbedArguments>();
   command->add_option("mesh", arguments->mesh, "The mesh: OBJ, OFF, PLY or STL")->required();
-  command->add_option("--orbifold", arguments->orbifold, "Conway's symbol, e.g. 432, *532, 2,2,12")
-      ->required();
   command
-      ->add_option("--cones", arguments->cones,
-                   "The marked vertices, 0-based, in the order of the symbol, or 'auto'")
+      ->add_option("--orbifold", arguments->orbifold,
+                   "Conway's symbol, e.g. 432, *532, 2,2,12; or 'polygon', a fixed boundary")
       ->required();
+  command->add_option(
+      "--cones", arguments->cones,
+      "The marked vertices, 0-based, in the order of the symbol, or 'auto'; not for a polygon");
+  auto* polygon =
+      command->add_option("--polygon", arguments->polygon,
+                          "The corners of the polygon: a file of lines 'vertex x y z', counterclockwise");
+  command
+      ->add_option("--spread", arguments->spread,
+                   "How boundary vertices are spread along the polygon's sides: arc-length or equidistant")
+      ->capture_default_str()
+      ->needs(polygon);
   command->add_option("-o,--output", arguments->output, "Write the embedding (binary PLY) here");
   command->add_option("--report", arguments->report, "Write the report (JSON) here");
-  command->add_option("--weights", arguments->weights, "cotan or uniform")->capture_default_str();
+  command->add_option("--weights", arguments->weights, "cotan, delaunay, mean-value or uniform")
+      ->capture_default_str();
   command->add_option("--clamp", arguments->clamp, "What cotangent weights that are not positive become")
       ->capture_default_str();
   command->add_option("--weights-file", arguments->weights_file, "Lines 'i j w', every edge once");
@@ -86,6 +96,10 @@ void add_verify(CLI::App& app, int& code) {
   command->add_option("embedding", arguments->embedding, "The embedding (PLY)")->required();
   command->add_option("report", arguments->report, "Its report (JSON)")->required();
   command->add_option("mesh", arguments->mesh, "The input mesh")->required();
+  command->add_option("--weights-file", arguments->weights_file,
+                      "The weights that the embedding was computed with, where they came from a file");
+  command->add_flag("--theorem2", arguments->theorem2,
+                    "Also the conditions of theorem 2; they change neither the verdict nor the exit code");
   command->add_flag("--json", arguments->json, "As JSON");
   command->callback([arguments, &code] { code = run([&] { return verify_command(*arguments); }); });
 }
@@ -99,11 +113,29 @@ void add_tile(CLI::App& app, int& code) {
   command->callback([arguments, &code] { code = run([&] { return tile_command(*arguments); }); });
 }
 
+void add_export(CLI::App& app, int& code) {
+  auto* command =
+      app.add_subcommand("export", "The mesh with its embedding as texture coordinates, for other programs");
+  auto arguments = std::make_shared<ExportArguments>();
+  command->add_option("embedding", arguments->embedding, "The embedding (PLY)")->required();
+  command->add_option("report", arguments->report, "Its report (JSON)")->required();
+  command->add_option("mesh", arguments->mesh, "The input mesh")->required();
+  command->add_option("-o,--output", arguments->output, "The model: .obj, .glb, .ply or .vtp")->required();
+  command
+      ->add_option("--chart", arguments->chart,
+                   "Of the sphere into the texture: stereographic, equirectangular or octahedral")
+      ->capture_default_str();
+  command->callback([arguments, &code] { code = run([&] { return export_command(*arguments); }); });
+}
+
 void add_sample(CLI::App& app, int& code) {
   auto* command = app.add_subcommand("sample", "Generate a mesh to try things on");
   auto arguments = std::make_shared<SampleArguments>();
   command->add_option("-o,--output", arguments->output, "The mesh: .obj, .off, .ply or .stl")->required();
-  command->add_option("--shape", arguments->shape, "figure (a sphere with limbs) or mask (a disk)")
+  command
+      ->add_option("--shape", arguments->shape,
+                   "figure (a sphere with limbs), mask (a disk), or a projective plane: boy (Boy's surface), "
+                   "roman (Steiner's), crosscap, quotient (a centrally symmetric figure's)")
       ->capture_default_str();
   command->add_option("--faces", arguments->faces, "About so many triangles")->capture_default_str();
   command->callback([arguments, &code] { code = run([&] { return sample_command(*arguments); }); });
@@ -122,6 +154,7 @@ int main(int argc, char** argv) {
   add_types(app, code);
   add_verify(app, code);
   add_tile(app, code);
+  add_export(app, code);
   add_sample(app, code);
   try {
     app.parse(argc, argv);

@@ -8,9 +8,14 @@ is no part of it: where it is missing, everything is skipped. Needs numpy.
   embed         every family on every mesh: verify_embedding.py and 'orbitutte verify' accept; exit 0 exactly when certified
   tile          the tiling of one embedding of each family is a closed surface of Euler characteristic 2, counterclockwise
   golden        the reference's energies to 1e-9 (relative) and edge lengths to 1e-7, with the reference's weights
+  weights       Delaunay and mean value weights on every mesh: as embed, and Delaunay is nearer to conformal than the clamp
+  polygon       the tile of *222 as a fixed polygon: certified, and the map is more sheared than that into the orbifold
   cut-seed      20 cuts of the same mesh: no edge length changes by more than 1e-8
+  polygons      meshes of polygons, made of the same meshes: certified, convex, in their order; the checker accepts the map
+                divided into triangles, energy and gradient included; the tiling in polygons is a closed sphere
   repeat        two runs give the same bytes, but for times and memory in the report
   fault         'orbitutte verify' rejects, with exit code 5, embeddings and reports that were tampered with
+  theorem2      'orbitutte verify --theorem2' finds both of its conditions to hold, and never changes the exit code
 """
 import argparse
 import collections
@@ -32,21 +37,29 @@ PYTHON = sys.executable or '/usr/bin/python3'
 SPHERE_SIGNATURES = ['532', '432', '332', '222', '223', '224', '228', '2,2,12', '22', '33', '44', '88', '12,12']
 DISK_SIGNATURES = ['*' + signature for signature in SPHERE_SIGNATURES]
 MIXED_SIGNATURES = ['3*2', '2*2', '2*3', '2*5', '2*8', '2*', '3*', '5*', '8*']  # a cone inside a disk
-ONE_OF_EACH_FAMILY = ['532', '432', '332', '223', '44', '*532', '*432', '*332', '*228', '*33'] + MIXED_SIGNATURES
+CROSSED_SIGNATURES = ['1x', '2x', '3x', '5x', '8x']  # on projective planes, which the program makes itself
+SAMPLES = ['boy', 'roman', 'crosscap', 'quotient']
+ONE_OF_EACH_FAMILY = ['532', '432', '332', '223', '44', '*532', '*432', '*332', '*228', '*33'] + MIXED_SIGNATURES + \
+    CROSSED_SIGNATURES
 
 # The quick part: every family, each hard kind of mesh, golden runs on the smallest meshes.
 QUICK_MESHES = {'my_man_maxp.off': SPHERE_SIGNATURES, 'thingi_62415.obj': SPHERE_SIGNATURES, 'itokawa.off': ['532', '22'],
                 'octocat.off': ['532'], 'camelhead.off': DISK_SIGNATURES[::2] + ['*33'] + MIXED_SIGNATURES[::2],
-                'fandisk.off': ['*432', '2*3', '8*']}
-QUICK_GOLDEN = ['my_man_maxp', 'fandisk_star243']
-QUICK_SEEDS = {('my_man_maxp.off', '532'): 6, ('camelhead.off', '3*2'): 4, ('camelhead.off', '5*'): 4}
+                'fandisk.off': ['*432', '2*3', '8*'], 'boy.ply': CROSSED_SIGNATURES, 'quotient.ply': ['3x']}
+QUICK_GOLDEN = ['my_man_maxp', 'fandisk_star243', 'fandisk_polygon']
+QUICK_SEEDS = {('my_man_maxp.off', '532'): 6, ('camelhead.off', '3*2'): 4, ('camelhead.off', '5*'): 4,
+               ('boy.ply', '3x'): 4}
 ALL_SEEDS = {('my_man_maxp.off', '532'): 20, ('david_50k.off', '532'): 20, ('camelhead.off', '3*2'): 20,
-             ('fandisk.off', '2*5'): 20, ('camelhead.off', '5*'): 20, ('fandisk.off', '2*'): 20}
+             ('fandisk.off', '2*5'): 20, ('camelhead.off', '5*'): 20, ('fandisk.off', '2*'): 20,
+             ('boy.ply', '1x'): 20, ('quotient.ply', '5x'): 20}
 
 # May fail to be bijective in double precision, saying so (exit code 5).
 KNOWN_HARD = {'octocat.off'}
+QUICK_WEIGHTS = ['my_man_maxp.off', 'itokawa.off', 'camelhead.off', 'fandisk.off']
 
 MAX_ITERATIONS_THREE_CONES = 14
+
+MOST_POLYGONS_TILED = 300000  # the time it takes to look at them one by one
 
 REPORT_KEYS = {
     '': ['schema', 'mesh', 'orbifold', 'cones', 'seams', 'weights', 'energy', 'iterations', 'evaluations', 'termination',
@@ -150,7 +163,105 @@ def check_closed_sphere(ply, copies, tile_faces):
     characteristic = n - len(directed) // 2 + len(faces)
     expect(characteristic == 2, f'Euler characteristic {characteristic}')
     a, b, c = (ply.positions[faces[:, k]] for k in range(3))
-    expect(((a * np.cross(b, c)).sum(1) > 0).all(), 'a triangle that is clockwise seen from outside')
+    volume = (a * np.cross(b, c)).sum(1)
+    expect((volume > 0).all(), 'a triangle that is clockwise seen from outside')
+    area = 2 * np.arctan2(volume, 1 + (a * b).sum(1) + (b * c).sum(1) + (c * a).sum(1)).sum()
+    expect(abs(area - 4 * np.pi) < 1e-8, f'an area of {area:.12g}, not 4 pi')
+
+
+# Meshes of polygons: vertices and a list of faces.
+
+def quadrangulated(vertices, faces):
+    """Every triangle in three quadrilaterals around its middle; old vertices keep their numbers."""
+    n, m = len(vertices), len(faces)
+    ends, edge = np.unique(np.sort(half_edges(faces), axis=1), axis=0, return_inverse=True)
+    edge = n + edge.reshape(3, m)
+    middle = n + len(ends) + np.arange(m)
+    points = np.concatenate([vertices, vertices[ends].mean(1), vertices[faces].mean(1)])
+    return points, np.stack([np.stack([faces[:, k], edge[k], middle, edge[k - 1]], 1) for k in range(3)], 1).reshape(-1, 4).tolist()
+
+
+def dual(vertices, faces):
+    """A vertex in the middle of every triangle of a closed mesh, a face around every vertex."""
+    after = {}  # vertex -> the next neighbour around it and the triangle between, by neighbour
+    for f, triangle in enumerate(faces.tolist()):
+        for k, v in enumerate(triangle):
+            after.setdefault(v, {})[triangle[k - 2]] = (triangle[k - 1], f)
+    polygons = []
+    for v in sorted(after):
+        first = neighbour = min(after[v])
+        polygon = []
+        while not polygon or neighbour != first:
+            neighbour, f = after[v][neighbour]
+            polygon.append(f)
+        polygons.append(polygon)
+    return vertices[faces].mean(1), polygons
+
+
+def write_off(path, vertices, faces):
+    lines = ['OFF', f'{len(vertices)} {len(faces)} 0']
+    lines += [' '.join(map(repr, vertex)) for vertex in vertices.tolist()]
+    lines += [' '.join(map(str, [len(face), *face])) for face in faces]
+    pathlib.Path(path).write_text('\n'.join(lines) + '\n')
+
+
+def read_off_triangles(path):
+    words = pathlib.Path(path).read_text().split()
+    n, m = int(words[1]), int(words[2])
+    faces = np.array(words[4 + 3 * n:4 + 3 * n + 4 * m], np.int64).reshape(m, 4)
+    return np.array(words[4:4 + 3 * n], float).reshape(n, 3), faces[:, 1:]
+
+
+def read_polygons(path):
+    """The vertices of a PLY as the program writes it, as a structured array, and its faces as lists."""
+    data = pathlib.Path(path).read_bytes()
+    at = data.index(b'end_header\n') + len(b'end_header\n')
+    lines = [line.split() for line in data[:at].decode().splitlines()]
+    face = next(k for k, words in enumerate(lines) if words[:2] == ['element', 'face'])
+    vertex = next(k for k, words in enumerate(lines) if words[:2] == ['element', 'vertex'])
+    vertices = np.frombuffer(data, [(words[2], PLY_TYPES[words[1]]) for words in lines[vertex + 1:face]], int(lines[vertex][2]), at)
+    at += vertices.nbytes
+    further = np.dtype([(words[2], PLY_TYPES[words[1]]) for words in lines[face + 2:-1]]).itemsize
+    faces = []
+    for _ in range(int(lines[face][2])):
+        faces.append(np.frombuffer(data, '<i4', data[at], at + 1).tolist())
+        at += 1 + 4 * data[at] + further
+    expect(at == len(data), f'{path}: {len(data) - at} bytes too many')
+    return vertices, faces
+
+
+def write_triangles(path, vertices, triangles):
+    types = {'<f8': 'double', '<i4': 'int'}
+    properties = ''.join(f'property {types[vertices.dtype[name].str]} {name}\n' for name in vertices.dtype.names)
+    rows = np.zeros(len(triangles), [('corners', 'u1'), ('vertex_indices', '<i4', 3)])
+    rows['corners'], rows['vertex_indices'] = 3, triangles
+    header = (f'ply\nformat binary_little_endian 1.0\nelement vertex {len(vertices)}\n{properties}'
+              f'element face {len(rows)}\nproperty list uchar int vertex_indices\nend_header\n')
+    pathlib.Path(path).write_bytes(header.encode() + vertices.tobytes() + rows.tobytes())
+
+
+def fans(faces):
+    return [[face[0], face[k], face[k + 1]] for face in faces for k in range(1, len(face) - 1)]
+
+
+def edges_of(faces):
+    return {(min(a, b), max(a, b)) for face in faces for a, b in zip(face, face[1:] + face[:1])}
+
+
+def check_closed_polygons(vertices, faces):
+    """A closed oriented surface of Euler characteristic 2, all corners convex seen from outside up to rounding."""
+    directed = [(a, b) for face in faces for a, b in zip(face, face[1:] + face[:1])]
+    there = set(directed)
+    expect(len(there) == len(directed) and all((b, a) in there for a, b in directed),
+           'the surface is not closed and consistently oriented')
+    used = len({v for face in faces for v in face})
+    expect(used == len(vertices), 'a vertex in no face')
+    characteristic = used - len(directed) // 2 + len(faces)
+    expect(characteristic == 2, f'Euler characteristic {characteristic}')
+    x = np.stack([vertices[axis] for axis in 'xyz'], 1)
+    corners = np.array([corner for face in faces for corner in zip(face[-1:] + face[:-1], face, face[1:] + face[:1])])
+    a, b, c = x[corners[:, 0]], x[corners[:, 1]], x[corners[:, 2]]
+    expect(((a - b) * np.cross(b, c)).sum(1).min() > -1e-15, 'a face that is not convex')
 
 
 class Suite:
@@ -162,6 +273,15 @@ class Suite:
         self.threads = max(1, (os.cpu_count() or 1) // options.jobs)
         self.rows = []
         self.meshes = self.read_cones()
+        self.samples = tempfile.TemporaryDirectory()
+        for shape in SAMPLES:
+            mesh = f'{shape}.ply'
+            self.run([], self.orbitutte, 'sample', '--shape', shape, '--faces', 6000, '-o', self.path(mesh))
+            self.meshes[mesh] = ('projective-plane', [100], None)
+
+    def path(self, mesh):
+        is_sample = pathlib.Path(mesh).stem in SAMPLES
+        return pathlib.Path(self.samples.name) / mesh if is_sample else self.shared / 'meshes' / mesh
 
     def read_cones(self):
         """mesh -> (topology, marked vertices, on the boundary of a disk; a marked vertex inside of it or None)"""
@@ -170,6 +290,9 @@ class Suite:
             mesh, _, _, topology, marked, interior = line.split('\t')
             table[mesh] = (topology, [int(v) for v in marked.split(',')], None if interior == '-' else int(interior))
         return table
+
+    def disks(self):
+        return [mesh for mesh, (topology, _, _) in self.meshes.items() if topology == 'disk']
 
     # Running the program; the commands of a test are kept, to be shown where it fails.
 
@@ -188,8 +311,9 @@ class Suite:
 
     def embed(self, commands, folder, mesh, signature, cones, *options, name='embedding', codes=(0,)):
         ply, report = folder / f'{name}.ply', folder / f'{name}.json'
-        result = self.run(commands, self.orbitutte, 'embed', self.shared / 'meshes' / mesh, '--orbifold', signature,
-                          '--cones', ','.join(map(str, cones)), '-o', ply, '--report', report, '--threads', self.threads,
+        marked = ['--cones', ','.join(map(str, cones))] if cones else []  # a polygon's are in its file
+        result = self.run(commands, self.orbitutte, 'embed', self.path(mesh), '--orbifold', signature,
+                          *marked, '-o', ply, '--report', report, '--threads', self.threads,
                           '--quiet', *options, codes=codes)
         return result.returncode, ply, json.loads(report.read_text())
 
@@ -198,6 +322,8 @@ class Suite:
             return len(orders.split(',') if ',' in orders else orders)
 
         _, marked, interior = self.meshes[mesh]
+        if signature.endswith('x'):
+            return marked
         before, star, after = signature.partition('*')
         if not star:
             return marked[:count(before)]
@@ -223,7 +349,7 @@ class Suite:
             missing = [key for key in keys if key not in (report[group] if group else report)]
             expect(not missing, f"the report lacks {', '.join(missing)} {'in ' + group if group else ''}")
         expect(report['certificate']['bijective'] == (code == 0), f'exit code {code}, but the report says otherwise')
-        path = self.shared / 'meshes' / mesh
+        path = self.path(mesh)
         checked = self.run(commands, PYTHON, self.checker, path, ply, report_path(ply), codes=(0, 1))
         found = json.loads(checked.stdout)
         failures = found['failures']
@@ -233,19 +359,69 @@ class Suite:
         expect(found['bijective'] == (code == 0), 'verify_embedding and the report disagree')
         self.run(commands, self.orbitutte, 'verify', ply, report_path(ply), path, codes=(code,))
 
+    def test_weights(self, name, commands, folder, mesh, signature):
+        cones, path = self.marked(mesh, signature), self.path(mesh)
+        angle = {}
+        for weights in ('cotan', 'delaunay', 'mean-value'):
+            codes = (0, 5) if mesh in KNOWN_HARD else (0,)
+            code, ply, report = self.embed(commands, folder, mesh, signature, cones, '--weights', weights, name=weights, codes=codes)
+            expect(report['weights']['kind'] == weights, f"the report has weights {report['weights']['kind']}")
+            expect(report['certificate']['bijective'] == (code == 0), f'exit code {code}, but the report says otherwise')
+            self.run(commands, self.orbitutte, 'verify', ply, report_path(ply), path, codes=(code,))
+            if code == 0:
+                self.run(commands, PYTHON, self.checker, path, ply, report_path(ply))
+            angle[weights] = report['distortion']['angle']['mean']
+        if mesh not in KNOWN_HARD:
+            expect(angle['delaunay'] <= angle['cotan'] + 1e-3,
+                   f"mean angle distortion {angle['delaunay']:.4f} with Delaunay weights, {angle['cotan']:.4f} with the clamp")
+
     def test_tile(self, name, commands, folder, mesh, signature):
         _, ply, report = self.embed(commands, folder, mesh, signature, self.marked(mesh, signature))
         tiling = folder / 'tiling.ply'
         self.run(commands, self.orbitutte, 'tile', ply, report_path(ply), '-o', tiling)
         check_closed_sphere(Ply(tiling), report['orbifold']['group_order'], report['mesh']['faces'])
 
+    def test_polygons(self, name, commands, folder, mesh, signature, make):
+        source = folder / 'polygons.off'
+        vertices, faces = make(*read_off_triangles(self.shared / 'meshes' / mesh))
+        write_off(source, vertices, faces)
+        info = json.loads(self.run(commands, self.orbitutte, 'info', source, '--json').stdout)
+        expect(not info['weak_places'], f"weak places: {info['weak_places']}")
+        for weights in ('cotan', 'uniform'):
+            ply, report_file, tiling = folder / f'{weights}.ply', folder / f'{weights}.json', folder / 'tiling.ply'
+            cones = ','.join(map(str, self.marked(mesh, signature))) if make is quadrangulated else 'auto'
+            self.run(commands, self.orbitutte, 'embed', source, '--orbifold', signature, '--cones', cones, '--weights', weights,
+                     '-o', ply, '--report', report_file, '--threads', self.threads, '--quiet')
+            report = json.loads(report_file.read_text())
+            self.row(f'{name}/{weights}', mesh, signature, report)
+            self.run(commands, self.orbitutte, 'verify', ply, report_file, source)
+            cut, cut_faces = read_polygons(ply)
+            expect([[int(cut['source_vertex'][v]) for v in face] for face in cut_faces] == faces, 'not the input faces in their order')
+            if len(faces) * report['orbifold']['group_order'] > MOST_POLYGONS_TILED:
+                continue
+            self.run(commands, self.orbitutte, 'tile', ply, report_file, '-o', tiling)
+            tiled, tiled_faces = read_polygons(tiling)
+            expect(len(tiled_faces) == len(faces) * report['orbifold']['group_order'], f'{len(tiled_faces)} faces in the tiling')
+            check_closed_polygons(tiled, tiled_faces)
+        # The checker knows triangles only: the convex faces in fans, whose diagonals have the weight zero.
+        write_off(folder / 'fans.off', vertices, fans(faces))
+        write_triangles(folder / 'fans.ply', cut, fans(cut_faces))
+        own = edges_of(faces)
+        (folder / 'weights.txt').write_text(''.join(f'{i} {j} {int((i, j) in own)}\n' for i, j in sorted(edges_of(fans(faces)))))
+        self.run(commands, PYTHON, self.checker, folder / 'fans.off', folder / 'fans.ply', report_file, '--weights-file',
+                 folder / 'weights.txt')
+
     def test_golden(self, name, commands, folder, golden_folder):
         golden = json.loads((golden_folder / 'golden.json').read_text())
         mesh, signature, cones = golden['mesh'], golden['signature'], golden['cones']
         weights = golden_folder / 'edges.txt'
-        _, ply, report = self.embed(commands, folder, mesh, signature, cones, '--weights-file', weights)
+        options = ['--weights-file', weights]
+        if signature == 'polygon':
+            cones = []
+            options += ['--polygon', write_corners(folder / 'corners.txt', golden['corners']), '--spread', 'equidistant']
+        _, ply, report = self.embed(commands, folder, mesh, signature, cones, *options)
         self.row(name, mesh, signature, report)
-        path = self.shared / 'meshes' / mesh
+        path = self.path(mesh)
         self.run(commands, PYTHON, self.checker, path, ply, report_path(ply), '--weights-file', weights)
         difference = abs(report['energy'] / golden['energy'] - 1)
         expect(difference < 1e-9, f"energy {report['energy']:.14g}, the reference has {golden['energy']:.14g}")
@@ -261,11 +437,27 @@ class Suite:
             expect(report['iterations'] <= MAX_ITERATIONS_THREE_CONES,
                    f"{report['iterations']} iterations, more than {MAX_ITERATIONS_THREE_CONES}")
 
-    def test_cut_seed(self, name, commands, folder, mesh, signature, seeds):
+    def test_polygon(self, name, commands, folder, mesh, spread):
+        _, ply, free = self.embed(commands, folder, mesh, '*222', self.marked(mesh, '*222'), name='free')
+        vertices = [cone['vertex'] for cone in free['cones']]
+        positions = Ply(ply).positions[vertices]
+        corners = [{'vertex': v, 'position': x.tolist()} for v, x in zip(vertices, positions)]
+        if np.linalg.det(positions) < 0:  # the marked vertices run clockwise around the mesh
+            corners.reverse()
+        _, ply, held = self.embed(commands, folder, mesh, 'polygon', [], '--polygon', write_corners(folder / 'corners.txt', corners),
+                                  '--spread', spread, name='held')
+        self.row(name, mesh, 'polygon', held)
+        path = self.path(mesh)
+        self.run(commands, PYTHON, self.checker, path, ply, report_path(ply))
+        self.run(commands, self.orbitutte, 'verify', ply, report_path(ply), path)
+        worse = held['distortion']['angle']['mean'] / free['distortion']['angle']['mean']
+        expect(worse > 1, f'a held boundary makes the angle distortion {worse:.3f} times that of a free one')
+
+    def test_cut_seed(self, name, commands, folder, mesh, signature, seeds, weights='cotan'):
         cones = self.marked(mesh, signature)
         reference, cuts = None, set()
         for seed in range(seeds):
-            _, ply, report = self.embed(commands, folder, mesh, signature, cones, '--cut-seed', seed)
+            _, ply, report = self.embed(commands, folder, mesh, signature, cones, '--cut-seed', seed, '--weights', weights)
             cuts.add(json.dumps([seam['left'] for seam in report['seams']]))
             keys, lengths = edge_lengths(Ply(ply))
             if reference is None:
@@ -287,13 +479,32 @@ class Suite:
 
     def test_fault(self, name, commands, folder, mesh, signature, plant):
         _, ply_path, report = self.embed(commands, folder, mesh, signature, self.marked(mesh, signature))
-        path = self.shared / 'meshes' / mesh
+        path = self.path(mesh)
         self.run(commands, self.orbitutte, 'verify', ply_path, report_path(ply_path), path)
         ply = Ply(ply_path)
         plant(ply, report)
         ply.save(folder / 'faulty.ply')
         (folder / 'faulty.json').write_text(json.dumps(report))
         self.run(commands, self.orbitutte, 'verify', folder / 'faulty.ply', folder / 'faulty.json', path, codes=(5,))
+
+    def theorem2(self, commands, *arguments, codes=(0,)):
+        done = self.run(commands, self.orbitutte, 'verify', *arguments, '--theorem2', '--json', codes=codes)
+        return json.loads(done.stdout)['theorem2']
+
+    def test_theorem2(self, name, commands, folder, mesh, signature):
+        _, ply, report = self.embed(commands, folder, mesh, signature, self.marked(mesh, signature))
+        files = [ply, report_path(ply), self.path(mesh)]
+        found = self.theorem2(commands, *files)
+        expect(found['holds'], f"theorem 2: {found['status']} {found['detail']}, {found['negative_eigenvalues']} negative eigenvalues, "
+                               f"kernel {found['kernel_dimension']}, longest edge {found['max_edge_length']}")
+        weights = folder / 'weights.txt'
+        keys, _ = edge_lengths(Ply(ply))
+        np.savetxt(weights, np.column_stack([keys >> 32, keys & 0xffffffff, np.ones(len(keys))]), fmt='%d %d %g')
+        self.embed(commands, folder, mesh, signature, self.marked(mesh, signature), '--weights-file', weights)
+        found = self.theorem2(commands, *files)
+        expect(found['status'] == 'not run' and '--weights-file' in found['detail'], 'theorem 2 was run without its weights')
+        found = self.theorem2(commands, *files, '--weights-file', weights)
+        expect(found['status'] == 'measured', f"theorem 2 with weights from a file: {found['status']} {found['detail']}")
 
     # All tests: name -> a function of the name, the list of commands and the folder.
 
@@ -306,28 +517,45 @@ class Suite:
         # Long ones first, so that none is left alone at the end.
         for (mesh, signature), seeds in (QUICK_SEEDS if quick else ALL_SEEDS).items():
             add(f'cut-seed/{stem(mesh)}/{signature}', self.test_cut_seed, mesh, signature, seeds)
+            add(f'cut-seed/{stem(mesh)}/{signature}/delaunay', self.test_cut_seed, mesh, signature, seeds, 'delaunay')
+        for mesh, (topology, _, _) in self.meshes.items():
+            if not quick or mesh in QUICK_WEIGHTS:
+                add(f'weights/{stem(mesh)}', self.test_weights, mesh, '432' if topology == 'sphere' else '*432')
         if quick:
             chosen = QUICK_MESHES
         else:
-            chosen = {mesh: SPHERE_SIGNATURES if topology == 'sphere' else DISK_SIGNATURES + MIXED_SIGNATURES
-                      for mesh, (topology, _, _) in self.meshes.items()}
-        for mesh in sorted(chosen, key=lambda mesh: -(self.shared / 'meshes' / mesh).stat().st_size):
+            of_topology = {'sphere': SPHERE_SIGNATURES, 'disk': DISK_SIGNATURES + MIXED_SIGNATURES,
+                           'projective-plane': CROSSED_SIGNATURES}
+            chosen = {mesh: of_topology[topology] for mesh, (topology, _, _) in self.meshes.items()}
+        for mesh in sorted(chosen, key=lambda mesh: -self.path(mesh).stat().st_size):
             for signature in chosen[mesh]:
                 add(f'embed/{stem(mesh)}/{signature}', self.test_embed, mesh, signature)
         for golden in sorted((self.shared / 'golden').glob('*/golden.json')):
             folder = golden.parent
-            if folder.name.endswith('polygon') or quick and not folder.name.startswith(tuple(QUICK_GOLDEN)):
+            if quick and not folder.name.startswith(tuple(QUICK_GOLDEN)):
                 continue
             add(f'golden/{folder.name}', self.test_golden, folder)
         for signature in ONE_OF_EACH_FAMILY:
-            add(f'tile/{signature}', self.test_tile, 'camelhead.off' if '*' in signature else 'my_man_maxp.off', signature)
+            mesh = 'camelhead.off' if '*' in signature else 'boy.ply' if 'x' in signature else 'my_man_maxp.off'
+            add(f'tile/{signature}', self.test_tile, mesh, signature)
+        for mesh, signature, make in [('my_man_maxp.off', '532', dual), ('my_man_maxp.off', '44', quadrangulated),
+                                      ('itokawa.off', '432', dual), ('camelhead.off', '*432', quadrangulated),
+                                      ('camelhead.off', '3*2', quadrangulated), ('camelhead.off', '5*', quadrangulated)]:
+            if not quick or (mesh, signature) in [('my_man_maxp.off', '532'), ('camelhead.off', '3*2')]:
+                add(f'polygons/{make.__name__}/{stem(mesh)}/{signature}', self.test_polygons, mesh, signature, make)
+        for mesh in ['camelhead.off', 'fandisk.off'] if quick else self.disks():
+            for spread in ['arc-length', 'equidistant']:
+                add(f'polygon/{stem(mesh)}/{spread}', self.test_polygon, mesh, spread)
+        for signature in ['532', '33', '*33', '5*', '3x'] if quick else ONE_OF_EACH_FAMILY:
+            mesh = 'camelhead.off' if '*' in signature else 'boy.ply' if 'x' in signature else 'my_man_maxp.off'
+            add(f'theorem2/{signature}', self.test_theorem2, mesh, signature)
         for mesh, signature in [('my_man_maxp.off', '532'), ('my_man_maxp.off', '33'), ('camelhead.off', '*432'),
-                                ('camelhead.off', '3*2'), ('camelhead.off', '5*')]:
+                                ('camelhead.off', '3*2'), ('camelhead.off', '5*'), ('boy.ply', '3x')]:
             add(f'repeat/{stem(mesh)}/{signature}', self.test_repeat, mesh, signature)
         for mesh, signature in [('my_man_maxp.off', '432'), ('my_man_maxp.off', '33'), ('camelhead.off', '*432'),
-                                ('camelhead.off', '3*2'), ('camelhead.off', '5*')]:
+                                ('camelhead.off', '3*2'), ('camelhead.off', '5*'), ('boy.ply', '3x')]:
             for plant in (move_across_edge, mirror_map, mirror_positions, claim_another_group_order, claim_another_signature,
-                          claim_another_energy, exchange_seam_transform):
+                          claim_another_energy, claim_another_area, exchange_seam_transform):
                 add(f'fault/{plant.__name__}/{signature}', self.test_fault, mesh, signature, plant)
         for plant in (cover_twice, cover_twice_and_claim_it):
             add(f'fault/{plant.__name__}/22', self.test_fault, 'my_man_maxp.off', '22', plant)
@@ -340,6 +568,12 @@ def stem(mesh):
 
 def report_path(ply):
     return ply.with_suffix('.json')
+
+
+def write_corners(path, corners):
+    """The file for --polygon; its path."""
+    path.write_text(''.join(f"{corner['vertex']} {' '.join(map(repr, corner['position']))}\n" for corner in corners))
+    return path
 
 
 # Faults to plant: each changes the embedding or the report in place.
@@ -378,13 +612,17 @@ def claim_another_group_order(ply, report):
 
 def claim_another_signature(ply, report):
     signature = report['orbifold']['signature']
-    other = {'432': '532', '33': '44', '*432': '*532', '3*2': '2*6', '5*': '6*'}[signature]
-    orders = {'532': 60, '44': 4, '*532': 120, '2*6': 24, '6*': 12}
+    other = {'432': '532', '33': '44', '*432': '*532', '3*2': '2*6', '5*': '6*', '3x': '4x'}[signature]
+    orders = {'532': 60, '44': 4, '*532': 120, '2*6': 24, '6*': 12, '4x': 8}
     report['orbifold'] = {'signature': other, 'group_order': orders[other]}
 
 
 def claim_another_energy(ply, report):
     report['energy'] *= 1 + 1e-6
+
+
+def claim_another_area(ply, report):
+    report['certificate']['expected_area'] *= 1 + 1e-6
 
 
 def exchange_seam_transform(ply, report):

@@ -249,7 +249,7 @@ TEST(Embed, CornerWithASingleFaceIsEmbedded) {
     const EmbedResult result = embedded(mesh, signature, {24, 6});
     expect_certified(result, signature);
     ASSERT_EQ(result.warnings.size(), 1u);  // of the other one
-    EXPECT_THAT(result.warnings[0], HasSubstr("1 triangles"));
+    EXPECT_THAT(result.warnings[0], HasSubstr("1 faces"));
   }
 }
 

@@ -342,12 +342,12 @@ TEST(Ears, TriangleWithTwoEdgesOnAMirrorIsFoundAndRoundedOutward) {
   const CutMesh cut = cut_to_disk(mesh, connectivity, marks, 0);
   const Tile tile = basic_tile(orbifold, cut.arrangement);
   const BoundaryConditions boundary = glue(cut, tile, orbifold);
-  const std::vector<Ear> ears = find_ears(cut, tile, boundary);
+  const std::vector<Ear> ears = find_ears(FaceView(cut.F), tile, boundary);
   ASSERT_EQ(ears.size(), 2u);
   const EmbedResult result = embed(mesh, orbifold, marks);
   EXPECT_TRUE(result.certificate.bijective);
   ASSERT_EQ(result.warnings.size(), 1u);
-  EXPECT_NE(result.warnings[0].find("2 triangles"), std::string::npos);
+  EXPECT_NE(result.warnings[0].find("2 faces"), std::string::npos);
 }
 
 }  // namespace

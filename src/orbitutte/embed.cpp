@@ -4,15 +4,22 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
+#include <unordered_set>
 
+#include "orbitutte/mesh/cone_weights.h"
 #include "orbitutte/mesh/extremities.h"
 #include "orbitutte/mesh/inspection.h"
 #include "orbitutte/mesh/recognition.h"
+#include "orbitutte/mesh/triangulation.h"
+#include "orbitutte/mesh/weak_places.h"
 #include "orbitutte/parallel.h"
 #include "orbitutte/solve/ears.h"
+#include "orbitutte/solve/flipped_edges.h"
 #include "orbitutte/solve/frame.h"
 #include "orbitutte/solve/initial_embedding.h"
 
@@ -72,6 +79,34 @@ SoundSurface require_surface(const Mesh& mesh) {
           inspection.zero_area_faces};
 }
 
+// Polygons as triangles, and how these make up the polygons.
+struct DividedMesh {
+  Mesh triangles;
+  Triangulation triangulation;
+  SoundSurface surface;
+};
+
+DividedMesh divide(const PolygonMesh& mesh) {
+  const Inspection inspection = inspect(mesh);
+  require_embeddable(inspection);
+  DividedMesh result;
+  result.triangulation = triangulate(mesh);
+  result.triangles = {mesh.V, on_vertices(result.triangulation, mesh.corners)};
+  result.surface = {inspection.topology, connect(mesh, result.triangulation),
+                    inspection.unreferenced_vertices, inspection.zero_area_faces};
+  return result;
+}
+
+void require_weights_of_polygons(const EmbedOptions& options) {
+  using enum WeightKind;
+  const WeightKind kind = options.weights.kind;
+  if (!options.weights_file.empty() || kind == cotan || kind == uniform) return;
+  throw ArgumentError(fmt::format(
+      "{} weights are not there for faces of more than three corners; take cotan or uniform, or a "
+      "file of weights",
+      name(kind)));
+}
+
 // Cones that lie opposite to each other need more than one edge between them: every arc of length pi is as
 // short as any other.
 void require_apart(const GluedEdges& glued, const BoundaryConditions& boundary, const Orbifold& orbifold) {
@@ -101,29 +136,125 @@ void fix_gauge(const Tile& tile, Points& positions) {
   positions.rowwise().normalize();
 }
 
+// The edges that have the weights: the mesh's, or those of a triangulation of its surface.
+const std::vector<std::array<int, 2>>& weighted_edges(const EdgeWeights& weights,
+                                                      const Connectivity& connectivity) {
+  return weights.triangulation ? weights.triangulation->connectivity.edges : connectivity.edges;
+}
+
+std::vector<ConeAngle> cone_angles(const Orbifold& orbifold, const std::vector<int>& marked_vertices) {
+  const std::vector<double> angles = metric_angles(orbifold.marks);
+  std::vector<ConeAngle> cones;
+  for (std::size_t k = 0; k < angles.size(); ++k)
+    if (angles[k] > 0) cones.push_back({marked_vertices[k], angles[k]});
+  return cones;
+}
+
 std::vector<std::string> warnings_about(const EdgeWeights& weights, const std::vector<Ear>& ears) {
   std::vector<std::string> warnings;
   if (weights.zero_edges > 0)
     warnings.push_back(fmt::format("{} edges have the weight zero; the theory asks for positive weights",
                                    weights.zero_edges));
   if (!ears.empty())
-    warnings.push_back(
-        fmt::format("{} triangles have two edges on one mirror and become arcs, the first face {}: their "
-                    "areas are rounding errors; "
-                    "swap their inner edges, or mark their tips",
-                    ears.size(), ears.front().face));
+    warnings.push_back(fmt::format(
+        "{} faces have all edges but one on one mirror or held side and must become arcs, the first face {}: "
+        "their areas are rounding errors; swap their inner edges, or mark their tips",
+        count_faces(ears), ears.front().face));
   return warnings;
+}
+
+// Equations (3), (4) and (7), and the sides that theorem 1 holds.
+BoundaryConditions boundary_conditions(const Mesh& mesh, const CutMesh& cut, const Tile& tile,
+                                       const Orbifold& orbifold, Spread spread) {
+  BoundaryConditions boundary = glue(cut, tile, orbifold);
+  hold_sides(mesh, cut, tile, spread, boundary);
+  return boundary;
+}
+
+// What did not converge is not certified.
+void refuse(Certificate& certificate, const Minimum& minimum, const EmbedOptions& options) {
+  certificate.bijective = false;
+  certificate.checks.push_back({"converged", false, minimum.gradient_norm, options.tolerance,
+                                "the optimiser ended before it converged"});
 }
 
 // What is known of a mesh before its cones are, and its last cut.
 struct Preparation {
+  std::optional<Triangulation> polygons;  // that the triangles make up; none where all faces are triangles
+  std::vector<std::string> warnings;      // about the polygons
   std::optional<SoundSurface> surface;
   std::optional<EdgeWeights> weights;
+  std::vector<int> kept_faces;  // with which these were computed
   std::optional<std::pair<std::vector<int>, int>>
       cut_through;  // the marked vertices of `cut`, and how many lie inside
   CutMesh cut;
   std::shared_ptr<LaplacianReuse> laplacians = reusable_laplacians(Kept::order);
 };
+
+// The triangles that stand for polygons; what is known of the polygons goes into `prepared`.
+Mesh prepare(const PolygonMesh& mesh, const EmbedOptions& options, Preparation& prepared) {
+  require_weights_of_polygons(options);
+  DividedMesh divided = divide(mesh);
+  prepared.surface = std::move(divided.surface);
+  prepared.polygons = std::move(divided.triangulation);
+  for (const WeakPlace& place : find_weak_places(mesh))
+    if (place.kind == WeakPlaceKind::degree_two || place.kind == WeakPlaceKind::double_contact)
+      prepared.warnings.push_back("the mesh is not 3-connected: " + place.message);
+  return std::move(divided.triangles);
+}
+
+// Faces on vertices of the mesh or of its cut: the triangles, or the polygons that they make up.
+class InputFaces {
+ public:
+  InputFaces(const Preparation& prepared, const Faces& triangles, const std::vector<char>& turned = {})
+      : polygons_(prepared.polygons ? prepared.polygons->polygons(triangles, turned) : Polygons()),
+        view_(prepared.polygons ? FaceView(polygons_) : FaceView(triangles)) {}
+  InputFaces(const InputFaces&) = delete;
+  InputFaces& operator=(const InputFaces&) = delete;
+
+  const Polygons& polygons() const { return polygons_; }
+  const FaceView& view() const { return view_; }
+
+ private:
+  Polygons polygons_;
+  FaceView view_;
+};
+
+// The input vertices of each mirror and held side, along the boundary.
+std::vector<std::vector<int>> mirrors_of(const Tile& tile, const BoundaryConditions& boundary,
+                                         const std::vector<int>& source_vertex) {
+  std::vector<std::vector<int>> mirrors;
+  for (std::size_t s = 0; s < tile.sides.size(); ++s) {
+    if (!tile.sides[s].held() && tile.sides[s].partner != static_cast<int>(s)) continue;
+    std::vector<int>& mirror = mirrors.emplace_back();
+    for (const int v : boundary.sides[s]) mirror.push_back(source_vertex[v]);
+  }
+  return mirrors;
+}
+
+// How many of the faces are among the collapsing ones, or share an edge with one of them at the least.
+long count_in_or_beside(const std::vector<int>& collapsing, const FaceView& faces,
+                        const std::vector<int>& among) {
+  std::unordered_set<int> vertices;
+  for (const int f : collapsing) vertices.insert(faces[f].begin(), faces[f].end());
+  return std::count_if(among.begin(), among.end(), [&](int f) {
+    return std::count_if(faces[f].begin(), faces[f].end(), [&](int v) { return vertices.count(v) > 0; }) > 1;
+  });
+}
+
+// About faces that are not positively oriented, those of them that no solver could have done better.
+void warn_of_collapse(const FaceView& faces, const std::vector<int>& collapsing, EmbedResult& result) {
+  const std::vector<int>& nonpositive = result.certificate.nonpositive_faces;
+  const long unavoidable = count_in_or_beside(collapsing, faces, nonpositive);
+  if (unavoidable == 0) return;
+  result.warnings.push_back(
+      fmt::format("{} of the {} faces that are not positively oriented must become arcs, or lie beside such "
+                  "faces, the first "
+                  "face {}: the mesh is not 3-connected there, and no failure of the solver (see 'orbitutte "
+                  "info'); mark a "
+                  "vertex there, or give it further edges",
+                  unavoidable, nonpositive.size(), collapsing.front()));
+}
 
 EmbedResult embed_here(const Mesh& mesh, Preparation& prepared, const Orbifold& orbifold,
                        const std::vector<int>& marked_vertices, const EmbedOptions& options) {
@@ -141,26 +272,35 @@ EmbedResult embed_here(const Mesh& mesh, Preparation& prepared, const Orbifold& 
   });
   const Connectivity& connectivity = prepared.surface->connectivity;
   stage("weights", [&] {  // section 4
-    if (prepared.weights) return;
-    prepared.weights = options.weights_file.empty() ? edge_weights(mesh, connectivity, options.weights)
-                                                    : read_weights(options.weights_file, connectivity);
+    if (!prepared.weights || prepared.kept_faces != options.weights.kept_faces)
+      prepared.weights = options.weights_file.empty() ? edge_weights(mesh, connectivity, options.weights)
+                                                      : read_weights(options.weights_file, connectivity);
+    prepared.kept_faces = options.weights.kept_faces;
+    result.weights = sharpened_at_cones(*prepared.weights, cone_angles(orbifold, marked_vertices));
   });
-  const EdgeWeights& weights = *prepared.weights;
+  const EdgeWeights& weights = result.weights;
   stage("cut", [&] {  // section 4.1; the elimination order is found at the same time
     const std::pair through(marked_vertices, orbifold.inner_marks);
-    if (prepared.cut_through == through) return;
+    const bool is_cut = prepared.cut_through == through;
     prepared.cut_through.reset();
     parallel_for(2, [&](int task) {
-      if (task == 0)
+      if (task == 0 && !is_cut)
         prepared.cut = cut_to_disk(mesh, connectivity, marked_vertices, orbifold.inner_marks, options.cut);
-      if (task == 1) order_ahead(*prepared.laplacians, connectivity.edges, static_cast<int>(mesh.V.rows()));
+      if (task == 1)
+        order_ahead(*prepared.laplacians, weighted_edges(weights, connectivity),
+                    static_cast<int>(mesh.V.rows()));
     });
     prepared.cut_through = through;
   });
   const CutMesh& cut = prepared.cut;
-  Tile tile = basic_tile(orbifold, cut.arrangement);        // appendix A
-  BoundaryConditions boundary = glue(cut, tile, orbifold);  // (3), (4), (7)
-  const GluedEdges glued = glued_edges(cut, connectivity, boundary);
+  Tile tile = basic_tile(orbifold, cut.arrangement);  // appendix A
+  BoundaryConditions boundary = boundary_conditions(mesh, cut, tile, orbifold, options.spread);
+  const auto glued_along = [&](const BoundaryConditions& conditions) {
+    return weights.triangulation
+               ? flipped_edges(mesh.F, connectivity, *weights.triangulation, cut, conditions)
+               : glued_edges(cut, connectivity, conditions);
+  };
+  const GluedEdges glued = glued_along(boundary);
   require_apart(glued, boundary, orbifold);
   const SphericalEnergy energy(glued, weights, boundary);  // (2)
   LaplacianOptions laplacian_options = options.laplacian;
@@ -181,14 +321,17 @@ EmbedResult embed_here(const Mesh& mesh, Preparation& prepared, const Orbifold& 
       stage("optimize", [&] { return minimize(energy, laplacian, start, lbfgs); });  // algorithm 1
   Points& positions = result.minimum.positions;
   fix_gauge(tile, positions);
-  if (const std::optional<Matrix3> frame = resolving_frame(energy, positions)) {
+  const std::optional<Matrix3> frame = stays_put(tile) ? std::nullopt : resolving_frame(energy, positions);
+  if (frame) {
     tile = rotated(tile, *frame);
     boundary = glue(cut, tile, orbifold);
-    const SphericalEnergy there(glued_edges(cut, connectivity, boundary), weights, boundary);
+    const SphericalEnergy there(glued_along(boundary), weights, boundary);
     positions = settle_in_frame(positions, *frame, there, boundary);
   }
-  const std::vector<Ear> ears = find_ears(cut, tile, boundary);
+  const InputFaces faces(prepared, mesh.F), cut_faces(prepared, cut.F, cut.turned);
+  const std::vector<Ear> ears = find_ears(cut_faces.view(), tile, boundary);
   result.warnings = warnings_about(weights, ears);
+  result.warnings.insert(result.warnings.end(), prepared.warnings.begin(), prepared.warnings.end());
   round_outward(ears, positions);
 
   result.embedding = {orbifold.signature,
@@ -197,28 +340,96 @@ EmbedResult embed_here(const Mesh& mesh, Preparation& prepared, const Orbifold& 
                       cut.F,
                       cut.source_vertex,
                       boundary.seams,
-                      boundary.cones};
+                      boundary.cones,
+                      cut_faces.polygons()};
   stage("certify", [&] {
-    result.certificate = certify(mesh, result.embedding);
+    result.certificate = certify(static_cast<int>(mesh.V.rows()), faces.view(), result.embedding);
+    if (!result.certificate.bijective && weights.triangulation)
+      result.intrinsic_certificate = certify_intrinsic(mesh, result.embedding, *weights.triangulation);
     result.distortion = measure_distortion(mesh, result.embedding);
   });
+  if (!result.certificate.nonpositive_faces.empty())
+    warn_of_collapse(
+        faces.view(),
+        collapsing_faces(faces.view(), mirrors_of(tile, boundary, cut.source_vertex), marked_vertices),
+        result);
   if (result.minimum.termination != Termination::converged) {
-    result.certificate.bijective = false;
-    result.certificate.checks.push_back({"converged", false, result.minimum.gradient_norm, options.tolerance,
-                                         "the optimiser ended before it converged"});
+    refuse(result.certificate, result.minimum, options);
+    if (result.intrinsic_certificate) refuse(*result.intrinsic_certificate, result.minimum, options);
   }
   result.topology = prepared.surface->topology;
   result.unreferenced_vertices = prepared.surface->unreferenced_vertices;
   result.zero_area_faces = prepared.surface->zero_area_faces;
-  result.weights = weights;
   return result;
+}
+
+// Can it help to keep the faces that the result turns over? Where they are many, it is double precision that
+// does not resolve them.
+bool may_keep_faces(const EmbedResult& result) {
+  const auto turned = static_cast<Eigen::Index>(result.certificate.nonpositive_faces.size());
+  return result.weights.triangulation && result.minimum.termination == Termination::converged && turned > 0 &&
+         turned <= 1 + result.embedding.faces.rows() / 50;
+}
+
+// `kept` with the faces that share a vertex with one of `faces`; ascending.
+std::vector<int> with_faces_around(const std::vector<int>& faces, const std::vector<int>& kept,
+                                   const Mesh& mesh) {
+  std::vector<char> near(mesh.V.rows(), 0), chosen(mesh.F.rows(), 0);
+  for (const int f : kept) chosen[f] = 1;
+  for (const int f : faces)
+    for (const int v : mesh.F.row(f)) near[v] = 1;
+  std::vector<int> result;
+  for (int f = 0; f < static_cast<int>(mesh.F.rows()); ++f)
+    if (chosen[f] || near[mesh.F(f, 0)] || near[mesh.F(f, 1)] || near[mesh.F(f, 2)]) result.push_back(f);
+  return result;
+}
+
+std::vector<int> all_faces(const Faces& F) {
+  std::vector<int> faces(F.rows());
+  std::iota(faces.begin(), faces.end(), 0);
+  return faces;
+}
+
+// The triangulation that has the weights may be embedded while thin triangles of the input, which are not
+// among its faces, are turned over. Then those and the faces around them become faces of it, and the map is
+// computed again, up to a few times; at last with all faces kept, which leaves the paper's weights but for
+// the cones. The first that is certified is the result; where none is, the very first.
+EmbedResult embed_or_keep_faces(const Mesh& mesh, Preparation& prepared, const Orbifold& orbifold,
+                                const std::vector<int>& marked_vertices, const EmbedOptions& options) {
+  constexpr int attempts = 4;
+  EmbedResult first = embed_here(mesh, prepared, orbifold, marked_vertices, options);
+  if (!may_keep_faces(first)) return first;
+  EmbedOptions keeping = options;
+  std::vector<int>& kept = keeping.weights.kept_faces;
+  std::vector<int> turned = first.certificate.nonpositive_faces;
+  for (int k = 0; k < attempts; ++k) {
+    const bool is_last = k + 1 == attempts;
+    kept = is_last ? all_faces(mesh.F) : with_faces_around(turned, kept, mesh);
+    EmbedResult next = embed_here(mesh, prepared, orbifold, marked_vertices, keeping);
+    first.timings.insert(first.timings.end(), next.timings.begin(), next.timings.end());
+    if (next.certificate.bijective) {
+      next.timings = first.timings;
+      return next;
+    }
+    if (!may_keep_faces(next)) k = std::max(k, attempts - 2);
+    turned = next.certificate.nonpositive_faces;
+  }
+  return first;
+}
+
+std::vector<int> far_from_each_other(const Mesh& mesh, const SoundSurface& surface,
+                                     const Orbifold& orbifold) {
+  require_topology(surface.topology, orbifold);
+  return extremities(mesh, surface.connectivity, orbifold.inner_marks,
+                     static_cast<int>(orbifold.marks.size()) - orbifold.inner_marks);
 }
 
 EmbedResult embed_prepared(const Mesh& mesh, Preparation& prepared, const Orbifold& orbifold,
                            const std::vector<int>& marked_vertices, const EmbedOptions& options) {
   if (options.threads < 0) throw ArgumentError("the number of threads must not be negative");
-  return with_threads(options.threads,
-                      [&] { return embed_here(mesh, prepared, orbifold, marked_vertices, options); });
+  return with_threads(options.threads, [&] {
+    return embed_or_keep_faces(mesh, prepared, orbifold, marked_vertices, options);
+  });
 }
 
 }  // namespace
@@ -227,6 +438,14 @@ EmbedResult embed(const Mesh& mesh, const Orbifold& orbifold, const std::vector<
                   const EmbedOptions& options) {
   Preparation prepared;
   return embed_prepared(mesh, prepared, orbifold, marked_vertices, options);
+}
+
+EmbedResult embed(const PolygonMesh& mesh, const Orbifold& orbifold, const std::vector<int>& marked_vertices,
+                  const EmbedOptions& options) {
+  if (is_triangle_mesh(mesh)) return embed(to_triangle_mesh(mesh), orbifold, marked_vertices, options);
+  Preparation prepared;
+  const Mesh triangles = prepare(mesh, options, prepared);
+  return embed_prepared(triangles, prepared, orbifold, marked_vertices, options);
 }
 
 struct EmbeddingSolver::State {
@@ -239,6 +458,16 @@ EmbeddingSolver::EmbeddingSolver(Mesh mesh, EmbedOptions options)
     : state_(std::make_unique<State>(State{std::move(mesh), std::move(options), {}})) {
   state_->prepared.laplacians = reusable_laplacians(Kept::factors);
 }
+
+EmbeddingSolver::EmbeddingSolver(const PolygonMesh& mesh, EmbedOptions options)
+    : EmbeddingSolver(Mesh(), std::move(options)) {
+  if (is_triangle_mesh(mesh)) {
+    state_->mesh = to_triangle_mesh(mesh);
+    return;
+  }
+  state_->mesh = prepare(mesh, state_->options, state_->prepared);
+}
+
 EmbeddingSolver::~EmbeddingSolver() = default;
 EmbeddingSolver::EmbeddingSolver(EmbeddingSolver&&) noexcept = default;
 
@@ -247,10 +476,13 @@ EmbedResult EmbeddingSolver::embed(const Orbifold& orbifold, const std::vector<i
 }
 
 std::vector<int> choose_marked_vertices(const Mesh& mesh, const Orbifold& orbifold) {
-  const SoundSurface surface = require_surface(mesh);
-  require_topology(surface.topology, orbifold);
-  return extremities(mesh, surface.connectivity, orbifold.inner_marks,
-                     static_cast<int>(orbifold.marks.size()) - orbifold.inner_marks);
+  return far_from_each_other(mesh, require_surface(mesh), orbifold);
+}
+
+std::vector<int> choose_marked_vertices(const PolygonMesh& mesh, const Orbifold& orbifold) {
+  if (is_triangle_mesh(mesh)) return choose_marked_vertices(to_triangle_mesh(mesh), orbifold);
+  const DividedMesh divided = divide(mesh);
+  return far_from_each_other(divided.triangles, divided.surface, orbifold);
 }
 
 }  // namespace orbitutte

@@ -14,6 +14,7 @@
 #include "orbitutte/mesh/weights.h"
 #include "orbitutte/orbifold/embedding.h"
 #include "orbitutte/orbifold/signature.h"
+#include "orbitutte/solve/boundary_arcs.h"
 #include "orbitutte/solve/lbfgs.h"
 #include "orbitutte/verify/certificate.h"
 #include "orbitutte/verify/distortion.h"
@@ -34,23 +35,26 @@ using ProgressCallback = std::function<bool(const Progress&)>;
 
 struct EmbedOptions {
   WeightOptions weights;
-  std::string weights_file;    ///< lines `i j w` (read_weights); when not empty, instead of `weights`
-  CutOptions cut;              ///< which of all cuts; it changes no length (N* turns about its axis)
-  LaplacianOptions laplacian;  ///< the linear solver
-  double tolerance = 1e-9;     ///< LbfgsOptions::tolerance
+  std::string weights_file;            ///< lines `i j w` (read_weights); when not empty, instead of `weights`
+  CutOptions cut;                      ///< which of all cuts; it changes no length (N* turns about its axis)
+  LaplacianOptions laplacian;          ///< the linear solver
+  Spread spread = Spread::arc_length;  ///< of boundary vertices along the sides of a fixed polygon
+  double tolerance = 1e-9;             ///< LbfgsOptions::tolerance
   int max_iterations = 2000;
   int threads = 0;  ///< 0: as many as the machine has; results do not depend on it
   ProgressCallback progress;
 };
 
-/// Wall-clock seconds per stage, in the order in which they ran.
+/// Wall-clock seconds per stage, in the order in which they ran; a stage that ran again has further entries.
 using Timings = std::vector<std::pair<std::string, double>>;
 
 struct EmbedResult {
   Embedding embedding;
   EdgeWeights weights;
-  Minimum minimum;  ///< how the optimiser fared; its positions are those of the input vertices
-  Certificate certificate;
+  Minimum minimum;          ///< how the optimiser fared; its positions are those of the input vertices
+  Certificate certificate;  ///< of the input's triangles
+  /// Of the triangulation that has the weights, where it is not the input's and that is not bijective.
+  std::optional<Certificate> intrinsic_certificate;
   Distortion distortion;
   Topology topology = Topology::sphere;
   int unreferenced_vertices = 0;
@@ -69,12 +73,22 @@ struct EmbedResult {
 EmbedResult embed(const Mesh& mesh, const Orbifold& orbifold, const std::vector<int>& marked_vertices,
                   const EmbedOptions& options = {});
 
+/// The same for a mesh with faces of any number of corners, embedded with the edges of its faces and none
+/// else: the polygons become convex. Cotangents are those of triangulate(mesh), whose triangles are also the
+/// faces of the result beside its polygons, and the distortion is theirs. Throws ArgumentError for other
+/// weights than cotangents, uniform ones and a file.
+EmbedResult embed(const PolygonMesh& mesh, const Orbifold& orbifold, const std::vector<int>& marked_vertices,
+                  const EmbedOptions& options = {});
+
 /// For many embeddings of one mesh: keeps what depends neither on the cones nor on their orders, and those
 /// factors of the last embedding that fit the next. Results are those of the function above.
 class EmbeddingSolver {
  public:
   /// Keeps a copy of the mesh.
   explicit EmbeddingSolver(Mesh mesh, EmbedOptions options = {});
+
+  /// Keeps what it needs of the mesh, which it validates at once. Throws as embed does.
+  explicit EmbeddingSolver(const PolygonMesh& mesh, EmbedOptions options = {});
   ~EmbeddingSolver();
   EmbeddingSolver(EmbeddingSolver&&) noexcept;
 
@@ -89,5 +103,6 @@ class EmbeddingSolver {
 /// Well separated extremities for the marks of the orbifold, inside a disk or on its boundary as each has to
 /// be. Throws MeshError where the mesh is not what the orbifold needs.
 std::vector<int> choose_marked_vertices(const Mesh& mesh, const Orbifold& orbifold);
+std::vector<int> choose_marked_vertices(const PolygonMesh& mesh, const Orbifold& orbifold);
 
 }  // namespace orbitutte

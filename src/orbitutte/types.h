@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -19,10 +20,49 @@ using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 /// m x 3, one triangle a row: 0-based vertices, counterclockwise seen from outside.
 using Faces = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
+/// Faces of three corners or more: face f has the vertices corners[start[f]] .. corners[start[f + 1] - 1],
+/// counterclockwise seen from outside.
+struct Polygons {
+  std::vector<int> corners;
+  std::vector<int> start = {0};  ///< one more than there are faces
+
+  int count() const { return static_cast<int>(start.size()) - 1; }
+};
+
+/// Faces as they are given, be they triangles or polygons: a reference to either.
+class FaceView {
+ public:
+  explicit FaceView(const Faces& triangles)
+      : corners_(triangles.data()), count_(static_cast<int>(triangles.rows())) {}
+  explicit FaceView(const Polygons& polygons) : FaceView(polygons.corners, polygons.start) {}
+  FaceView(const std::vector<int>& corners, const std::vector<int>& start)
+      : corners_(corners.data()), start_(start.data()), count_(static_cast<int>(start.size()) - 1) {}
+
+  int count() const { return count_; }
+
+  /// The vertices of face f.
+  std::span<const int> operator[](int f) const {
+    const int begin = start_ ? start_[f] : 3 * f, end = start_ ? start_[f + 1] : begin + 3;
+    return {corners_ + begin, static_cast<std::size_t>(end - begin)};
+  }
+
+ private:
+  const int* corners_;
+  const int* start_ = nullptr;  // of polygons only
+  int count_;
+};
+
 /// A triangle mesh. Vertices that no face uses are allowed.
 struct Mesh {
   Points V;  ///< n x 3
   Faces F;   ///< m x 3
+};
+
+/// A corner of a spherical polygon: a vertex on the boundary of a mesh, and the unit vector at which it is
+/// held.
+struct PolygonCorner {
+  int vertex = -1;
+  Vector3 position = Vector3::Zero();
 };
 
 /// What a surface is, as far as spherical orbifolds ask.

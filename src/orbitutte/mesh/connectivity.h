@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Half-edges, undirected edges and neighbours of a manifold triangle mesh.
+// Half-edges, undirected edges and neighbours of a manifold triangle mesh. Where triangles make up polygons
+// (triangulation.h), their diagonals have half-edges, but are no edges.
 #pragma once
 
 #include <array>
@@ -24,7 +25,7 @@ struct Neighbors {
 
 struct Connectivity {
   std::vector<std::array<int, 2>> edges;  ///< undirected edges (i, j) with i < j, in lexicographic order
-  std::vector<int> edge_of;               ///< 3 m: the undirected edge of every half-edge
+  std::vector<int> edge_of;               ///< 3 m: the undirected edge of every half-edge; -1 for a diagonal
   std::vector<int> opposite;              ///< 3 m: the half-edge on the other side, or -1 on the boundary
 };
 

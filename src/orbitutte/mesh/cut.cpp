@@ -239,7 +239,7 @@ OpenedMesh opened_along(const CutPath& path, const Mesh& mesh, const Connectivit
   for (const int e : path.edges) is_cut[e] = 1;
   parallel_ranges(static_cast<int>(result.opposite.size()), [&](int begin, int end) {
     for (int h = begin; h < end; ++h)
-      if (is_cut[connectivity.edge_of[h]]) result.opposite[h] = -1;
+      if (const int e = connectivity.edge_of[h]; e >= 0 && is_cut[e]) result.opposite[h] = -1;
   });
   return result;
 }
@@ -249,8 +249,9 @@ OpenedMesh opened_along(const CutPath& path, const Mesh& mesh, const Connectivit
 void turn_faces(OpenedMesh& mesh) {
   const Faces F = mesh.cut.F;
   mesh.cut.F = agreeing_faces(F, mesh.opposite);
+  for (Eigen::Index f = 0; f < F.rows(); ++f) mesh.cut.turned.push_back(mesh.cut.F(f, 1) != F(f, 1));
   const std::vector<int> edge_of = mesh.cut.edge_of, opposite = mesh.opposite;
-  const auto moved = [&](int h) { return mesh.cut.F(h / 3, 1) == F(h / 3, 1) ? h : turned_halfedge(h); };
+  const auto moved = [&](int h) { return mesh.cut.turned[h / 3] ? turned_halfedge(h) : h; };
   for (int h = 0; h < static_cast<int>(opposite.size()); ++h) {
     mesh.cut.edge_of[moved(h)] = edge_of[h];
     mesh.opposite[moved(h)] = opposite[h] < 0 ? -1 : moved(opposite[h]);

@@ -12,9 +12,10 @@ namespace orbitutte {
 
 /// A mesh cut open into a disk. Cut vertex v < n is the input vertex v; the copies that the cut adds follow.
 struct CutMesh {
-  Faces F;                   ///< m x 3, the input faces in their order, on cut vertices; where the input
+  Faces F;                   ///< m x 3, the input triangles in their order, on cut vertices; where the input
                              ///< has no orientation, some are turned over: f(0), f(2), f(1)
-  std::vector<int> edge_of;  ///< 3 m: the edge of the uncut mesh of every half-edge of F
+  std::vector<int> edge_of;  ///< 3 m: the edge of the uncut mesh of every half-edge of F; -1 for a diagonal
+  std::vector<char> turned;  ///< m: is the triangle turned over? empty where none is
   std::vector<int> source_vertex;  ///< n_cut: the input vertex
   std::vector<int>
       boundary;  ///< cut vertices along the boundary's half-edges: counterclockwise, interior on the left

@@ -43,7 +43,7 @@ std::vector<char> lift_changes(const Faces& F, const Connectivity& connectivity,
   const auto lift_of = [&](int h) { return vertices.find(lift(h, 0)) != first[origin(F, h)]; };
   std::vector<char> changes(connectivity.edges.size());
   for (int h = 0; h < static_cast<int>(F.size()); ++h)
-    changes[connectivity.edge_of[h]] = lift_of(h) != lift_of(next_halfedge(h));
+    if (const int e = connectivity.edge_of[h]; e >= 0) changes[e] = lift_of(h) != lift_of(next_halfedge(h));
   return changes;
 }
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -130,13 +131,29 @@ PlyProperty scalar(std::string name, PlyType type) {
 }
 
 /// The elements, without values.
-PlyFile layout_of(std::size_t vertices, std::size_t faces, const std::vector<PlyIntegers>& further) {
+PlyFile layout_of(std::size_t vertices, const FaceView& faces, const std::vector<PlyIntegers>& further) {
   PlyElement vertex = {"vertex", vertices, {}};
   for (const char* axis : {"x", "y", "z"}) vertex.properties.push_back(scalar(axis, PlyType::float64));
   for (const PlyIntegers& column : further) vertex.properties.push_back(scalar(column.name, PlyType::int32));
   PlyProperty list = scalar("vertex_indices", PlyType::int32);
   list.is_list = true;
-  return {{}, {std::move(vertex), {"face", faces, {std::move(list)}}}};
+  list.count_type = corner_count_type(faces);
+  return {{}, {std::move(vertex), {"face", static_cast<std::size_t>(faces.count()), {std::move(list)}}}};
+}
+
+/// The corners behind their number, which is a Count.
+template <class Count>
+void append_faces(std::string& bytes, const FaceView& faces) {
+  for (int f = 0; f < faces.count(); ++f) {
+    const std::span<const int> face = faces[f];
+    const auto count = static_cast<Count>(face.size());
+    if (face.size() == 3) {
+      append_little_endian(bytes, count, face[0], face[1], face[2]);
+      continue;
+    }
+    append_little_endian(bytes, count);
+    for (const int v : face) append_little_endian(bytes, v);
+  }
 }
 
 void check_size(const PlyIntegers& column, std::size_t vertices) {
@@ -170,22 +187,37 @@ std::optional<std::vector<int>> read_ply_integers(std::string_view bytes, const 
   return values;
 }
 
+PlyType corner_count_type(const FaceView& faces) {
+  std::size_t most = 3;
+  for (int f = 0; f < faces.count(); ++f) most = std::max(most, faces[f].size());
+  return most > 255 ? PlyType::int32 : PlyType::uint8;
+}
+
 std::string write_ply_triangles(const Points& V, const Faces& F,
                                 const std::vector<PlyIntegers>& further_properties,
                                 const std::vector<std::string>& comments) {
-  const auto vertices = static_cast<std::size_t>(V.rows()), faces = static_cast<std::size_t>(F.rows());
+  return write_ply_faces(V, FaceView(F), further_properties, comments);
+}
+
+std::string write_ply_faces(const Points& V, const FaceView& faces,
+                            const std::vector<PlyIntegers>& further_properties,
+                            const std::vector<std::string>& comments) {
+  const auto vertices = static_cast<std::size_t>(V.rows());
   for (const PlyIntegers& column : further_properties) check_size(column, vertices);
   PlyFile layout = layout_of(vertices, faces, further_properties);
   layout.comments = comments;
   std::string bytes = serialize_ply_header(layout);
   bytes.reserve(bytes.size() + vertices * size_before(layout.elements.front(), nullptr) +
-                faces * triangle_size);
+                static_cast<std::size_t>(faces.count()) * triangle_size);
   for (std::size_t v = 0; v < vertices; ++v) {
     append_little_endian(bytes, V(v, 0), V(v, 1), V(v, 2));
     for (const PlyIntegers& column : further_properties) append_little_endian(bytes, column.values[v]);
   }
-  for (const auto& face : F.rowwise())
-    append_little_endian(bytes, std::uint8_t{3}, face[0], face[1], face[2]);
+  if (layout.elements[1].properties.front().count_type == PlyType::uint8) {
+    append_faces<std::uint8_t>(bytes, faces);
+  } else {
+    append_faces<std::int32_t>(bytes, faces);
+  }
   return bytes;
 }
 

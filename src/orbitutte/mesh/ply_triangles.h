@@ -35,4 +35,12 @@ std::string write_ply_triangles(const Points& V, const Faces& F,
                                 const std::vector<PlyIntegers>& further_properties = {},
                                 const std::vector<std::string>& comments = {});
 
+/// How a list of corners says its length: as uchar, or as int where a face has more than 255 corners.
+PlyType corner_count_type(const FaceView& faces);
+
+/// The same for faces of any kind.
+std::string write_ply_faces(const Points& V, const FaceView& faces,
+                            const std::vector<PlyIntegers>& further_properties = {},
+                            const std::vector<std::string>& comments = {});
+
 }  // namespace orbitutte

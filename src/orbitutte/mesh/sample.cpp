@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Both surfaces are zero sets of smooth functions; coarse meshes of them, set up by hand, grow into even
-// ones.
+// The figure and the mask are zero sets of smooth functions; coarse meshes of them, set up by hand, grow into
+// even ones. Projective planes have no inside and come from parametrisations.
 #include "orbitutte/mesh/sample.h"
 
 #include <fmt/format.h>
@@ -13,11 +13,13 @@
 #include <numbers>
 
 #include "orbitutte/mesh/even_mesh.h"
+#include "orbitutte/mesh/projective_mesh.h"
 
 namespace orbitutte {
 namespace {
 
 constexpr int fewest_faces = 100;
+constexpr int fewest_projective_faces = 10;
 constexpr int most_faces = 20'000'000;
 
 // ---- the figure
@@ -239,6 +241,34 @@ Mesh coarse_mask() {
   return result;
 }
 
+// ---- all shapes
+
+struct Shape {
+  SampleShape shape;
+  std::string name;
+  EvenMap projective_map;  // of a projective plane, otherwise null
+};
+
+const std::array<Shape, 6>& shapes() {
+  static const std::array<Shape, 6> result = {{{SampleShape::figure, "figure", nullptr},
+                                               {SampleShape::mask, "mask", nullptr},
+                                               {SampleShape::boy, "boy", boys_surface},
+                                               {SampleShape::roman, "roman", roman_surface},
+                                               {SampleShape::crosscap, "crosscap", cross_cap},
+                                               {SampleShape::quotient, "quotient", limbed_quotient}}};
+  return result;
+}
+
+const Shape& row_of(SampleShape shape) {
+  return *std::find_if(shapes().begin(), shapes().end(), [&](const Shape& s) { return s.shape == shape; });
+}
+
+void require_faces_from(int fewest, int faces) {
+  if (faces >= fewest && faces <= most_faces) return;
+  throw ArgumentError(
+      fmt::format("a sample mesh of {} faces is not made; ask for {} to {}", faces, fewest, most_faces));
+}
+
 // ---- cones
 
 // The vertex that is furthest in a direction.
@@ -250,18 +280,31 @@ int extreme_vertex(const Mesh& mesh, const Vector3& direction) {
 
 }  // namespace
 
-std::string name(SampleShape shape) { return shape == SampleShape::figure ? "figure" : "mask"; }
+std::string name(SampleShape shape) { return row_of(shape).name; }
+
+SampleShape sample_shape(const std::string& name) {
+  std::string names;
+  for (const Shape& shape : shapes()) {
+    if (shape.name == name) return shape.shape;
+    names += (names.empty() ? "" : ", ") + shape.name;
+  }
+  throw ArgumentError(fmt::format("there is no sample of the shape '{}'; there are {}", name, names));
+}
+
+bool passes_through_itself(SampleShape shape) { return row_of(shape).projective_map != nullptr; }
 
 Mesh sample_mesh(const SampleOptions& options) {
-  if (options.faces < fewest_faces || options.faces > most_faces) {
-    throw ArgumentError(fmt::format("a sample mesh of {} faces is not made; ask for {} to {}", options.faces,
-                                    fewest_faces, most_faces));
+  if (const EvenMap map = row_of(options.shape).projective_map) {
+    require_faces_from(fewest_projective_faces, options.faces);
+    return projective_mesh(map, options.faces);
   }
+  require_faces_from(fewest_faces, options.faces);
   if (options.shape == SampleShape::figure) return even_mesh(coarse_figure(), {figure_field}, options.faces);
   return even_mesh(coarse_mask(), {mask_field}, options.faces);
 }
 
 std::vector<int> sample_cones(SampleShape shape, const Mesh& mesh) {
+  if (row_of(shape).projective_map) return {extreme_vertex(mesh, {0, 0, 1})};
   if (shape == SampleShape::figure)
     return {extreme_vertex(mesh, {0, 1, 0.1}), extreme_vertex(mesh, {-0.5, -1, 0.3}),
             extreme_vertex(mesh, {1, 0.7, 0})};

@@ -8,12 +8,17 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "orbitutte/mesh/file.h"
 #include "orbitutte/parallel.h"
 
 namespace orbitutte {
 namespace {
+
+// A weight of an intrinsic triangulation that is zero, between concyclic points, becomes this: the theory
+// asks for positive ones, and so little moves nothing that can be seen.
+constexpr double concyclic_weight = 1e-6;
 
 // Half the cotangent of the angle at vertex o of a triangle (i, j, o); zero where the triangle has no area
 // but rounding errors, as `inspect` counts them: their cotangents, 1e15 or so, would be rounding errors too.
@@ -30,10 +35,23 @@ double half_cotangent(const Points& V, int i, int j, int o) {
   return twice_area > 8 * std::numeric_limits<double>::epsilon() ? 0.5 * a.dot(b) / twice_area : 0.0;
 }
 
+// The sum of a half-edge's value and its opposite's, for every edge.
+Eigen::VectorXd summed_over_sides(const Connectivity& connectivity, const std::vector<double>& value) {
+  Eigen::VectorXd sum(static_cast<Eigen::Index>(connectivity.edges.size()));
+  parallel_ranges(static_cast<int>(value.size()), [&](int begin, int end) {
+    for (int h = begin; h < end; ++h) {
+      const int other = connectivity.opposite[h], e = connectivity.edge_of[h];
+      if (e < 0) continue;  // a diagonal
+      if (other < 0) sum[e] = value[h];
+      if (other > h) sum[e] = value[h] + value[other];
+    }
+  });
+  return sum;
+}
+
 EdgeWeights cotangent_weights(const Mesh& mesh, const Connectivity& connectivity, double clamp) {
   EdgeWeights result;
   result.clamp = clamp;
-  result.w.resize(static_cast<Eigen::Index>(connectivity.edges.size()));
   const int halfedges = static_cast<int>(mesh.F.size());
   std::vector<double> cotangent(halfedges);
   parallel_ranges(halfedges, [&](int begin, int end) {
@@ -41,19 +59,60 @@ EdgeWeights cotangent_weights(const Mesh& mesh, const Connectivity& connectivity
       cotangent[h] =
           half_cotangent(mesh.V, origin(mesh.F, h), target(mesh.F, h), origin(mesh.F, previous_halfedge(h)));
   });
-  parallel_ranges(halfedges, [&](int begin, int end) {
-    for (int h = begin; h < end; ++h) {
-      const int other = connectivity.opposite[h];
-      if (other < 0) result.w[connectivity.edge_of[h]] = cotangent[h];
-      if (other > h) result.w[connectivity.edge_of[h]] = cotangent[h] + cotangent[other];
-    }
-  });
+  result.w = summed_over_sides(connectivity, cotangent);
   for (double& w : result.w) {
     if (!(w > 0)) {
       w = clamp;
       ++result.clamped_edges;
     }
   }
+  return result;
+}
+
+EdgeWeights delaunay_weights(const Mesh& mesh, const Connectivity& connectivity,
+                             const WeightOptions& options) {
+  IntrinsicTriangulation triangulation = intrinsic_triangulation(mesh, connectivity);
+  for (const int f : options.kept_faces)
+    if (f < 0 || f >= mesh.F.rows())
+      throw MeshError(
+          fmt::format("there is no face {} to keep; the mesh has the faces 0 to {}", f, mesh.F.rows() - 1));
+  triangulation.kept_faces = options.kept_faces;
+  std::vector<int> all(connectivity.edges.size());
+  std::iota(all.begin(), all.end(), 0);
+  make_delaunay(triangulation, all);
+  return intrinsic_weights(std::move(triangulation), options.clamp);
+}
+
+// Half the mean length of the edges at every vertex.
+std::vector<double> half_mean_lengths(const Connectivity& connectivity, const std::vector<double>& length,
+                                      int vertex_count) {
+  std::vector<double> sum(vertex_count, 0.0);
+  std::vector<int> degree(vertex_count, 0);
+  for (std::size_t e = 0; e < length.size(); ++e) {
+    for (const int v : connectivity.edges[e]) {
+      sum[v] += length[e];
+      ++degree[v];
+    }
+  }
+  for (int v = 0; v < vertex_count; ++v) sum[v] /= 2 * std::max(degree[v], 1);
+  return sum;
+}
+
+EdgeWeights mean_value_weights(const Mesh& mesh, const Connectivity& connectivity) {
+  const std::vector<double> length = mollified_lengths(mesh, connectivity);
+  const std::vector<double> scale = half_mean_lengths(connectivity, length, static_cast<int>(mesh.V.rows()));
+  const auto side = [&](int h) { return length[connectivity.edge_of[h]]; };
+  std::vector<double> share(connectivity.edge_of.size());  // of the weight, from one face
+  parallel_ranges(static_cast<int>(share.size()), [&](int begin, int end) {
+    for (int h = begin; h < end; ++h) {
+      const double a = side(h), b = side(next_halfedge(h)), c = side(previous_halfedge(h));
+      const double at_origin = scale[origin(mesh.F, h)] * half_angle_tangent(b, c, a),
+                   at_target = scale[target(mesh.F, h)] * half_angle_tangent(c, a, b);
+      share[h] = (at_origin + at_target) / (2 * a);
+    }
+  });
+  EdgeWeights result;
+  result.w = summed_over_sides(connectivity, share);
   return result;
 }
 
@@ -80,12 +139,26 @@ int find_edge(const Connectivity& connectivity, int i, int j) {
                                                        : -1;
 }
 
+EdgeWeights weights_of_kind(const Mesh& mesh, const Connectivity& connectivity,
+                            const WeightOptions& options) {
+  if (options.kind == WeightKind::cotan) return cotangent_weights(mesh, connectivity, options.clamp);
+  if (options.kind == WeightKind::delaunay) return delaunay_weights(mesh, connectivity, options);
+  if (options.kind == WeightKind::mean_value) return mean_value_weights(mesh, connectivity);
+  EdgeWeights uniform;
+  uniform.w = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(connectivity.edges.size()));
+  return uniform;
+}
+
 }  // namespace
 
 std::string name(WeightKind kind) {
   switch (kind) {
     case WeightKind::cotan:
       return "cotan";
+    case WeightKind::delaunay:
+      return "delaunay";
+    case WeightKind::mean_value:
+      return "mean-value";
     case WeightKind::uniform:
       return "uniform";
     case WeightKind::file:
@@ -94,17 +167,31 @@ std::string name(WeightKind kind) {
   return {};
 }
 
+EdgeWeights intrinsic_weights(IntrinsicTriangulation triangulation, double clamp) {
+  EdgeWeights result;
+  result.kind = WeightKind::delaunay;
+  result.clamp = clamp;
+  result.w = summed_over_sides(triangulation.connectivity, triangulation.half_cotangent);
+  for (double& w : result.w) {
+    if (w < -concyclic_weight) {
+      w = clamp;
+      ++result.clamped_edges;
+    }
+    w = std::max(w, concyclic_weight);
+  }
+  result.triangulation = std::make_shared<IntrinsicTriangulation>(std::move(triangulation));
+  return result;
+}
+
 EdgeWeights edge_weights(const Mesh& mesh, const Connectivity& connectivity, const WeightOptions& options) {
   if (!(options.clamp > 0) || !std::isfinite(options.clamp))
     throw ArgumentError(
         fmt::format("the clamp of the weights is {}; it must be positive and finite", options.clamp));
   if (options.kind == WeightKind::file)
     throw ArgumentError("weights of the kind 'file' are read by read_weights");
-  if (options.kind == WeightKind::cotan) return cotangent_weights(mesh, connectivity, options.clamp);
-  EdgeWeights result;
-  result.kind = WeightKind::uniform;
+  EdgeWeights result = weights_of_kind(mesh, connectivity, options);
+  result.kind = options.kind;
   result.clamp = options.clamp;
-  result.w = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(connectivity.edges.size()));
   return result;
 }
 

@@ -2,39 +2,53 @@
 // Edge weights of the discrete Dirichlet energy (section 4), on the uncut mesh.
 #pragma once
 
+#include <memory>
 #include <string>
 
-#include "orbitutte/mesh/connectivity.h"
+#include "orbitutte/mesh/intrinsic_triangulation.h"
 
 namespace orbitutte {
 
 enum class WeightKind {
-  cotan,    ///< w_ij = (cot a + cot b)/2 over the angles opposite to the edge; those not positive become
-            ///< `clamp`
-  uniform,  ///< w_ij = 1
-  file      ///< given by the caller
+  cotan,       ///< w_ij = (cot a + cot b)/2 over the angles opposite to the edge; those not positive become
+               ///< `clamp`
+  delaunay,    ///< the same of the intrinsic Delaunay triangulation, whose weights are nonnegative; zeros
+               ///< become 1e-6, and those of blocked edges that are negative `clamp`
+  mean_value,  ///< w_ij = (l_i m_ij + l_j m_ji)/2, m_ij the mean value weight (tan(a/2) + tan(b/2))/|ij| over
+               ///< the angles at i beside the edge, l_i half the mean length of the edges at i
+  uniform,     ///< w_ij = 1
+  file         ///< given by the caller
 };
 
-/// "cotan", "uniform" or "file".
+/// "cotan", "delaunay", "mean-value", "uniform" or "file".
 std::string name(WeightKind kind);
 
 struct WeightOptions {
   WeightKind kind = WeightKind::cotan;
-  double clamp = 0.01;  ///< of cotangent weights, > 0: the paper's value
+  double clamp = 0.01;          ///< of cotangents that are not positive, > 0: the paper's value
+  std::vector<int> kept_faces;  ///< of kind `delaunay`: faces whose edges are not flipped
 };
 
 struct EdgeWeights {
   WeightKind kind = WeightKind::cotan;
   double clamp = 0.01;
   Eigen::VectorXd w;      ///< one weight per undirected edge, in the order of Connectivity::edges
-  int clamped_edges = 0;  ///< cotangent weights that were not positive
+  int clamped_edges = 0;  ///< cotangent weights that became `clamp`
+  /// Of kind `delaunay`: the triangulation whose edges have the weights; null where they are the mesh's.
+  std::shared_ptr<const IntrinsicTriangulation> triangulation;
   int zero_edges =
       0;  ///< weights of a file that are exactly zero: accepted, though the theory asks for w > 0
 };
 
 /// Weights on the uncut mesh, so that no cut can change them. Zero-area triangles have no cotangents and add
-/// nothing. Throws ArgumentError for a clamp that is not positive and finite, and for WeightKind::file.
+/// nothing to `cotan`; `delaunay` and `mean_value` go by mollified_lengths. Mean value weights are made
+/// symmetric, since a minimiser of an energy knows no others: they are positive, but no longer reproduce
+/// linear maps (M. Floater, "Mean value coordinates", CAGD 20 (2003)). Throws ArgumentError for a clamp that
+/// is not positive and finite, and for WeightKind::file.
 EdgeWeights edge_weights(const Mesh& mesh, const Connectivity& connectivity, const WeightOptions& options);
+
+/// Cotangent weights of an intrinsic triangulation, as WeightKind::delaunay says.
+EdgeWeights intrinsic_weights(IntrinsicTriangulation triangulation, double clamp);
 
 /// Reads lines `i j w`, each undirected edge of the mesh once, in any order; further columns are ignored.
 /// Throws FileError, and MeshError naming the line and the edge: no edge of the mesh, given twice, missing, a

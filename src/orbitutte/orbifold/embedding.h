@@ -42,14 +42,18 @@ struct ConeCopies {
 struct Embedding {
   std::string signature;  ///< Conway's symbol
   int group_order = 1;    ///< |G|; 0 in the plane, where it is infinite
-  Points
-      positions;  ///< n_cut x 3, on the unit sphere (or z = 1); vertices that no face uses sit at (0, 0, 1)
-  Faces faces;    ///< m x 3, the faces of the input in their order, on cut vertices
+  Points positions;  ///< n_cut x 3, on the unit sphere (or z = 1); vertices that no face uses sit at (0, 0, 1)
+  Faces faces;  ///< m x 3, the faces of the input in their order, on cut vertices; polygons in triangles
   std::vector<int>
       source_vertex;  ///< n_cut: the input vertex; the first n cut vertices are the input vertices
   std::vector<Seam> seams;
   std::vector<ConeCopies> cones;
+  Polygons polygons;  ///< the faces of the input in their order, on cut vertices, where some have more than
+                      ///< three corners; none where all are triangles
   Geometry geometry = Geometry::spherical;
+
+  /// The faces of the input, on cut vertices.
+  FaceView input_faces() const { return polygons.count() > 0 ? FaceView(polygons) : FaceView(faces); }
 };
 
 }  // namespace orbitutte

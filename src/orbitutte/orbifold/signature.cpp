@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "orbitutte/orbifold/families.h"
@@ -37,9 +38,12 @@ Fraction euler_characteristic(const ConwaySymbol& symbol) {
   return chi;
 }
 
+// A single order of several digits ends with a comma where each of them could be an order.
 std::string join(const Orders& orders) {
   const bool digits = std::all_of(orders.begin(), orders.end(), [](int n) { return n < 10; });
-  return fmt::format("{}", fmt::join(orders, digits ? "" : ","));
+  const std::string text = fmt::format("{}", fmt::join(orders, digits ? "" : ","));
+  const bool alone = orders.size() == 1 && !digits;
+  return alone && text.find_first_of("01") == std::string::npos ? text + "," : text;
 }
 
 bool any_below_two(const Orders& orders) {
@@ -244,6 +248,17 @@ Orbifold parse_euclidean_orbifold(const std::string& signature) {
     }
   }
   refuse(signature, "is none of the Euclidean orbifolds 333, 442, 632, 2222, *333, *442, *632 and *2222");
+}
+
+std::vector<double> metric_angles(const std::vector<Mark>& marks) {
+  const bool slides = marks.size() == 2 && marks[0].order == marks[1].order && marks[0].kind == marks[1].kind;
+  std::vector<double> angles;
+  for (const auto& [order, kind] : marks) {
+    const double around = kind == ConeKind::rotation ? 2 * std::numbers::pi : std::numbers::pi;
+    const bool is_cone = kind != ConeKind::fixed && order > 0;
+    angles.push_back(is_cone ? (slides ? 2 : 1) * around / order : 0.0);
+  }
+  return angles;
 }
 
 std::vector<FamilyDescription> families() {

@@ -22,6 +22,9 @@ struct ConwaySymbol {
   std::string text() const;
 };
 
+/// The signature of fixed boundaries, which no symbol of Conway's is: theorem 1, see polygon.h.
+inline const std::string polygon_signature = "polygon";
+
 /// A marked point of the orbifold: the angles around it add up to 2 pi/order, at a corner to pi/order.
 struct Mark {
   int order = 1;
@@ -35,6 +38,7 @@ struct Orbifold {
   Topology topology = Topology::sphere;  ///< what the mesh has to be
   std::vector<Mark> marks;               ///< in the order in which vertices are marked
   int inner_marks = 0;  ///< so many, the first, lie inside the surface, the others on its boundary
+  std::vector<PolygonCorner> corners;  ///< of a fixed polygon, one a mark; otherwise none (polygon.h)
   Geometry geometry = Geometry::spherical;
 };
 
@@ -46,6 +50,13 @@ Orbifold parse_orbifold(const std::string& signature);
 /// The same for the Euclidean orbifolds of spheres with cones, 333, 442, 632 and 2222, and of disks with
 /// corners, *333, *442, *632 and *2222.
 Orbifold parse_euclidean_orbifold(const std::string& signature);
+
+/// The angle of each mark in the metric that weights take at cones (sharpened_at_cones), radians; 0 where the
+/// mark is no cone. It is the mark's own, but twice that where two alike are all there are: these lie
+/// opposite to each other, and the map may slide along their axis at no cost but the error of the elements
+/// there. With their own angles nothing would be left of that, and arcs, shorter than the plane's, would draw
+/// the whole mesh towards one of them.
+std::vector<double> metric_angles(const std::vector<Mark>& marks);
 
 /// A row of `orbitutte types`.
 struct FamilyDescription {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "orbitutte/orbifold/families.h"
+#include "orbitutte/orbifold/polygon.h"
 
 namespace orbitutte {
 
@@ -21,6 +22,7 @@ Vector3 Tile::centroid() const {
 }
 
 Tile basic_tile(const Orbifold& orbifold, const std::vector<int>& arrangement) {
+  if (!orbifold.corners.empty()) return polygon_tile(orbifold.corners, arrangement);
   const Family& family = *find_family(orbifold.symbol, orbifold.geometry);
   const int marks = static_cast<int>(orbifold.marks.size()), corners = marks + family.cut_to_mirror;
   std::vector<int> orders;
@@ -46,12 +48,16 @@ Tile rotated(const Tile& tile, const Matrix3& rotation) {
   return result;
 }
 
+bool stays_put(const Tile& tile) {
+  return std::any_of(tile.sides.begin(), tile.sides.end(), [](const TileSide& side) { return side.held(); });
+}
+
 bool free_rotation_axis(const Tile& tile, Vector3& axis) {
   axis = tile.sides.front().start;
   Matrix3 turn;  // p -> axis x p, the derivative of the rotation
   turn << 0, -axis.z(), axis.y(), axis.z(), 0, -axis.x(), -axis.y(), axis.x(), 0;
   return std::all_of(tile.sides.begin(), tile.sides.end(), [&](const TileSide& side) {
-    return (side.transform * turn - turn * side.transform).norm() < 1e-12 &&
+    return !side.held() && (side.transform * turn - turn * side.transform).norm() < 1e-12 &&
            std::abs(std::abs(side.start.dot(axis)) - 1) < 1e-12;
   });
 }

@@ -13,7 +13,8 @@ namespace orbitutte {
 /// direction of the plane z = 1, 0 <= s <= length, the tile on its left. A point of this side at arc length s
 /// is transform * (the point of side `partner` at length - s), or at s where the transform is a rotary
 /// reflection: tiles lie on opposite sides of a glued side in both cases. A side that is its own partner is a
-/// mirror, and stays as it is under the transform.
+/// mirror, and stays as it is under the transform. A side without a partner (-1) is held: its vertices stay
+/// where they are put.
 struct TileSide {
   Vector3 start;        ///< the corner where the side begins
   Vector3 direction;    ///< unit tangent there
@@ -24,6 +25,7 @@ struct TileSide {
   Matrix3 transform = Matrix3::Identity();
   Geometry geometry = Geometry::spherical;
 
+  bool held() const { return partner < 0; }
   Vector3 point(double s) const;
 
   /// Does the partner run the other way?
@@ -52,6 +54,9 @@ Tile basic_tile(const Orbifold& orbifold, const std::vector<int>& arrangement);
 
 /// The same tile turned by a rotation.
 Tile rotated(const Tile& tile, const Matrix3& rotation);
+
+/// True where a side is held, so that the tile lies where it was asked for and may not be turned.
+bool stays_put(const Tile& tile);
 
 /// True where a rotation about an axis changes no side's gluing, so that the embedding is fixed only up to
 /// it; then `axis` is that direction.

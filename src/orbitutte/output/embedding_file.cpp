@@ -8,6 +8,7 @@
 #include "orbitutte/mesh/file.h"
 #include "orbitutte/mesh/mesh_io.h"
 #include "orbitutte/mesh/ply_triangles.h"
+#include "orbitutte/mesh/triangulation.h"
 
 namespace orbitutte {
 namespace {
@@ -56,15 +57,22 @@ std::vector<int> read_source_vertices(std::string_view bytes, const PlyHeader& h
   return to_source_vertices(parse_ply(bytes).find("vertex")->find("source_vertex")->values);
 }
 
-Faces to_faces(const PolygonMesh& mesh) {
-  Faces faces(mesh.face_count(), 3);
+void check_faces(const PolygonMesh& mesh) {
   for (int f = 0; f < mesh.face_count(); ++f) {
-    if (mesh.face_degree(f) != 3) throw MeshError(fmt::format("face {} is no triangle", f));
-    for (int k = 0; k < 3; ++k)
-      faces(f, k) =
-          to_index(mesh.corners[3 * f + k], mesh.vertex_count(), "face", static_cast<std::size_t>(f));
+    if (mesh.face_degree(f) < 3) throw MeshError(fmt::format("face {} has fewer than three corners", f));
+    for (int c = mesh.face_start[f]; c < mesh.face_start[f + 1]; ++c)
+      to_index(mesh.corners[c], mesh.vertex_count(), "face", static_cast<std::size_t>(f));
   }
-  return faces;
+}
+
+void take_faces(PolygonMesh& mesh, Embedding& embedding) {
+  check_faces(mesh);
+  if (is_triangle_mesh(mesh)) {
+    embedding.faces = Eigen::Map<const Faces>(mesh.corners.data(), mesh.face_count(), 3);
+    return;
+  }
+  embedding.polygons = {std::move(mesh.corners), std::move(mesh.face_start)};
+  embedding.faces = on_vertices(fan(embedding.polygons), embedding.polygons.corners);
 }
 
 Embedding parse_embedding(std::string_view bytes) {
@@ -73,7 +81,7 @@ Embedding parse_embedding(std::string_view bytes) {
   PolygonMesh mesh = parse_mesh(bytes, MeshFormat::ply);
   Embedding embedding;
   embedding.source_vertex = read_source_vertices(bytes, header);
-  embedding.faces = to_faces(mesh);
+  take_faces(mesh, embedding);
   embedding.positions = std::move(mesh.V);
   return embedding;
 }
@@ -81,9 +89,9 @@ Embedding parse_embedding(std::string_view bytes) {
 }  // namespace
 
 std::string serialize_embedding(const Embedding& embedding) {
-  return write_ply_triangles(embedding.positions, embedding.faces,
-                             {{"source_vertex", embedding.source_vertex}},
-                             {fmt::format("orbitutte embedding {}", embedding.signature)});
+  return write_ply_faces(embedding.positions, embedding.input_faces(),
+                         {{"source_vertex", embedding.source_vertex}},
+                         {fmt::format("orbitutte embedding {}", embedding.signature)});
 }
 
 Embedding read_embedding(const std::string& path) {

@@ -12,7 +12,8 @@ namespace orbitutte {
 std::string serialize_embedding(const Embedding& embedding);
 
 /// Positions, faces and source vertices of such a file; what the report holds (signature, group order, seams,
-/// cones) stays empty. Throws FileError, and MeshError naming what is missing or out of range.
+/// cones) stays empty. Polygons, which are convex, are divided into triangles from their first corners.
+/// Throws FileError, and MeshError naming what is missing or out of range.
 Embedding read_embedding(const std::string& path);
 
 }  // namespace orbitutte

@@ -36,7 +36,13 @@ Json to_json(const Seam& seam) {
 }
 
 Json to_json(const EdgeWeights& weights) {
-  return {{"kind", name(weights.kind)}, {"clamp", weights.clamp}, {"clamped_edges", weights.clamped_edges}};
+  Json json = {
+      {"kind", name(weights.kind)}, {"clamp", weights.clamp}, {"clamped_edges", weights.clamped_edges}};
+  if (weights.triangulation) {
+    json["flips"] = weights.triangulation->flips.size();
+    json["kept_faces"] = weights.triangulation->kept_faces;
+  }
+  return json;
 }
 
 Json to_json(const Certificate& certificate) {
@@ -76,7 +82,7 @@ Json history_json(const std::vector<Iteration>& history) {
 
 Json timings_json(const Timings& stages, const RunRecord& run) {
   Json timings = {{"read", run.read_seconds}};
-  for (const auto& [stage, seconds] : stages) timings[stage] = seconds;
+  for (const auto& [stage, seconds] : stages) timings[stage] = timings.value(stage, 0.0) + seconds;
   timings["write"] = run.write_seconds;
   timings["total"] = run.total_seconds;
   return timings;
@@ -183,9 +189,12 @@ ConeCopies to_cone(const Json& json) {
 }
 
 WeightOptions to_weights(const Json& json) {
-  const WeightKind kind =
-      one_of({WeightKind::cotan, WeightKind::uniform, WeightKind::file}, text(json, "kind"), "the weights");
-  return {kind, number(json, "clamp")};
+  const WeightKind kind = one_of({WeightKind::cotan, WeightKind::delaunay, WeightKind::mean_value,
+                                  WeightKind::uniform, WeightKind::file},
+                                 text(json, "kind"), "the weights");
+  WeightOptions weights = {kind, number(json, "clamp"), {}};
+  if (kind == WeightKind::delaunay) weights.kept_faces = integers(json, "kept_faces");
+  return weights;
 }
 
 Report to_report(const Json& json) {
@@ -203,7 +212,10 @@ Report to_report(const Json& json) {
   report.converged = text(json, "termination") == name(Termination::converged);
   const Json& certificate = object(json, "certificate");
   report.bijective = boolean(certificate, "bijective");
+  report.expected_area = number(certificate, "expected_area");
   report.nonpositive_faces = integers(certificate, "nonpositive_faces");
+  if (json.contains("intrinsic_certificate"))
+    report.intrinsic_bijective = boolean(object(json, "intrinsic_certificate"), "bijective");
   return report;
 }
 
@@ -213,31 +225,31 @@ std::string report_json(const EmbedResult& result, const RunRecord& run) {
   const Embedding& embedding = result.embedding;
   const Minimum& minimum = result.minimum;
   const int vertices = static_cast<int>(minimum.positions.rows());
-  const Json json = {
-      {"schema", "orbitutte.report/1"},
-      {"mesh",
-       {{"path", run.mesh_path},
-        {"vertices", vertices},
-        {"faces", embedding.faces.rows()},
-        {"topology", name(result.topology)},
-        {"unreferenced_vertices", result.unreferenced_vertices},
-        {"zero_area_faces", result.zero_area_faces}}},
-      {"orbifold", {{"signature", embedding.signature}, {"group_order", embedding.group_order}}},
-      {"cones", list(embedding.cones, [](const ConeCopies& cone) { return to_json(cone); })},
-      {"seams", list(embedding.seams, [](const Seam& seam) { return to_json(seam); })},
-      {"weights", to_json(result.weights)},
-      {"energy", minimum.energy},
-      {"iterations", minimum.iterations},
-      {"evaluations", minimum.evaluations},
-      {"termination", name(minimum.termination)},
-      {"gradient_norm", minimum.gradient_norm},
-      {"history", history_json(minimum.history)},
-      {"certificate", to_json(result.certificate)},
-      {"distortion", to_json(result.distortion)},
-      {"warnings", result.warnings},
-      {"timings", timings_json(result.timings, run)},
-      {"peak_memory_bytes", run.peak_memory_bytes},
-      {"environment", environment_json(result, run)}};
+  Json json = {{"schema", "orbitutte.report/1"},
+               {"mesh",
+                {{"path", run.mesh_path},
+                 {"vertices", vertices},
+                 {"faces", embedding.input_faces().count()},
+                 {"topology", name(result.topology)},
+                 {"unreferenced_vertices", result.unreferenced_vertices},
+                 {"zero_area_faces", result.zero_area_faces}}},
+               {"orbifold", {{"signature", embedding.signature}, {"group_order", embedding.group_order}}},
+               {"cones", list(embedding.cones, [](const ConeCopies& cone) { return to_json(cone); })},
+               {"seams", list(embedding.seams, [](const Seam& seam) { return to_json(seam); })},
+               {"weights", to_json(result.weights)},
+               {"energy", minimum.energy},
+               {"iterations", minimum.iterations},
+               {"evaluations", minimum.evaluations},
+               {"termination", name(minimum.termination)},
+               {"gradient_norm", minimum.gradient_norm},
+               {"history", history_json(minimum.history)},
+               {"certificate", to_json(result.certificate)},
+               {"distortion", to_json(result.distortion)},
+               {"warnings", result.warnings},
+               {"timings", timings_json(result.timings, run)},
+               {"peak_memory_bytes", run.peak_memory_bytes},
+               {"environment", environment_json(result, run)}};
+  if (result.intrinsic_certificate) json["intrinsic_certificate"] = to_json(*result.intrinsic_certificate);
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -34,6 +34,8 @@ struct Report {
   double energy = 0;
   bool converged = false;
   bool bijective = false;
+  double expected_area = 0;
+  std::optional<bool> intrinsic_bijective;  ///< of the triangulation that has the weights, where that is told
   std::vector<int> nonpositive_faces;
 };
 

@@ -36,7 +36,12 @@ void check_embedding(const Embedding& embedding) {
     check_vertices(seam.left, vertices);
     check_vertices(seam.right, vertices);
   }
-  const long long largest = std::max<long long>(vertices, embedding.faces.rows());
+  if (embedding.seams.empty())
+    throw ArgumentError(
+        "the embedding has no seams, as one into a fixed polygon has none: there are no symmetric copies that would "
+        "tile the sphere");
+  const auto corners = static_cast<long long>(embedding.polygons.corners.size());
+  const long long largest = std::max<long long>({vertices, embedding.faces.rows(), corners});
   if (largest * std::max(embedding.group_order, 1) > std::numeric_limits<int>::max())
     throw ArgumentError(fmt::format("{} copies of {} faces are more than an int can count",
                                     embedding.group_order, embedding.faces.rows()));
@@ -205,7 +210,29 @@ class VertexSweep {
   int next_ = 0;
 };
 
-/// Fills in the faces of copy g; mirrored copies are turned over.
+/// The input face of every triangle of the embedding: a polygon of d corners has d - 2.
+std::vector<int> faces_of_triangles(const Embedding& embedding) {
+  const FaceView faces = embedding.input_faces();
+  std::vector<int> result;
+  result.reserve(embedding.faces.rows());
+  for (int f = 0; f < faces.count(); ++f) result.insert(result.end(), faces[f].size() - 2, f);
+  return result;
+}
+
+/// Appends the polygons of copy g, from the same corners; mirrored copies are turned over.
+void place_polygons(const Embedding& embedding, int g, const std::vector<int>& vertex_of, Tiling& tiling) {
+  std::vector<int>& corners = tiling.polygons.corners;
+  const FaceView polygons(embedding.polygons);
+  for (int f = 0; f < polygons.count(); ++f) {
+    const std::size_t begin = corners.size();
+    for (const int v : polygons[f]) corners.push_back(vertex_of[v]);
+    if (tiling.copies[g].mirrored)
+      std::reverse(corners.begin() + static_cast<std::ptrdiff_t>(begin) + 1, corners.end());
+    tiling.polygons.start.push_back(static_cast<int>(corners.size()));
+  }
+}
+
+/// Fills in the triangles of copy g; mirrored copies are turned over.
 void place_faces(const Embedding& embedding, int g, const std::vector<int>& vertex_of, Tiling& tiling) {
   const Eigen::Index faces = embedding.faces.rows();
   const int second = tiling.copies[g].mirrored ? 2 : 1;
@@ -215,7 +242,6 @@ void place_faces(const Embedding& embedding, int g, const std::vector<int>& vert
     tiling.mesh.F(row, 1) = vertex_of[embedding.faces(f, second)];
     tiling.mesh.F(row, 2) = vertex_of[embedding.faces(f, 3 - second)];
     tiling.tile[row] = g;
-    tiling.source_face[row] = static_cast<int>(f);
   }
 }
 
@@ -234,9 +260,15 @@ Tiling tile_sphere(const Embedding& embedding) {
   tiling.copies = tile_copies(group, across);
   tiling.mesh.F.resize(faces, 3);
   tiling.tile.resize(faces);
-  tiling.source_face.resize(faces);
+  const std::vector<int> source_face = faces_of_triangles(embedding);
+  tiling.source_face.reserve(faces);
   VertexSweep sweep(embedding, welding, tiling);
-  for (int g = 0; g < tiling.tiles; ++g) place_faces(embedding, g, sweep.copy(g), tiling);
+  for (int g = 0; g < tiling.tiles; ++g) {
+    const std::vector<int>& vertex_of = sweep.copy(g);
+    place_faces(embedding, g, vertex_of, tiling);
+    place_polygons(embedding, g, vertex_of, tiling);
+    tiling.source_face.insert(tiling.source_face.end(), source_face.begin(), source_face.end());
+  }
   return tiling;
 }
 

@@ -17,12 +17,16 @@ struct TileCopy {
 };
 
 struct Tiling {
-  Mesh mesh;                     ///< closed, on the unit sphere, every triangle counterclockwise from outside
-  std::vector<int> tile;         ///< m |G|: the copy of the tile that holds the face, an index into copies
-  std::vector<int> source_face;  ///< m |G|: the face of the input mesh
+  Mesh mesh;              ///< closed, on the unit sphere, every triangle counterclockwise from outside
+  std::vector<int> tile;  ///< m |G|: the copy of the tile that holds the triangle, an index into copies
+  std::vector<int> source_face;    ///< m |G|: the face of the input mesh
   std::vector<int> source_vertex;  ///< the input vertex of every vertex
   int tiles = 0;                   ///< |G|
   std::vector<TileCopy> copies;    ///< |G|, the identity first
+  Polygons polygons;  ///< the faces that the triangles make up, tile by tile; none where all are triangles
+
+  /// The faces as those of the input: polygons or triangles.
+  FaceView faces() const { return polygons.count() > 0 ? FaceView(polygons) : FaceView(mesh.F); }
 };
 
 /// Welds combinatorially: copy g of left[i] is copy g*transform of right[i]; positions are never compared.
@@ -36,6 +40,7 @@ Tiling tile_sphere(const Embedding& embedding);
 /// - PLY, binary: double x y z, int source_vertex; vertex_indices, uchar red green blue, int tile,
 ///   int source_face;
 /// - OBJ: a group `tile_g` per tile, a material per colour in an .mtl file beside it, written first;
+///   (both in polygons, where the input has them; the two others in triangles)
 /// - STL, binary: the colour in the attribute word, bit 15 set, then 5 bits each of red, green and blue;
 /// - GLB: a material and a primitive per colour, all on the same vertices, in single precision.
 ///

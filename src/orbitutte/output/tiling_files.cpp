@@ -12,6 +12,8 @@
 
 #include "orbitutte/mesh/bytes.h"
 #include "orbitutte/mesh/file.h"
+#include "orbitutte/mesh/ply_triangles.h"
+#include "orbitutte/output/gltf_model.h"
 
 namespace orbitutte {
 namespace {
@@ -58,15 +60,18 @@ TileMaterials tile_materials(const Tiling& tiling) {
 // Not through PlyFile, which holds every number as a double: 2.8 GB more for 32 million faces.
 std::string ply_bytes(const Tiling& tiling) {
   const Mesh& mesh = tiling.mesh;
+  const FaceView faces = tiling.faces();
+  const int faces_per_tile = std::max(1, faces.count() / std::max(1, tiling.tiles));
+  const PlyType count_type = corner_count_type(faces);
   std::string bytes = fmt::format(
       "ply\nformat binary_little_endian 1.0\ncomment tiling of the sphere by {} copies\n"
       "element vertex {}\nproperty double x\nproperty double y\nproperty double z\nproperty int "
       "source_vertex\n"
-      "element face {}\nproperty list uchar int vertex_indices\n"
+      "element face {}\nproperty list {} int vertex_indices\n"
       "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty int tile\nproperty int "
       "source_face\n"
       "end_header\n",
-      tiling.tiles, mesh.V.rows(), mesh.F.rows());
+      tiling.tiles, mesh.V.rows(), faces.count(), name(count_type));
   constexpr std::size_t vertex_size = 3 * sizeof(double) + sizeof(int);
   constexpr std::size_t face_size = 1 + 3 * sizeof(int) + 3 + 2 * sizeof(int);
   bytes.reserve(bytes.size() + vertex_size * mesh.V.rows() + face_size * mesh.F.rows());
@@ -75,15 +80,16 @@ std::string ply_bytes(const Tiling& tiling) {
     for (int k = 0; k < 3; ++k) append_little_endian(bytes, mesh.V(v, k));
     append_little_endian(bytes, tiling.source_vertex[v]);
   }
-  for (Eigen::Index f = 0; f < mesh.F.rows(); ++f) {
-    append_little_endian(bytes, std::uint8_t{3});
-    for (int k = 0; k < 3; ++k) append_little_endian(bytes, mesh.F(f, k));
-    const TileCopy& copy = tiling.copies[tiling.tile[f]];
+  for (int f = 0; f < faces.count(); ++f) {  // tile by tile
+    visit_type(count_type,
+               [&](auto type) { append_little_endian(bytes, static_cast<decltype(type)>(faces[f].size())); });
+    for (const int v : faces[f]) append_little_endian(bytes, v);
+    const TileCopy& copy = tiling.copies[f / faces_per_tile];
     const Rgb colour = tile_colour(copy.colour, copy.mirrored);
     for (const std::uint8_t channel : {colour.red, colour.green, colour.blue})
       append_little_endian(bytes, channel);
-    append_little_endian(bytes, tiling.tile[f]);
-    append_little_endian(bytes, tiling.source_face[f]);
+    append_little_endian(bytes, f / faces_per_tile);
+    append_little_endian(bytes, f % faces_per_tile);
   }
   return bytes;
 }
@@ -120,15 +126,39 @@ std::string obj_text(const Tiling& tiling, const std::string& library) {
   // The shortest decimals that read back as the same doubles.
   for (Eigen::Index v = 0; v < mesh.V.rows(); ++v)
     fmt::format_to(out, FMT_COMPILE("v {} {} {}\n"), mesh.V(v, 0), mesh.V(v, 1), mesh.V(v, 2));
+  const FaceView faces = tiling.faces();
+  const int faces_per_tile = std::max(1, faces.count() / std::max(1, tiling.tiles));
   int tile = -1;
-  for (Eigen::Index f = 0; f < mesh.F.rows(); ++f) {
-    if (tiling.tile[f] != tile) {
-      tile = tiling.tile[f];
+  for (int f = 0; f < faces.count(); ++f) {
+    if (f / faces_per_tile != tile) {
+      tile = f / faces_per_tile;
       fmt::format_to(out, "g tile_{}\nusemtl {}\n", tile, materials.materials[materials.of_tile[tile]].name);
     }
-    fmt::format_to(out, FMT_COMPILE("f {} {} {}\n"), mesh.F(f, 0) + 1, mesh.F(f, 1) + 1, mesh.F(f, 2) + 1);
+    text += 'f';
+    for (const int v : faces[f]) fmt::format_to(out, FMT_COMPILE(" {}"), v + 1);
+    text += '\n';
   }
   return text;
+}
+
+std::string glb_bytes(const Tiling& tiling) {
+  const Faces& F = tiling.mesh.F;
+  check_glb_size(3 * sizeof(float) * tiling.mesh.V.rows() + 3 * sizeof(std::uint32_t) * F.rows(),
+                 "the tiling");
+  const TileMaterials materials = tile_materials(tiling);
+  GltfModel model;
+  // A point of the unit sphere is its own normal, so that both read the same bytes.
+  const int positions = model.add_positions(tiling.mesh.V);
+  for (int m = 0; m < static_cast<int>(materials.materials.size()); ++m) {
+    std::vector<std::uint32_t> indices;
+    for (Eigen::Index f = 0; f < F.rows(); ++f)
+      if (materials.of_tile[tiling.tile[f]] == m)
+        for (int k = 0; k < 3; ++k) indices.push_back(static_cast<std::uint32_t>(F(f, k)));
+    const auto& [name, colour] = materials.materials[m];
+    model.add_primitive({{"POSITION", positions}, {"NORMAL", positions}}, model.add_triangles(indices),
+                        model.add_material(name, colour, GltfModel::Sides::front));
+  }
+  return model.bytes();
 }
 
 void write_tiling(const std::string& path, const Tiling& tiling) {

@@ -9,8 +9,6 @@
 namespace orbitutte {
 namespace {
 
-constexpr int in_space = 0, held_in_place = 1;
-
 std::vector<Seam> seams_of(const std::vector<std::vector<int>>& sides, const Tile& tile) {
   std::vector<Seam> seams;
   for (int k = 0; k < static_cast<int>(sides.size()); ++k) {

@@ -14,6 +14,9 @@ namespace orbitutte {
 /// feasible one + basis * unknowns.
 using Basis = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, 3>;
 
+/// The first two of BoundaryConditions::bases: all of space, and no room at all.
+constexpr int in_space = 0, held_in_place = 1;
+
 /// Every cut vertex is a symmetry's image of one input vertex: position(v) = transform(v) *
 /// position(source(v)), so the cut is a choice of gauge and the unknowns do not know where it runs. Input
 /// vertex v is cut vertex v.

@@ -2,25 +2,66 @@
 #include "orbitutte/solve/ears.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <limits>
 
 namespace orbitutte {
+namespace {
 
-std::vector<Ear> find_ears(const CutMesh& cut, const Tile& tile, const BoundaryConditions& boundary) {
-  std::vector<int> faces_at(cut.vertex_count(), 0), last_face(cut.vertex_count(), -1);
-  for (int h = 0; h < static_cast<int>(cut.F.size()); ++h) {
-    const int v = origin(cut.F, h);
-    ++faces_at[v];
-    last_face[v] = h / 3;
+// Collects the ears of one mirror after the other.
+class EarSearch {
+ public:
+  EarSearch(const FaceView& faces, int vertex_count)
+      : faces_(faces), faces_at_(vertex_count, 0), last_face_(vertex_count, -1), side_of_(vertex_count, -1) {
+    for (int f = 0; f < faces.count(); ++f) {
+      for (const int v : faces[f]) {
+        ++faces_at_[v];
+        last_face_[v] = f;
+      }
+    }
   }
+
+  void search(int s, const std::vector<int>& side, const Vector3& outward) {
+    for (const int v : side) side_of_[v] = s;
+    int face = -1;
+    bool is_ear = false;
+    for (std::size_t k = 1; k + 1 < side.size(); ++k) {
+      const int v = side[k];
+      if (faces_at_[v] != 1) continue;
+      if (last_face_[v] != face) {  // the tips of a face follow each other
+        face = last_face_[v];
+        is_ear =
+            std::all_of(faces_[face].begin(), faces_[face].end(), [&](int w) { return side_of_[w] == s; });
+      }
+      if (is_ear) ears.push_back({face, v, outward});
+    }
+  }
+
   std::vector<Ear> ears;
+
+ private:
+  const FaceView& faces_;
+  std::vector<int> faces_at_, last_face_, side_of_;  // of every cut vertex
+};
+
+}  // namespace
+
+std::vector<Ear> find_ears(const FaceView& faces, const Tile& tile, const BoundaryConditions& boundary) {
+  EarSearch search(faces, static_cast<int>(boundary.transform_of.size()));
   for (std::size_t s = 0; s < tile.sides.size(); ++s) {
-    if (tile.sides[s].partner != static_cast<int>(s)) continue;
-    const std::vector<int>& side = boundary.sides[s];
-    for (std::size_t k = 1; k + 1 < side.size(); ++k)
-      if (faces_at[side[k]] == 1) ears.push_back({last_face[side[k]], side[k], -tile.sides[s].pole()});
+    if (!tile.sides[s].held() && tile.sides[s].partner != static_cast<int>(s)) continue;
+    search.search(static_cast<int>(s), boundary.sides[s], -tile.sides[s].pole());
   }
-  return ears;
+  return std::move(search.ears);
+}
+
+int count_faces(const std::vector<Ear>& ears) {
+  int faces = 0, last = -1;
+  for (const Ear& ear : ears) {
+    faces += ear.face != last;
+    last = ear.face;
+  }
+  return faces;
 }
 
 void round_outward(const std::vector<Ear>& ears, Points& positions) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Triangles that a mirror flattens.
+// Faces that a mirror or a held side flattens.
 #pragma once
 
 #include <vector>
@@ -8,18 +8,23 @@
 
 namespace orbitutte {
 
-/// A triangle with two edges on one mirror. All three vertices stay on the mirror's great circle, so its
-/// image is an arc and its area zero, whatever the weights.
+/// A face with all edges but one on one mirror or held side, as a triangle with two of them, seen from one of
+/// its tips. All its vertices stay on the side's great circle, so its image is an arc and its area zero,
+/// whatever the weights.
 struct Ear {
   int face = -1;
-  int tip = -1;                       ///< the vertex between the two edges, which belongs to no other face
-  Vector3 outward = Vector3::Zero();  ///< the mirror's unit normal, away from the tile
+  int tip = -1;  ///< a vertex between two edges on the side, which belongs to no other face
+  Vector3 outward = Vector3::Zero();  ///< the side's unit normal, away from the tile
 };
 
-std::vector<Ear> find_ears(const CutMesh& cut, const Tile& tile, const BoundaryConditions& boundary);
+/// The tips of all such faces, side by side of the tile, and along each side. faces: those of the cut mesh.
+std::vector<Ear> find_ears(const FaceView& faces, const Tile& tile, const BoundaryConditions& boundary);
 
-/// Rounds the tips of the ears to the outer side of their mirrors, by a few units in the last place: as near
-/// to the great circle as any rounded point of it, and the stored triangle is positively oriented instead of
+/// How many faces the tips belong to.
+int count_faces(const std::vector<Ear>& ears);
+
+/// Rounds the tips of the ears outwards from their mirrors and sides, by a few units in the last place: as
+/// near to the great circle as any rounded point of it, and the stored face is positively oriented instead of
 /// by chance. positions: n x 3.
 void round_outward(const std::vector<Ear>& ears, Points& positions);
 

@@ -2,37 +2,25 @@
 #include "orbitutte/solve/initial_embedding.h"
 
 #include <Eigen/Geometry>
-#include <cmath>
+
+#include "orbitutte/solve/boundary_arcs.h"
 
 namespace orbitutte {
 namespace {
 
-// The fraction of the path's length at each vertex, from 0 to 1. A thousandth is shared equally, so that no
-// two vertices fall together where the source has edges of length zero.
-std::vector<double> arc_length_fractions(const std::vector<int>& side, const Mesh& mesh,
-                                         const std::vector<int>& source) {
-  std::vector<double> at = {0};
-  for (std::size_t k = 1; k < side.size(); ++k)
-    at.push_back(at.back() + (mesh.V.row(source[side[k]]) - mesh.V.row(source[side[k - 1]])).norm());
-  const double total = at.back(), steps = static_cast<double>(side.size() - 1);
-  for (std::size_t k = 0; k < at.size(); ++k) {
-    const double equal = static_cast<double>(k) / steps;
-    at[k] = total > 0 ? 0.999 * at[k] / total + 0.001 * equal : equal;
-  }
-  return at;
-}
-
 // Each side's vertices on its arc. Both sides of a seam have the same fractions, so the positions agree
-// across it.
+// across it. What is held stands where it is held.
 Points boundary_on_arcs(const Mesh& mesh, const CutMesh& cut, const Tile& tile,
                         const BoundaryConditions& boundary) {
   Points result = Points::Zero(cut.vertex_count(), 3);
   for (std::size_t s = 0; s < tile.sides.size(); ++s) {
     const std::vector<int>& side = boundary.sides[s];
-    const std::vector<double> at = arc_length_fractions(side, mesh, cut.source_vertex);
+    const std::vector<double> at = arc_fractions(side, mesh, cut.source_vertex, Spread::arc_length);
     for (std::size_t k = 0; k + 1 < side.size(); ++k)
       result.row(side[k]) = tile.sides[s].point(at[k] * tile.sides[s].length);
   }
+  for (Eigen::Index v = 0; v < boundary.held.rows(); ++v)
+    if (boundary.basis_of[v] == held_in_place) result.row(v) = boundary.held.row(v);
   return result;
 }
 

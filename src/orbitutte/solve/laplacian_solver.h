@@ -32,7 +32,7 @@ enum class Kept { order, factors };
 /// Something for LaplacianOptions::reuse that is still empty.
 std::shared_ptr<LaplacianReuse> reusable_laplacians(Kept kept);
 
-/// Finds the elimination order, which depends on nothing but the edges of the uncut mesh, where `reuse` does
+/// Finds the elimination order, which depends on nothing but the edges that have weights, where `reuse` does
 /// not have it yet: so that it can be done while the mesh is cut.
 void order_ahead(LaplacianReuse& reuse, const std::vector<std::array<int, 2>>& edges, int vertex_count);
 

@@ -16,8 +16,9 @@ class Substructure;
 class LaplacianReuse {
  public:
   Kept kept = Kept::order;
-  std::shared_ptr<const Dissection> dissection;
-  SparseMatrix disk_laplacian;  ///< of the last cut disk
+  std::vector<std::array<int, 2>> edges;         ///< of the graph that was dissected
+  std::shared_ptr<const Dissection> dissection;  ///< null: none was
+  SparseMatrix disk_laplacian;                   ///< of the last cut disk
   std::shared_ptr<const Substructure> disk_factor;
 };
 

@@ -56,7 +56,8 @@ GluedEdges glued_edges(const CutMesh& cut, const Connectivity& connectivity,
   result.edges.resize(connectivity.edges.size());
   std::unordered_map<long long, int> known;  // by the transforms of both ends
   for (int h = static_cast<int>(cut.F.size()) - 1; h >= 0; --h) {
-    const int a = origin(cut.F, h), b = target(cut.F, h);
+    const int a = origin(cut.F, h), b = target(cut.F, h), e = cut.edge_of[h];
+    if (e < 0) continue;  // a diagonal
     int t = 0;
     if (const int ta = boundary.transform_of[a], tb = boundary.transform_of[b]; ta != tb) {
       const long long key = static_cast<long long>(ta) << 32 | tb;
@@ -66,7 +67,7 @@ GluedEdges glued_edges(const CutMesh& cut, const Connectivity& connectivity,
               : known[key] = index_among(result.transforms,
                                          inverse_isometry(boundary.transform(a)) * boundary.transform(b));
     }
-    result.edges[cut.edge_of[h]] = {cut.source_vertex[a], cut.source_vertex[b], t};
+    result.edges[e] = {cut.source_vertex[a], cut.source_vertex[b], t};
   }
   return result;
 }

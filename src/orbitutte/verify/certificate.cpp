@@ -2,7 +2,10 @@
 // Why this is a proof: seams with orthogonal transforms glue |G| copies of the cut disk to a closed surface
 // with a map to the sphere, and lay them on opposite sides of every seam. Positive triangles with edges
 // shorter than pi make the map a local homeomorphism away from the vertices, and by the area, |G| times
-// 4 pi/|G|, it covers the sphere once, so it is one at the vertices too.
+// 4 pi/|G|, it covers the sphere once, so it is one at the vertices too. A polygon stands for the triangles
+// between its edges and its middle; that it is convex is checked besides. Where the boundary is held on a
+// convex polygon instead, positive triangles cover every point as often as the boundary goes around it: once
+// inside the polygon, and not at all outside.
 #include "orbitutte/verify/certificate.h"
 
 #include <fmt/format.h>
@@ -11,13 +14,19 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <span>
 #include <tuple>
 #include <unordered_map>
+#include <utility>
 
 #include "orbitutte/mesh/connectivity.h"
-#include "orbitutte/orbifold/signature.h"
+#include "orbitutte/orbifold/polygon.h"
 #include "orbitutte/orbifold/symmetry_group.h"
 #include "orbitutte/parallel.h"
+#include "orbitutte/verify/convexity.h"
+#include "orbitutte/verify/held_sides.h"
+#include "orbitutte/verify/laid_out.h"
 #include "orbitutte/verify/orientation.h"
 #include "orbitutte/verify/spherical_triangle.h"
 
@@ -26,7 +35,8 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double unit_bound = 1e-12, seam_bound = 1e-12, angle_bound = 1e-8, area_bound = 1e-9;
+constexpr double unit_bound = 1e-12, seam_bound = 1e-12, angle_bound = 1e-8, area_bound = 1e-9,
+                 straight_bound = 1e-8;
 
 Check at_most(std::string name, double value, double bound) {
   Check check = {std::move(name), value <= bound, value, bound, {}};
@@ -63,26 +73,28 @@ bool has_no_orientation(const std::string& signature) {
   }
 }
 
-// Is face f of the cut mesh the input's? Where the surface has no orientation, it may be turned over.
-bool is_input_face(const Mesh& mesh, const Embedding& embedding, int f, bool may_be_turned) {
-  const auto v = embedding.faces.row(f);
-  const std::vector<int>& source = embedding.source_vertex;
-  const int a = source[v[0]], b = source[v[1]], c = source[v[2]];
-  if (a != mesh.F(f, 0)) return false;
-  return (b == mesh.F(f, 1) && c == mesh.F(f, 2)) ||
-         (may_be_turned && b == mesh.F(f, 2) && c == mesh.F(f, 1));
+// Is a face of the cut mesh the input's? Where the surface has no orientation, it may be turned over, its
+// first corner still the first.
+bool is_input_face(std::span<const int> input, std::span<const int> cut, const std::vector<int>& source,
+                   bool may_be_turned) {
+  const int n_cut = static_cast<int>(source.size());
+  const auto is_copy = [&](int v, int vertex) { return v >= 0 && v < n_cut && source[v] == vertex; };
+  if (std::equal(cut.begin(), cut.end(), input.begin(), input.end(), is_copy)) return true;
+  return may_be_turned && cut.size() == input.size() && is_copy(cut[0], input[0]) &&
+         std::equal(cut.rbegin(), cut.rend() - 1, input.begin() + 1, is_copy);
 }
 
 // The faces of the cut mesh are the input's, on copies of its vertices, the first n of which are the input
 // vertices.
-Check cut_mesh_check(const Mesh& mesh, const Embedding& embedding) {
+Check cut_mesh_check(int n, const FaceView& input, const Embedding& embedding) {
   Offences offences;
-  const int n = static_cast<int>(mesh.V.rows()), n_cut = static_cast<int>(embedding.source_vertex.size());
+  const FaceView faces = embedding.input_faces();
+  const int n_cut = static_cast<int>(embedding.source_vertex.size());
   if (embedding.positions.rows() != n_cut || n_cut < n)
     offences.add("{} positions, {} source vertices and {} input vertices do not fit together",
                  embedding.positions.rows(), n_cut, n);
-  if (embedding.faces.rows() != mesh.F.rows())
-    offences.add("the cut mesh has {} faces, the input {}", embedding.faces.rows(), mesh.F.rows());
+  if (faces.count() != input.count())
+    offences.add("the cut mesh has {} faces, the input {}", faces.count(), input.count());
   if (offences.any()) return offences.check("cut_mesh");
   for (int v = 0; v < n_cut; ++v) {
     const int source = embedding.source_vertex[v];
@@ -90,9 +102,8 @@ Check cut_mesh_check(const Mesh& mesh, const Embedding& embedding) {
       offences.add("cut vertex {} names the input vertex {}", v, source);
   }
   const bool may_be_turned = has_no_orientation(embedding.signature);
-  for (int f = 0; f < mesh.F.rows(); ++f) {
-    const auto v = embedding.faces.row(f);
-    if (v.minCoeff() < 0 || v.maxCoeff() >= n_cut || !is_input_face(mesh, embedding, f, may_be_turned))
+  for (int f = 0; f < input.count(); ++f) {
+    if (!is_input_face(input[f], faces[f], embedding.source_vertex, may_be_turned))
       offences.add("face {} is not the input's face {}, cut", f, f);
   }
   return offences.check("cut_mesh");
@@ -171,8 +182,16 @@ void cover_banks(const Seam& seam, std::size_t s, std::unordered_map<int, int>& 
   }
 }
 
-// Every boundary edge of the cut mesh lies in exactly one bank; paired vertices are copies of one input
-// vertex, and paired edges have their faces on opposite sides.
+// The cut vertices of the fixed cones, the corners of a polygon.
+std::vector<int> fixed_corners(const Embedding& embedding) {
+  std::vector<int> corners;
+  for (const ConeCopies& cone : embedding.cones)
+    if (cone.kind == ConeKind::fixed) corners.insert(corners.end(), cone.copies.begin(), cone.copies.end());
+  return corners;
+}
+
+// Every boundary edge of the cut mesh lies in exactly one bank, or between fixed corners; paired vertices are
+// copies of one input vertex, and paired edges have their faces on opposite sides.
 Check seam_gluing_check(const Embedding& embedding) {
   Offences offences;
   const int n_cut = static_cast<int>(embedding.source_vertex.size());
@@ -193,11 +212,27 @@ Check seam_gluing_check(const Embedding& embedding) {
     if (offences.any()) continue;
     cover_banks(seam, s, uncovered, offences);
   }
-  if (!uncovered.empty()) {
+  if (!uncovered.empty() && fixed_corners(embedding).empty()) {
     const auto first = *std::min_element(uncovered.begin(), uncovered.end());
     offences.add("the boundary edge ({}, {}) of the cut mesh lies in no seam", first.first, first.second);
   }
   return offences.check("seam_gluing");
+}
+
+// The boundary runs once around the polygon of the fixed corners, where there are any.
+Check held_sides_check(const Embedding& embedding) {
+  const std::string name = "held_sides";
+  const std::vector<int> corners = fixed_corners(embedding);
+  if (corners.empty()) return none(name, 0, {});
+  Offences offences;
+  const std::unordered_map<int, int> next = disk_boundary(embedding, offences);
+  if (next.empty()) return none(name, 1, "the cut mesh is no disk");
+  const int start = next.begin()->first;
+  std::vector<int> boundary = {start};
+  while (next.at(boundary.back()) != start) boundary.push_back(next.at(boundary.back()));
+  const std::vector<std::string> departures =
+      departures_from_sides(embedding.positions, std::move(boundary), corners);
+  return none(name, static_cast<long long>(departures.size()), departures.empty() ? "" : departures.front());
 }
 
 // Orthogonal transforms whose determinant is that of their kind.
@@ -229,11 +264,25 @@ double max_seam_residual(const Embedding& embedding) {
   return residual;
 }
 
+// The copies of the cones' input vertices among the cut vertices, ascending.
+std::unordered_map<int, std::vector<int>> copies_of_cones(const Embedding& embedding) {
+  const int n_cut = static_cast<int>(embedding.source_vertex.size());
+  std::unordered_map<int, std::vector<int>> copies;
+  std::vector<char> is_cone(n_cut, 0);  // by input vertex
+  for (const ConeCopies& cone : embedding.cones) {
+    copies[cone.vertex];
+    if (cone.vertex >= 0 && cone.vertex < n_cut) is_cone[cone.vertex] = 1;
+  }
+  for (int v = 0; v < n_cut; ++v)
+    if (const int source = embedding.source_vertex[v]; is_cone[source]) copies[source].push_back(v);
+  return copies;
+}
+
 // The marks are those of the signature, in its order, and name all copies of their vertices.
 Check cone_check(const Embedding& embedding) {
   Offences offences;
   try {
-    const Orbifold orbifold = parse_orbifold(embedding.signature);
+    const Orbifold orbifold = orbifold_of(embedding);
     if (orbifold.marks.size() != embedding.cones.size())
       offences.add("{} marks {} vertices, not {}", embedding.signature, orbifold.marks.size(),
                    embedding.cones.size());
@@ -243,13 +292,12 @@ Check cone_check(const Embedding& embedding) {
         offences.add("vertex {} is a {} of order {}, which {} does not ask for there", cone.vertex,
                      name(cone.kind), cone.order, embedding.signature);
     }
-  } catch (const ArgumentError& error) {
+  } catch (const Error& error) {
     offences.add("{}", error.what());
   }
+  const std::unordered_map<int, std::vector<int>> copies_of = copies_of_cones(embedding);
   for (const ConeCopies& cone : embedding.cones) {
-    std::vector<int> copies;
-    for (int v = 0; v < static_cast<int>(embedding.source_vertex.size()); ++v)
-      if (embedding.source_vertex[v] == cone.vertex) copies.push_back(v);
+    const std::vector<int>& copies = copies_of.at(cone.vertex);
     std::vector<int> named = cone.copies;
     std::sort(named.begin(), named.end());
     if (copies.empty() || copies != named)
@@ -286,7 +334,7 @@ Check group_check(const Embedding& embedding) {
   const std::string name = "group_order";
   const double expected = embedding.group_order;
   try {
-    const int of_signature = parse_orbifold(embedding.signature).group_order;
+    const int of_signature = orbifold_of(embedding).group_order;
     if (of_signature != embedding.group_order)
       return {name, false, expected, static_cast<double>(of_signature),
               fmt::format("{} has a group of order {}, not {}", embedding.signature, of_signature,
@@ -303,7 +351,9 @@ Check group_check(const Embedding& embedding) {
   }
 }
 
-Check orientation_check(const Embedding& embedding, std::vector<int>& nonpositive) {
+// face_of: the input face of every triangle, where it is not the triangle itself.
+Check orientation_check(const Embedding& embedding, const std::vector<int>& face_of,
+                        std::vector<int>& nonpositive) {
   const Points& X = embedding.positions;
   std::vector<char> positive(embedding.faces.rows());
   parallel_ranges(static_cast<int>(positive.size()), [&](int begin, int end) {
@@ -313,21 +363,40 @@ Check orientation_check(const Embedding& embedding, std::vector<int>& nonpositiv
     }
   });
   for (int f = 0; f < static_cast<int>(positive.size()); ++f)
-    if (!positive[f]) nonpositive.push_back(f);
+    if (!positive[f]) nonpositive.push_back(face_of.empty() ? f : face_of[f]);
+  nonpositive.erase(std::unique(nonpositive.begin(), nonpositive.end()), nonpositive.end());
   const std::string first = nonpositive.empty()
                                 ? std::string()
                                 : fmt::format("face {} is not positively oriented", nonpositive.front());
   return none("positive_faces", static_cast<long long>(nonpositive.size()), first);
 }
 
+// Puts polygons that are not convex among the faces that are not positively oriented.
+Check convexity_check(const Embedding& embedding, std::vector<int>& nonpositive) {
+  const std::vector<ConcaveCorner> concave = concave_corners(embedding, straight_bound);
+  for (const ConcaveCorner& corner : concave) nonpositive.push_back(corner.face);
+  std::sort(nonpositive.begin(), nonpositive.end());
+  nonpositive.erase(std::unique(nonpositive.begin(), nonpositive.end()), nonpositive.end());
+  const std::string first = concave.empty() ? std::string()
+                                            : fmt::format("face {} is not convex at vertex {}",
+                                                          concave.front().face, concave.front().vertex);
+  return none("convex_faces", static_cast<long long>(concave.size()), first);
+}
+
 Check edge_length_check(const Embedding& embedding, double& longest) {
   const Points& X = embedding.positions;
-  const Faces& F = embedding.faces;
-  const int halfedges = static_cast<int>(F.size());
-  const auto squared_chord = [&](int h) { return (X.row(origin(F, h)) - X.row(target(F, h))).squaredNorm(); };
-  const double widest = parallel_max(halfedges, squared_chord);
-  longest = parallel_max(halfedges, [&](int h) {
-    return squared_chord(h) < widest ? 0.0 : arc_length(X.row(origin(F, h)), X.row(target(F, h)));
+  const FaceView faces = embedding.input_faces();
+  const auto squared_chord = [&](int a, int b) { return (X.row(a) - X.row(b)).squaredNorm(); };
+  const auto largest = [&](int f, const auto& length) {
+    double result = 0;
+    int a = faces[f].back();
+    for (const int b : faces[f]) result = std::max(result, length(std::exchange(a, b), b));
+    return result;
+  };
+  const double widest = parallel_max(faces.count(), [&](int f) { return largest(f, squared_chord); });
+  longest = parallel_max(faces.count(), [&](int f) {
+    return largest(
+        f, [&](int a, int b) { return squared_chord(a, b) < widest ? 0.0 : arc_length(X.row(a), X.row(b)); });
   });
   Check check = {"edge_lengths", longest < pi, longest, pi, {}};
   if (!check.passed) check.detail = "an edge is not shorter than pi";
@@ -352,27 +421,88 @@ bool all_passed(const std::vector<Check>& checks) {
   return std::all_of(checks.begin(), checks.end(), [](const Check& check) { return check.passed; });
 }
 
-}  // namespace
-
-Certificate certify(const Mesh& mesh, const Embedding& embedding) {
-  Certificate certificate;
+// That the cut mesh is the input's; false where nothing else can be computed safely.
+bool check_input(int vertex_count, const FaceView& faces, const Embedding& embedding,
+                 Certificate& certificate) {
   certificate.expected_area = 4 * pi / embedding.group_order;
+  certificate.checks.push_back(cut_mesh_check(vertex_count, faces, embedding));
+  certificate.checks.push_back(unit_check(embedding.positions));
+  return all_passed(certificate.checks);
+}
+
+// That seams or held sides glue the cut mesh to a surface; false as before. triangles: the embedding, its
+// polygons divided.
+bool check_gluing(const Embedding& embedding, const Embedding& triangles, Certificate& certificate) {
   std::vector<Check>& checks = certificate.checks;
-  checks.push_back(cut_mesh_check(mesh, embedding));
-  checks.push_back(unit_check(embedding.positions));
-  if (!all_passed(checks)) return certificate;  // nothing else can be computed safely
-  checks.push_back(seam_gluing_check(embedding));
+  checks.push_back(seam_gluing_check(triangles));
   checks.push_back(transform_check(embedding.seams));
   checks.push_back(cone_check(embedding));
-  if (!all_passed(checks)) return certificate;
+  if (!all_passed(checks)) return false;
+  certificate.expected_area = area(orbifold_of(embedding));
+  checks.push_back(held_sides_check(embedding));
   checks.push_back(group_check(embedding));
   certificate.max_seam_residual = max_seam_residual(embedding);
   checks.push_back(at_most("seam_residual", certificate.max_seam_residual, seam_bound));
-  checks.push_back(orientation_check(embedding, certificate.nonpositive_faces));
+  return true;
+}
+
+// That the images of the surface's faces cover the tile once. face_of: the face that each triangle is part
+// of, or empty.
+void check_faces(const Embedding& embedding, const Embedding& triangles, const std::vector<int>& face_of,
+                 Certificate& certificate) {
+  std::vector<Check>& checks = certificate.checks;
+  checks.push_back(orientation_check(triangles, face_of, certificate.nonpositive_faces));
   checks.push_back(edge_length_check(embedding, certificate.max_edge_length));
-  checks.push_back(angle_check(embedding));
-  checks.push_back(area_check(embedding, certificate));
+  checks.push_back(angle_check(triangles));
+  checks.push_back(area_check(triangles, certificate));
   certificate.bijective = all_passed(checks);
+}
+
+// Flips of the mesh's edges lead to the triangulation's faces, whose corners are unit vectors.
+bool check_layout(const Embedding& layout, const IntrinsicTriangulation& triangulation,
+                  Certificate& certificate) {
+  Offences offences;
+  for (int h = 0; h < static_cast<int>(triangulation.F.size()); ++h)
+    if (layout.source_vertex[h] != origin(triangulation.F, h))
+      offences.add("flips do not lead to face {} of the triangulation", h / 3);
+  certificate.checks.push_back(offences.check("flips"));
+  Check unit = unit_check(layout.positions);
+  unit.name = "unit_corners";
+  certificate.checks.push_back(unit);
+  return all_passed(certificate.checks);
+}
+
+}  // namespace
+
+Certificate certify(int vertex_count, const FaceView& faces, const Embedding& embedding) {
+  Certificate certificate;
+  if (!check_input(vertex_count, faces, embedding, certificate)) return certificate;
+  std::optional<DividedPolygons> polygons;
+  if (embedding.polygons.count() > 0) polygons = divide_from_middles(embedding);
+  const Embedding& triangles = polygons ? polygons->embedding : embedding;
+  if (!check_gluing(embedding, triangles, certificate)) return certificate;
+  check_faces(embedding, triangles, polygons ? polygons->face_of : std::vector<int>(), certificate);
+  if (polygons) certificate.checks.push_back(convexity_check(embedding, certificate.nonpositive_faces));
+  certificate.bijective = all_passed(certificate.checks);
+  return certificate;
+}
+
+Certificate certify(const Mesh& mesh, const Embedding& embedding) {
+  return certify(static_cast<int>(mesh.V.rows()), FaceView(mesh.F), embedding);
+}
+
+Certificate certify(const PolygonMesh& mesh, const Embedding& embedding) {
+  return certify(mesh.vertex_count(), FaceView(mesh.corners, mesh.face_start), embedding);
+}
+
+Certificate certify_intrinsic(const Mesh& mesh, const Embedding& embedding,
+                              const IntrinsicTriangulation& triangulation) {
+  Certificate certificate;
+  if (!check_input(static_cast<int>(mesh.V.rows()), FaceView(mesh.F), embedding, certificate))
+    return certificate;
+  if (!check_gluing(embedding, embedding, certificate)) return certificate;
+  const Embedding layout = laid_out(mesh, embedding, triangulation);
+  if (check_layout(layout, triangulation, certificate)) check_faces(layout, layout, {}, certificate);
   return certificate;
 }
 

@@ -1,35 +1,56 @@
 // SPDX-License-Identifier: MIT
 #include "orbitutte/verify/energy.h"
 
+#include "orbitutte/mesh/cone_weights.h"
+#include "orbitutte/orbifold/signature.h"
+#include "orbitutte/verify/edge_images.h"
+#include "orbitutte/verify/edge_images.h"
+#include "orbitutte/verify/laid_out.h"
 #include "orbitutte/verify/spherical_triangle.h"
 
 namespace orbitutte {
 namespace {
 
-// The edge of the uncut mesh of every half-edge of the cut one; edges as `connect` numbers those of the
-// input.
-std::vector<int> source_edges(const Embedding& embedding) {
-  Faces F = embedding.faces;
-  for (int& v : F.reshaped()) v = embedding.source_vertex[v];
-  return connect(F, F.maxCoeff() + 1).edge_of;
+// Of faces whose corners have positions of their own; an edge is as long in one of its faces as in the other.
+double energy_of_layout(const Embedding& layout, const std::vector<int>& edge_of, const Eigen::VectorXd& w) {
+  std::vector<char> done(w.size(), 0);
+  double energy = 0;
+  for (int h = 0; h < static_cast<int>(edge_of.size()); ++h) {
+    if (std::exchange(done[edge_of[h]], 1)) continue;
+    const double d = arc_length(layout.positions.row(h), layout.positions.row(next_halfedge(h)));
+    energy += w[edge_of[h]] * d * d;
+  }
+  return energy;
 }
 
 }  // namespace
 
 double dirichlet_energy(const Connectivity& connectivity, const EdgeWeights& weights,
                         const Embedding& embedding) {
-  const Faces& F = embedding.faces;
-  const std::vector<int> edge_of = source_edges(embedding);
-  std::vector<char> done(connectivity.edges.size(), 0);
   double energy = 0;
-  for (int h = 0; h < static_cast<int>(F.size()); ++h) {
-    const int e = edge_of[h];
-    if (done[e]) continue;
-    done[e] = 1;
-    const double d = arc_length(embedding.positions.row(origin(F, h)), embedding.positions.row(target(F, h)));
+  visit_edges(connectivity, embedding, [&](int e, int a, int b) {
+    const double d = arc_length(embedding.positions.row(a), embedding.positions.row(b));
     energy += weights.w[e] * d * d;
-  }
+  });
   return energy;
+}
+
+EdgeWeights weights_of(const Mesh& mesh, const Connectivity& connectivity, const WeightOptions& options,
+                       const Embedding& embedding) {
+  std::vector<Mark> marks;
+  for (const ConeCopies& cone : embedding.cones) marks.push_back({cone.order, cone.kind});
+  const std::vector<double> angles = metric_angles(marks);
+  std::vector<ConeAngle> cones;
+  for (std::size_t k = 0; k < angles.size(); ++k)
+    if (angles[k] > 0) cones.push_back({embedding.cones[k].vertex, angles[k]});
+  return sharpened_at_cones(edge_weights(mesh, connectivity, options), cones);
+}
+
+double dirichlet_energy(const Mesh& mesh, const Connectivity& connectivity, const EdgeWeights& weights,
+                        const Embedding& embedding) {
+  if (!weights.triangulation) return dirichlet_energy(connectivity, weights, embedding);
+  const std::vector<int>& edge_of = weights.triangulation->connectivity.edge_of;
+  return energy_of_layout(laid_out(mesh, embedding, *weights.triangulation), edge_of, weights.w);
 }
 
 }  // namespace orbitutte

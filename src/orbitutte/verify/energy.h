@@ -12,4 +12,14 @@ namespace orbitutte {
 double dirichlet_energy(const Connectivity& connectivity, const EdgeWeights& weights,
                         const Embedding& embedding);
 
+/// The same with weights of any kind. Of intrinsic ones the edges are the geodesics of their triangulation,
+/// and d the arc length between images of their ends as laid_out has them.
+double dirichlet_energy(const Mesh& mesh, const Connectivity& connectivity, const EdgeWeights& weights,
+                        const Embedding& embedding);
+
+/// The weights of an embedding of the mesh, computed again from the mesh and, where the kind takes them into
+/// account, from the embedding's cones. Throws ArgumentError for weights of a file.
+EdgeWeights weights_of(const Mesh& mesh, const Connectivity& connectivity, const WeightOptions& options,
+                       const Embedding& embedding);
+
 }  // namespace orbitutte

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Fixed boundaries (theorem 1): a disk onto a convex spherical polygon, its boundary held on the polygon's
+// sides. No symmetry is left, so the polygon takes the place of an orbifold whose group is the identity.
+#pragma once
+
+#include <vector>
+
+#include "orbitutte/orbifold/tile.h"
+
+namespace orbitutte {
+
+/// The polygon with these corners, counterclockwise seen from outside, as the vertices follow each other
+/// along the mesh's boundary; its marks are the corners, fixed. Throws MeshError, naming the vertex, unless
+/// they are three or more different vertices at unit vectors (to 1e-12), neighbours neither equal nor
+/// opposite, and the polygon is convex (straight corners are allowed), lies in an open hemisphere and goes
+/// around once.
+Orbifold polygon_orbifold(const std::vector<PolygonCorner>& corners);
+
+/// The vertices of a polygon's corners, to be marked.
+std::vector<int> corner_vertices(const Orbifold& polygon);
+
+/// The polygon as a tile whose sides are held. Throws MeshError naming a vertex where the boundary meets the
+/// corners in another order (`arrangement`, as in basic_tile) than the polygon has them.
+Tile polygon_tile(const std::vector<PolygonCorner>& corners, const std::vector<int>& arrangement);
+
+/// What an embedding claims to be embedded into: by its signature, and for a polygon by its fixed cones and
+/// where they are. Throws ArgumentError and MeshError where that is nothing.
+Orbifold orbifold_of(const Embedding& embedding);
+
+/// 4 pi/|G|; of a polygon the sum of its interior angles less (n - 2) pi.
+double area(const Orbifold& orbifold);
+
+}  // namespace orbitutte

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/verify/cover.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "orbitutte/verify/edge_images.h"
+#include "orbitutte/verify/spherical_triangle.h"
+
+namespace orbitutte {
+namespace {
+
+int element(const SymmetryGroup& group, const Matrix3& matrix) {
+  const int g = group.find(matrix);
+  if (g < 0) throw ArgumentError("a transform does not belong to the symmetry group");
+  return g;
+}
+
+// position(to) = transform * position(from), for two cut vertices that a seam pairs.
+struct Passage {
+  int to;
+  Matrix3 transform;
+};
+
+// Both directions of every pair.
+std::vector<std::vector<Passage>> passages(const Embedding& embedding) {
+  std::vector<std::vector<Passage>> from(embedding.source_vertex.size());
+  for (const Seam& seam : embedding.seams) {
+    for (std::size_t k = 0; k < seam.left.size(); ++k) {
+      from[seam.right[k]].push_back({seam.left[k], seam.transform});
+      from[seam.left[k]].push_back({seam.right[k], seam.transform.transpose()});
+    }
+  }
+  return from;
+}
+
+// Where the cut vertices lie in the cover: cut vertex c is copy lift[c] of its source vertex.
+class Lifting {
+ public:
+  Lifting(const Embedding& embedding, const SymmetryGroup& group)
+      : stabilizers(group_vertices(embedding)),
+        lift(embedding.source_vertex.size(), unknown),
+        embedding_(embedding),
+        group_(group),
+        passages_(passages(embedding)) {
+    for (int v = 0; v < static_cast<int>(stabilizers.size()); ++v) follow_seams(v);
+    for (int c = 0; c < static_cast<int>(lift.size()); ++c)
+      if (lift[c] == unknown)
+        throw MeshError(
+            fmt::format("no seams lead from vertex {} to its copy {}", embedding.source_vertex[c], c));
+  }
+
+  std::vector<std::vector<int>> stabilizers;
+  std::vector<int> lift;
+
+  // The element lift(from)^-1 lift(to).
+  int between(int from, int to) const {
+    if (lift[from] == lift[to]) return identity;
+    return element(group_, group_.elements()[lift[from]].transpose() * group_.elements()[lift[to]]);
+  }
+
+ private:
+  static constexpr int unknown = -1, identity = 0;
+
+  // One list for every source vertex; the first cut vertices are the source vertices.
+  static std::vector<std::vector<int>> group_vertices(const Embedding& embedding) {
+    int vertices = 0;
+    for (const int source : embedding.source_vertex) vertices = std::max(vertices, source + 1);
+    return std::vector<std::vector<int>>(vertices);
+  }
+
+  // Every closed way through the seams brings v back to itself by an element of its stabilizer; those that
+  // close with the last step of a search generate it.
+  void follow_seams(int v) {
+    lift[v] = identity;
+    std::vector<int> reached = {v};
+    for (std::size_t k = 0; k < reached.size(); ++k) {
+      const Matrix3& here = group_.elements()[lift[reached[k]]];
+      for (const auto& [to, transform] : passages_[reached[k]]) {
+        const Matrix3 there = transform * here;
+        if (lift[to] == unknown) {
+          lift[to] = element(group_, there);
+          reached.push_back(to);
+          continue;
+        }
+        const int loop = element(group_, group_.elements()[lift[to]].transpose() * there);
+        if (loop != identity) stabilizers[v].push_back(loop);
+      }
+    }
+  }
+
+  const Embedding& embedding_;
+  const SymmetryGroup& group_;
+  std::vector<std::vector<Passage>> passages_;
+};
+
+Eigen::VectorXd vertex_areas(const Embedding& embedding, int vertices) {
+  Eigen::VectorXd area = Eigen::VectorXd::Zero(vertices);
+  const Points& X = embedding.positions;
+  for (int f = 0; f < embedding.faces.rows(); ++f) {
+    const auto v = embedding.faces.row(f);
+    const double third = std::abs(signed_area(X.row(v[0]), X.row(v[1]), X.row(v[2]))) / 3;
+    for (int k = 0; k < 3; ++k) area[embedding.source_vertex[v[k]]] += third;
+  }
+  return area;
+}
+
+// Every edge as one of its faces has it, from its origin by the element lift(origin)^-1 lift(target).
+std::vector<CoverEdge> cover_edges(const Connectivity& connectivity, const EdgeWeights& weights,
+                                   const Embedding& embedding, const Lifting& lifting) {
+  std::vector<CoverEdge> edges;
+  edges.reserve(connectivity.edges.size());
+  visit_edges(connectivity, embedding, [&](int e, int from, int to) {
+    edges.push_back({embedding.source_vertex[from], embedding.source_vertex[to], lifting.between(from, to), weights.w[e],
+                     arc_length(embedding.positions.row(from), embedding.positions.row(to))});
+  });
+  return edges;
+}
+
+}  // namespace
+
+Cover cover_of(const Connectivity& connectivity, const EdgeWeights& weights, const Embedding& embedding,
+               const SymmetryGroup& group) {
+  Lifting lifting(embedding, group);
+  const int vertices = static_cast<int>(lifting.stabilizers.size());
+  std::vector<CoverEdge> edges = cover_edges(connectivity, weights, embedding, lifting);
+  return {embedding.positions.topRows(vertices), std::move(lifting.stabilizers),
+          vertex_areas(embedding, vertices), std::move(edges)};
+}
+
+}  // namespace orbitutte

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// The inertia by MUMPS, in binaries that were built with it (ORBITUTTE_HAS_MUMPS).
+#pragma once
+
+#include <memory>
+
+#include "orbitutte/verify/inertia.h"
+
+namespace orbitutte {
+
+/// As inertia_counter. The sequential MUMPS keeps state of its own: counters take turns, on any thread.
+std::unique_ptr<InertiaCounter> mumps_inertia_counter(const SymmetricMatrix& lower,
+                                                      const Eigen::VectorXd& scale);
+
+}  // namespace orbitutte

@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: MIT
+// N. Aigerman, S. Z. Kovalsky, Y. Lipman, "Spherical Orbifold Tutte Embeddings" (2017), theorem 2; after L.
+// Lovasz, "Steinitz representations of polyhedra and the Colin de Verdiere number", Journal of Combinatorial
+// Theory B 82 (2001).
+#include "orbitutte/verify/theorem2.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <numbers>
+
+#include "orbitutte/orbifold/representations.h"
+#include "orbitutte/verify/cover.h"
+
+namespace orbitutte {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using std::numbers::pi;
+
+constexpr double first_shift = 0.5, shift_ratio = 0.25, least_shift = 1e-6, residual_margin = 10;
+constexpr double least_scale = 1e-12;  // in units of a vertex's off-diagonal entries
+constexpr double no_entry = 1e-13;     // what rounding leaves of the zeros in rho(g)
+
+double over_sine(double d) { return d == 0 ? 1 : d / std::sin(d); }
+double times_cotangent(double d) { return d == 0 ? 1 : d / std::tan(d); }
+
+// W_ij with the sign turned: w d / sin d.
+double coupling(const CoverEdge& e) { return e.weight * over_sine(e.length); }
+// What the edge adds to W_ii and W_jj: w d cot d.
+double diagonal_part(const CoverEdge& e) { return e.weight * times_cotangent(e.length); }
+
+template <typename Term>
+VectorXd sum_at_vertices(const Cover& cover, const Term& term) {
+  VectorXd sum = VectorXd::Zero(cover.positions.rows());
+  for (const CoverEdge& e : cover.edges) {
+    sum[e.i] += term(e);
+    sum[e.j] += term(e);
+  }
+  return sum;
+}
+
+// E / (2 A), which is 1 for conformal maps.
+double energy_over_area(const Cover& cover) {
+  double energy = 0;
+  for (const CoverEdge& e : cover.edges) energy += e.weight * e.length * e.length;
+  return energy / (2 * cover.area.sum());
+}
+
+// The diagonal of D, by vertex.
+VectorXd vertex_scale(const Cover& cover) {
+  return energy_over_area(cover) * cover.area + least_scale * sum_at_vertices(cover, coupling);
+}
+
+// The rows of W times the coordinates, at one vertex of every orbit; nothing but rounding at a stationary
+// map.
+Points coordinate_residuals(const Cover& cover, const SymmetryGroup& group) {
+  Points r = Points::Zero(cover.positions.rows(), 3);
+  const Points& X = cover.positions;
+  for (const CoverEdge& e : cover.edges) {
+    const Matrix3& g = group.elements()[e.g];
+    r.row(e.i) += diagonal_part(e) * X.row(e.i) - coupling(e) * X.row(e.j) * g.transpose();
+    r.row(e.j) += diagonal_part(e) * X.row(e.j) - coupling(e) * X.row(e.i) * g;
+  }
+  return r;
+}
+
+// The group's own action on space.
+Representation space(const SymmetryGroup& group) {
+  Representation result;
+  result.dimension = 3;
+  result.matrices.assign(group.elements().begin(), group.elements().end());
+  return result;
+}
+
+// |D^-1/2 W X| in the Frobenius norm, over the |G| sheets: at a vertex with a stabilizer, the sum over its
+// edges in the cover is what the stabilizer fixes of the sum over its edges here.
+double residual_norm(const Cover& cover, const SymmetryGroup& group, const VectorXd& scale) {
+  const Points r = coordinate_residuals(cover, group);
+  const Representation natural = space(group);
+  double square = 0;
+  for (Eigen::Index i = 0; i < r.rows(); ++i) {
+    if (scale[i] == 0) continue;  // no edge leads there
+    const std::vector<int>& stabilizer = cover.stabilizers[i];
+    const double norm =
+        stabilizer.empty() ? r.row(i).norm() : (r.row(i) * fixed_vectors(natural, stabilizer)).norm();
+    square += norm * norm / scale[i];
+  }
+  return std::sqrt(group.order() * square);
+}
+
+// X'DX over the |G| sheets, X the coordinates of all vertices.
+Matrix3 coordinate_gram(const Cover& cover, const SymmetryGroup& group, const VectorXd& scale) {
+  const Matrix3 here = cover.positions.transpose() * scale.asDiagonal() * cover.positions;
+  Matrix3 sum = Matrix3::Zero();
+  for (const Matrix3& g : group.elements()) sum += g * here * g.transpose();
+  return sum;
+}
+
+// Three eigenvalues lie within this of zero.
+double kernel_residual(const Cover& cover, const SymmetryGroup& group, const VectorXd& scale) {
+  const Eigen::SelfAdjointEigenSolver<Matrix3> gram(coordinate_gram(cover, group, scale));
+  return residual_norm(cover, group, scale) / std::sqrt(gram.eigenvalues()[0]);
+}
+
+// The unknowns of one representation: vertex i has those from start[i] on, coordinates in basis[i].
+struct Unknowns {
+  std::vector<int> start;       // n + 1
+  std::vector<MatrixXd> basis;  // n; empty where it is the whole space's own
+
+  int of(int i) const { return start[i + 1] - start[i]; }
+  int count() const { return start.back(); }
+};
+
+Unknowns unknowns_of(const Cover& cover, const Representation& rho, const VectorXd& scale) {
+  const int n = static_cast<int>(cover.positions.rows());
+  Unknowns result = {std::vector<int>(n + 1, 0), std::vector<MatrixXd>(n)};
+  for (int i = 0; i < n; ++i) {
+    int free = scale[i] == 0 ? 0 : rho.dimension;
+    if (free > 0 && !cover.stabilizers[i].empty()) {
+      result.basis[i] = fixed_vectors(rho, cover.stabilizers[i]);
+      free = static_cast<int>(result.basis[i].cols());
+    }
+    result.start[i + 1] = result.start[i] + free;
+  }
+  return result;
+}
+
+// The block of W between the unknowns of i and j.
+MatrixXd block(const CoverEdge& e, const Representation& rho, const Unknowns& unknowns) {
+  const MatrixXd &left = unknowns.basis[e.i], &right = unknowns.basis[e.j];
+  MatrixXd result = -coupling(e) * rho.matrices[e.g];
+  if (left.size() > 0) result = left.transpose() * result;
+  if (right.size() > 0) result = result * right;
+  return result;
+}
+
+using Entries = std::vector<Eigen::Triplet<double>>;
+
+void add_lower(int row, int column, double value, Entries& entries) {
+  entries.emplace_back(std::max(row, column), std::min(row, column), value);
+}
+
+// Away from the seams rho(1) = 1 does not couple the components of x.
+void add_scalar_edge(const CoverEdge& e, const Unknowns& unknowns, Entries& entries) {
+  for (int k = 0; k < unknowns.of(e.i); ++k)
+    add_lower(unknowns.start[e.i] + k, unknowns.start[e.j] + k, -coupling(e), entries);
+}
+
+void add_edge(const CoverEdge& e, const Representation& rho, const Unknowns& unknowns, Entries& entries) {
+  if (unknowns.of(e.i) == 0 || unknowns.of(e.j) == 0) return;
+  if (e.g == 0 && unknowns.basis[e.i].size() == 0 && unknowns.basis[e.j].size() == 0) {
+    add_scalar_edge(e, unknowns, entries);
+    return;
+  }
+  const MatrixXd B = block(e, rho, unknowns);
+  for (int r = 0; r < B.rows(); ++r)
+    for (int c = 0; c < B.cols(); ++c)
+      if (std::abs(B(r, c)) > no_entry * coupling(e))
+        add_lower(unknowns.start[e.i] + r, unknowns.start[e.j] + c, B(r, c), entries);
+}
+
+// A value for every unknown from one for every vertex.
+VectorXd by_unknown(const VectorXd& by_vertex, const Unknowns& unknowns) {
+  VectorXd result(unknowns.count());
+  for (Eigen::Index i = 0; i < by_vertex.size(); ++i)
+    result.segment(unknowns.start[i], unknowns.of(static_cast<int>(i))).setConstant(by_vertex[i]);
+  return result;
+}
+
+// The lower triangle of W's part.
+SymmetricMatrix assemble(const Cover& cover, const Representation& rho, const Unknowns& unknowns) {
+  Entries entries;
+  entries.reserve(unknowns.count() + cover.edges.size() * rho.dimension);
+  const VectorXd diagonal = by_unknown(sum_at_vertices(cover, diagonal_part), unknowns);
+  for (int k = 0; k < unknowns.count(); ++k) entries.emplace_back(k, k, diagonal[k]);
+  for (const CoverEdge& e : cover.edges) add_edge(e, rho, unknowns, entries);
+  SymmetricMatrix lower(unknowns.count(), unknowns.count());
+  lower.setFromTriplets(entries.begin(), entries.end());
+  return lower;
+}
+
+// Counts at smaller and smaller shifts, until no more eigenvalues lie between than coordinates belong there.
+void count_inertia(InertiaCounter& counter, double least, RepresentationInertia& part) {
+  for (double shift = first_shift; shift >= least; shift *= shift_ratio) {
+    part.shift = shift;
+    part.negative = counter.eigenvalues_below(-shift);
+    part.kernel = counter.eigenvalues_below(shift) - part.negative;
+    if (part.kernel <= part.coordinates) return;
+  }
+}
+
+// What all representations have in common.
+struct Problem {
+  const Cover& cover;
+  const SymmetryGroup& group;
+  VectorXd scale;  // n
+  double least_shift;
+  InertiaMethod method;
+};
+
+std::unique_ptr<InertiaCounter> counter_of(const Representation& rho, const Unknowns& unknowns,
+                                           const Problem& problem) {
+  return inertia_counter(assemble(problem.cover, rho, unknowns), by_unknown(problem.scale, unknowns),
+                         problem.method);
+}
+
+RepresentationInertia inertia_of(const Representation& rho, const Problem& problem) {
+  const Unknowns unknowns = unknowns_of(problem.cover, rho, problem.scale);
+  RepresentationInertia part;
+  part.dimension = rho.dimension;
+  part.multiplicity = rho.multiplicity;
+  part.unknowns = unknowns.count();
+  part.coordinates = occurrences_in_space(rho, problem.group);
+  if (part.unknowns == 0) return part;
+  count_inertia(*counter_of(rho, unknowns, problem), problem.least_shift, part);
+  return part;
+}
+
+void count_all(const Problem& problem, Theorem2& result) {
+  for (const Representation& rho : irreducible_representations(problem.group)) {
+    const RepresentationInertia part = inertia_of(rho, problem);
+    result.negative += part.multiplicity * part.negative;
+    result.kernel += part.multiplicity * part.kernel;
+    result.representations.push_back(part);
+  }
+}
+
+// A kernel that is too large is a finding where the shift could go as far down as rounding lets it.
+bool conclusive(const RepresentationInertia& part, const Problem& problem) {
+  if (part.kernel == part.coordinates) return part.shift > 0 || part.unknowns == 0;
+  return part.kernel > part.coordinates && problem.least_shift == least_shift;
+}
+
+void judge(const Problem& problem, Theorem2& result) {
+  result.status = Theorem2::Status::measured;
+  for (const RepresentationInertia& part : result.representations) {
+    if (conclusive(part, problem)) continue;
+    result.status = Theorem2::Status::inconclusive;
+    result.detail = fmt::format(
+        "no shift separates the kernel from the rest of the spectrum; the coordinates are in the kernel to "
+        "{:.1e}",
+        result.kernel_residual);
+  }
+}
+
+SymmetryGroup group_of(const Embedding& embedding) {
+  std::vector<Matrix3> generators;
+  for (const Seam& seam : embedding.seams) generators.push_back(seam.transform);
+  return {generators, embedding.group_order};
+}
+
+double longest_edge(const Cover& cover) {
+  double longest = 0;
+  for (const CoverEdge& e : cover.edges) longest = std::max(longest, e.length);
+  return longest;
+}
+
+Check count_check(std::string name, long value, long expected) {
+  Check check = {
+      std::move(name), value == expected, static_cast<double>(value), static_cast<double>(expected), {}};
+  if (!check.passed) check.detail = fmt::format("there are {}, not {}", value, expected);
+  return check;
+}
+
+}  // namespace
+
+std::string name(Theorem2::Status status) {
+  switch (status) {
+    case Theorem2::Status::measured:
+      return "measured";
+    case Theorem2::Status::inconclusive:
+      return "inconclusive";
+    case Theorem2::Status::not_run:
+      return "not run";
+  }
+  return {};
+}
+
+std::vector<Check> Theorem2::checks() const {
+  Check edges = {"theorem2_edges", max_edge_length < pi / 2, max_edge_length, pi / 2, {}};
+  if (!edges.passed) edges.detail = fmt::format("an edge is {:.6g} long, not below pi/2", max_edge_length);
+  std::vector<Check> result = {edges};
+  if (status != Status::measured) return result;
+  result.push_back(count_check("theorem2_inertia", negative, 1));
+  result.push_back(count_check("theorem2_kernel", kernel, 3));
+  return result;
+}
+
+bool Theorem2::holds() const {
+  const std::vector<Check> all = checks();
+  return status == Status::measured &&
+         std::all_of(all.begin(), all.end(), [](const Check& check) { return check.passed; });
+}
+
+Theorem2 check_theorem2(const Connectivity& connectivity, const EdgeWeights& weights,
+                        const Embedding& embedding, const Theorem2Options& options) {
+  const SymmetryGroup group = group_of(embedding);
+  const Cover cover = cover_of(connectivity, weights, embedding, group);
+  Theorem2 result;
+  result.method = options.method;
+  result.max_edge_length = longest_edge(cover);
+  if (group.order() > options.max_group_order) {
+    result.detail = fmt::format("the group has {} elements; up to {} are taken apart", group.order(),
+                                options.max_group_order);
+    return result;
+  }
+  const VectorXd scale = vertex_scale(cover);
+  result.kernel_residual = kernel_residual(cover, group, scale);
+  const double least = std::max(least_shift, residual_margin * result.kernel_residual);
+  const Problem problem = {cover, group, scale, least, options.method};
+  try {
+    count_all(problem, result);
+    judge(problem, result);
+  } catch (const InertiaNotFound& failure) {
+    result.detail = failure.what();
+  } catch (const std::bad_alloc&) {
+    result.detail = "memory ran out";
+  }
+  return result;
+}
+
+long cover_eigenvalues_below(const Connectivity& connectivity, const EdgeWeights& weights,
+                             const Embedding& embedding, double shift, const Theorem2Options& options) {
+  const SymmetryGroup group = group_of(embedding);
+  const Cover cover = cover_of(connectivity, weights, embedding, group);
+  const Problem problem = {cover, group, vertex_scale(cover), least_shift, options.method};
+  long below = 0;
+  for (const Representation& rho : irreducible_representations(group)) {
+    const Unknowns unknowns = unknowns_of(cover, rho, problem.scale);
+    if (unknowns.count() > 0)
+      below += rho.multiplicity * counter_of(rho, unknowns, problem)->eigenvalues_below(shift);
+  }
+  return below;
+}
+
+}  // namespace orbitutte

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/output/export.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <sstream>
+
+#include "orbitutte/mesh/file.h"
+#include "orbitutte/mesh/mesh_io.h"
+#include "orbitutte/mesh/ply.h"
+#include "orbitutte/output/export_files.h"
+#include "orbitutte/verify/spherical_triangle.h"
+#include "sample_embeddings.h"
+
+namespace orbitutte {
+namespace {
+
+using Eigen::Vector2d;
+using std::numbers::pi;
+using ::testing::Each;
+using ::testing::HasSubstr;
+
+const std::vector<TextureChart> charts = {TextureChart::stereographic, TextureChart::equirectangular,
+                                          TextureChart::octahedral};
+
+ExportedModel model(const std::string& signature, TextureChart chart = TextureChart::stereographic) {
+  const test::SampleEmbedding& sample = test::sample_embedding(signature);
+  return exported_model(sample.mesh, sample.embedding(), chart);
+}
+
+Vector2d uv(const TextureCoordinates& texture, Eigen::Index f, int k) {
+  return texture.uv.row(texture.of_corner[3 * f + k]);
+}
+
+Vector3 corner(const Embedding& embedding, Eigen::Index f, int k) {
+  return embedding.positions.row(embedding.faces(f, k));
+}
+
+/// The points of the sphere whose longitude and latitude, or place on the unfolded octahedron, these are.
+Vector3 from_equirectangular(const Vector2d& uv) {
+  const double longitude = 2 * pi * (uv.x() - 0.5), latitude = pi * (uv.y() - 0.5);
+  return {std::cos(latitude) * std::sin(longitude), std::sin(latitude),
+          std::cos(latitude) * std::cos(longitude)};
+}
+
+Vector3 from_octahedral(const Vector2d& uv) {
+  const Vector2d q = 2 * uv - Vector2d::Ones();
+  const double z = 1 - q.lpNorm<1>();
+  const auto unfold = [&](double a, double b) { return (a < 0 ? -1 : 1) * (1 - std::abs(b)); };
+  const Vector3 p =
+      z >= 0 ? Vector3(q.x(), q.y(), z) : Vector3(unfold(q.x(), q.y()), unfold(q.y(), q.x()), z);
+  return p.normalized();
+}
+
+TEST(TextureChart, LongitudesAndOctahedraLeadBackToTheSphere) {
+  for (const std::string& signature : test::sample_signatures()) {
+    const Embedding& embedding = test::sample_embedding(signature).embedding();
+    const TextureCoordinates longitudes = texture_coordinates(embedding, TextureChart::equirectangular),
+                             octahedron = texture_coordinates(embedding, TextureChart::octahedral);
+    for (Eigen::Index f = 0; f < embedding.faces.rows(); ++f) {
+      for (int k = 0; k < 3; ++k) {
+        const int l = (k + 1) % 3;
+        const double expected = corner(embedding, f, k).dot(corner(embedding, f, l));
+        EXPECT_NEAR(
+            from_equirectangular(uv(longitudes, f, k)).dot(from_equirectangular(uv(longitudes, f, l))),
+            expected, 1e-12);
+        EXPECT_NEAR(from_octahedral(uv(octahedron, f, k)).dot(from_octahedral(uv(octahedron, f, l))),
+                    expected, 1e-12);
+      }
+    }
+  }
+}
+
+// The stereographic projection keeps cross ratios: |ab||cd| / (|ac||bd|) of chords.
+TEST(TextureChart, StereographicCoordinatesKeepCrossRatios) {
+  for (const std::string& signature : test::sample_signatures()) {
+    const Embedding& embedding = test::sample_embedding(signature).embedding();
+    const TextureCoordinates texture = texture_coordinates(embedding, TextureChart::stereographic);
+    const auto ratio = [](const auto& a, const auto& b, const auto& c, const auto& d) {
+      return (a - b).norm() * (c - d).norm() / ((a - c).norm() * (b - d).norm());
+    };
+    for (Eigen::Index f = 0; f + 7 < embedding.faces.rows(); f += 5) {
+      const Eigen::Index g = f + 7;
+      if (embedding.faces(g, 0) == embedding.faces(f, 1) || embedding.faces(g, 0) == embedding.faces(f, 2) ||
+          embedding.faces(g, 0) == embedding.faces(f, 0))
+        continue;
+      const double flat = ratio(uv(texture, f, 0), uv(texture, f, 1), uv(texture, f, 2), uv(texture, g, 0));
+      const double round = ratio(corner(embedding, f, 0), corner(embedding, f, 1), corner(embedding, f, 2),
+                                 corner(embedding, g, 0));
+      EXPECT_NEAR(flat, round, 1e-9 * round) << signature;
+    }
+  }
+}
+
+TEST(TextureChart, CoordinatesLieInTheUnitSquareButAcrossTheDateLine) {
+  for (const std::string& signature : test::sample_signatures()) {
+    for (const TextureChart chart : charts) {
+      const TextureCoordinates texture =
+          texture_coordinates(test::sample_embedding(signature).embedding(), chart);
+      const double right = chart == TextureChart::equirectangular ? 1.5 : 1.0;
+      for (const int row : texture.of_corner) {
+        EXPECT_GE(texture.uv.row(row).minCoeff(), 0);
+        EXPECT_LE(texture.uv(row, 0), right);
+        EXPECT_LE(texture.uv(row, 1), 1);
+      }
+      EXPECT_GE(texture.max_area_distortion, 1);
+      EXPECT_TRUE(std::isfinite(texture.max_area_distortion));
+    }
+  }
+}
+
+TEST(TextureChart, NoFaceReachesAroundTheSphere) {
+  for (const std::string& signature : test::sample_signatures()) {
+    const TextureCoordinates texture =
+        texture_coordinates(test::sample_embedding(signature).embedding(), TextureChart::equirectangular);
+    for (std::size_t h = 0; h < texture.of_corner.size(); h += 3) {
+      const auto latitude = [&](std::size_t k) {
+        return std::abs(texture.uv(texture.of_corner[h + k], 1) - 0.5);
+      };
+      if (std::max({latitude(0), latitude(1), latitude(2)}) > 0.4) continue;  // it may hold a pole
+      for (int k = 0; k < 3; ++k)
+        EXPECT_LE(std::abs(texture.uv(texture.of_corner[h + k], 0) -
+                           texture.uv(texture.of_corner[h + (k + 1) % 3], 0)),
+                  0.5);
+    }
+  }
+}
+
+TEST(TextureChart, SmallTilesAreHardlyDistorted) {
+  EXPECT_LT(model("532").texture.max_area_distortion, 1.3);
+  EXPECT_LT(model("*532").texture.max_area_distortion, 1.2);
+}
+
+TEST(TextureChart, NamesAreRead) {
+  for (const TextureChart chart : charts) EXPECT_EQ(parse_texture_chart(name(chart)), chart);
+  EXPECT_THROW(parse_texture_chart("mercator"), ArgumentError);
+}
+
+class ExportFiles : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const ::testing::TestInfo& test = *::testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = std::filesystem::temp_directory_path() / (std::string("orbitutte_export_") + test.name());
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::string path(const std::string& file) const { return (folder_ / file).string(); }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(ExportFiles, ObjKeepsTheInputAndTellsSeamsInTextureCoordinatesOnly) {
+  for (const std::string& signature : test::sample_signatures()) {
+    for (const TextureChart chart : charts) {
+      const ExportedModel exported = model(signature, chart);
+      write_model(path("model.obj"), exported);
+      const Mesh back = to_triangle_mesh(read_mesh(path("model.obj")));
+      EXPECT_EQ(back.V, exported.mesh.V) << signature;
+      EXPECT_EQ(back.F, exported.mesh.F) << signature;
+    }
+  }
+}
+
+TEST_F(ExportFiles, ObjNamesACopyOfTheVertexForEveryCorner) {
+  for (const char* signature : {"532", "*22", "3*2", "5x"}) {
+    const ExportedModel exported = model(signature);
+    std::istringstream text(obj_text(exported));
+    int corners = 0;
+    for (std::string line; std::getline(text, line);) {
+      if (line.rfind("f ", 0) != 0) continue;
+      std::istringstream words(line.substr(2));
+      int vertex = 0, pair = 0;
+      for (char slash = 0; words >> vertex >> slash >> pair; ++corners)
+        EXPECT_EQ(exported.embedding.source_vertex[pair - 1], vertex - 1) << signature;
+    }
+    EXPECT_EQ(corners, 3 * exported.mesh.F.rows());
+  }
+}
+
+TEST_F(ExportFiles, PlyHoldsTheLogarithmOfTheAreaDistortion) {
+  const ExportedModel exported = model("432");
+  write_model(path("model.ply"), exported);
+  const PlyFile file = parse_ply(read_file(path("model.ply")));
+  const std::vector<double>& quality = file.find("face")->find("quality")->values;
+  ASSERT_EQ(quality.size(), exported.of_face.size());
+  for (std::size_t f = 0; f < quality.size(); ++f)
+    EXPECT_NEAR(std::exp2(quality[f]), exported.of_face[f].area, 1e-5 * exported.of_face[f].area);
+  EXPECT_EQ(file.find("vertex")->find("quality")->values.size(),
+            static_cast<std::size_t>(exported.mesh.V.rows()));
+  const Mesh back = to_triangle_mesh(read_mesh(path("model.ply")));
+  EXPECT_EQ(back.V, exported.mesh.V);
+  EXPECT_EQ(back.F, exported.mesh.F);
+}
+
+TEST_F(ExportFiles, EveryFormatIsWrittenForEveryFamily) {
+  for (const std::string& signature : test::sample_signatures()) {
+    for (const std::string file : {"m.obj", "m.glb", "m.ply", "m.VTP"}) {
+      write_model(path(file), model(signature));
+      EXPECT_GT(std::filesystem::file_size(path(file)), 1000u) << signature;
+    }
+  }
+}
+
+TEST_F(ExportFiles, OtherEndingsAndMissingFoldersAreRefused) {
+  EXPECT_THROW(write_model(path("m.fbx"), model("532")), ArgumentError);
+  EXPECT_THROW(write_model(path("no/m.obj"), model("532")), FileError);
+  EXPECT_TRUE(std::filesystem::is_empty(folder_));
+}
+
+TEST(Export, AnEmbeddingOfAnotherMeshIsRefused) {
+  const test::SampleEmbedding& sample = test::sample_embedding("532");
+  Mesh other = sample.mesh;
+  other.F.row(0).swap(other.F.row(1));
+  EXPECT_THROW(exported_model(other, sample.embedding(), TextureChart::stereographic), MeshError);
+  EXPECT_THROW(exported_model(test::icosphere(1), sample.embedding(), TextureChart::stereographic),
+               MeshError);
+}
+
+}  // namespace
+}  // namespace orbitutte
