@@ -30,6 +30,12 @@ struct TileSide {
 
   /// Does the partner run the other way?
   bool partner_reverses() const { return transform.determinant() > 0; }
+
+  /// The unit tangent to the surface that points away from the tile.
+  Vector3 outward() const {
+    return geometry == Geometry::spherical ? Vector3(-pole()) : Vector3(direction.y(), -direction.x(), 0);
+  }
+
   Vector3 pole() const {
     return start.cross(direction);
   }  ///< the unit normal of the arc's plane, towards the tile; in the plane, pole . p = 0 is the side's line
