@@ -12,7 +12,7 @@ namespace orbitutte::cli {
 struct EmbedArguments {
   std::string mesh, orbifold, cones, output, report;
   std::string polygon, spread = "arc-length";
-  std::string weights = "cotan", weights_file;
+  std::string weights = "standard", weights_file;
   double clamp = 0.01, tolerance = 1e-9;
   std::uint64_t cut_seed = 0;
   int max_iterations = 2000, threads = 0;

@@ -85,10 +85,10 @@ std::vector<int> parse_cones(const std::string& text) {
 
 WeightKind parse_weights(const std::string& text) {
   for (const WeightKind kind :
-       {WeightKind::cotan, WeightKind::delaunay, WeightKind::mean_value, WeightKind::uniform})
+       {WeightKind::standard, WeightKind::cotan, WeightKind::delaunay, WeightKind::mean_value, WeightKind::uniform})
     if (text == name(kind)) return kind;
   throw ArgumentError(
-      fmt::format("--weights is '{}'; it may be cotan, delaunay, mean-value or uniform", text));
+      fmt::format("--weights is '{}'; it may be standard, cotan, delaunay, mean-value or uniform", text));
 }
 
 Spread parse_spread(const std::string& text) {

@@ -57,7 +57,7 @@ void add_embed(CLI::App& app, int& code) {
       ->needs(polygon);
   command->add_option("-o,--output", arguments->output, "Write the embedding (binary PLY) here");
   command->add_option("--report", arguments->report, "Write the report (JSON) here");
-  command->add_option("--weights", arguments->weights, "cotan, delaunay, mean-value or uniform")
+  command->add_option("--weights", arguments->weights, "cotan, delaunay, mean-value, uniform, or standard: delaunay, and cotan where faces are no triangles")
       ->capture_default_str();
   command->add_option("--clamp", arguments->clamp, "What cotangent weights that are not positive become")
       ->capture_default_str();

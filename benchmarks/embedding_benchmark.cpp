@@ -89,6 +89,7 @@ long long peak_memory_bytes() {
 nlohmann::json run(const Arguments& arguments, const Input& input) {
   const benchmarks::Yardstick yardstick = benchmarks::measure_yardstick(input.mesh);
   EmbedOptions options;
+  options.weights.kind = WeightKind::cotan;  // those of the yardstick
   options.threads = arguments.threads;
   options.laplacian.block_size = arguments.block_size;
   reset_peak_memory();
@@ -118,6 +119,7 @@ nlohmann::json run(const Arguments& arguments, const Input& input) {
 // Two more embeddings by the solver that made the first: one with other orders, one with other cones.
 nlohmann::json run_again(const Arguments& arguments, const Input& input) {
   EmbedOptions options;
+  options.weights.kind = WeightKind::cotan;  // those of the yardstick
   options.threads = arguments.threads;
   EmbeddingSolver solver(input.mesh, options);
   nlohmann::json row = {{"mesh", arguments.mesh}, {"faces", input.mesh.F.rows()}, {"kind", "again"}};

@@ -19,7 +19,7 @@ using Matrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 Matrix laplacian(const Mesh& mesh) {
   const int n = static_cast<int>(mesh.V.rows());
   const Connectivity connectivity = connect(mesh.F, n);
-  const EdgeWeights weights = edge_weights(mesh, connectivity, {});
+  const EdgeWeights weights = edge_weights(mesh, connectivity, {WeightKind::cotan});
   std::vector<Eigen::Triplet<double, int>> entries;
   entries.reserve(connectivity.edges.size() + n);
   Eigen::VectorXd diagonal = Eigen::VectorXd::Constant(n, 1e-8);

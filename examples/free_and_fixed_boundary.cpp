@@ -36,9 +36,11 @@ int main() {
     std::vector<int> corners = sample_cones(SampleShape::mask, mesh);
     corners.resize(3);
 
-    const EmbedResult free = embed(mesh, parse_orbifold("*222"), corners);
+    EmbedOptions options;
+    options.weights.kind = WeightKind::cotan;  // the paper's
+    const EmbedResult free = embed(mesh, parse_orbifold("*222"), corners, options);
     const Orbifold triangle = polygon_orbifold(triangle_of(free.embedding));
-    const EmbedResult fixed = embed(mesh, triangle, corner_vertices(triangle));
+    const EmbedResult fixed = embed(mesh, triangle, corner_vertices(triangle), options);
 
     std::printf("%d faces\n", faces);
     print("mirrors (*222)", free);

@@ -194,7 +194,7 @@ def measure(program, run, meshes, folder):
         embedding, report = pathlib.Path(here, 'map.ply'), pathlib.Path(here, 'map.json')
         marked = cones(run, meshes)
         row['exit'], _, row['embed_seconds'] = call(program, 'embed', run.source.path, '--orbifold', run.signature, '--cones', marked,
-                                                    '--threads', 1, '--quiet', '-o', embedding, '--report', report)
+                                                    '--threads', 1, '--weights', 'cotan', '--quiet', '-o', embedding, '--report', report)
         if not report.exists():
             return row | {'marks': marked}
         row |= description(json.loads(report.read_text(encoding='utf-8')))
@@ -240,7 +240,7 @@ def table(header, rows):
 def line_of(name, rows):
     iterations = [row['iterations'] for row in rows]
     longest = max(row['theorem2']['max_edge_length'] for row in rows)
-    return [name.replace('*', '\\*'), len(rows), share(rows, lambda r: r['certified']), share(rows, edges_short),
+    return [name, len(rows), share(rows, lambda r: r['certified']), share(rows, edges_short),
             share(rows, lambda r: r['theorem2']['negative_eigenvalues'] == 1), share(rows, lambda r: r['theorem2']['kernel_dimension'] == 3),
             share(rows, lambda r: r['theorem2']['holds']), share(rows, lambda r: r['theorem2']['status'] == 'inconclusive'),
             share(rows, lambda r: r['theorem2']['status'] == 'not run'), f'{longest:.3f}', f'{statistics.median(iterations):g}', max(iterations)]
@@ -254,7 +254,7 @@ def by(name, rows):
     groups = collections.defaultdict(list)
     for row in rows:
         groups[row[name]].append(row)
-    lines = [line_of(group, members) for group, members in groups.items()]
+    lines = [line_of(group.replace('*', '\\*'), members) for group, members in groups.items()]
     return table([name] + COLUMNS, lines + [line_of('**all**', rows)])
 
 

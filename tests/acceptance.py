@@ -520,7 +520,7 @@ class Suite:
             add(f'cut-seed/{stem(mesh)}/{signature}/delaunay', self.test_cut_seed, mesh, signature, seeds, 'delaunay')
         for mesh, (topology, _, _) in self.meshes.items():
             if not quick or mesh in QUICK_WEIGHTS:
-                add(f'weights/{stem(mesh)}', self.test_weights, mesh, '432' if topology == 'sphere' else '*432')
+                add(f'weights/{stem(mesh)}', self.test_weights, mesh, {'sphere': '432', 'disk': '*432'}.get(topology, '3x'))
         if quick:
             chosen = QUICK_MESHES
         else:

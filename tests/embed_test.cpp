@@ -26,8 +26,10 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
+// With the paper's weights.
 EmbedOptions one_thread() {
   EmbedOptions options;
+  options.weights.kind = WeightKind::cotan;
   options.threads = 1;
   return options;
 }
@@ -72,6 +74,19 @@ TEST(Embed, EveryFamilyIsConvergedAndCertified) {
     EXPECT_EQ(result.embedding.signature, signature);
     EXPECT_EQ(result.minimum.history.size(), static_cast<std::size_t>(result.minimum.iterations) + 1);
     EXPECT_GE(result.minimum.evaluations, result.minimum.iterations);
+  }
+}
+
+TEST(Embed, StandardWeightsAreThoseOfTheDelaunayTriangulation) {
+  for (const std::string& signature : test::sample_signatures()) {
+    const test::SampleEmbedding& sample = test::sample_embedding(signature);
+    EmbedOptions named;
+    named.weights.kind = WeightKind::delaunay;
+    const EmbedResult standard = embedded(sample.mesh, signature, sample.marks, {}),
+                      delaunay = embedded(sample.mesh, signature, sample.marks, named);
+    expect_certified(standard, signature);
+    EXPECT_EQ(standard.weights.kind, WeightKind::delaunay);
+    EXPECT_EQ(standard.embedding.positions, delaunay.embedding.positions) << signature;
   }
 }
 
@@ -354,7 +369,7 @@ TEST(Embed, TwoRunsAndAnyNumberOfThreadsGiveTheSameBytes) {
     const test::SampleEmbedding& sample = test::sample_embedding(signature);
     const std::string before = serialize_embedding(sample.embedding());
     for (const int threads : {1, 2}) {
-      EmbedOptions options;
+      EmbedOptions options = one_thread();
       options.threads = threads;
       const EmbedResult again = embedded(sample.mesh, signature, sample.marks, options);
       EXPECT_EQ(serialize_embedding(again.embedding), before) << signature << ", threads: " << threads;

@@ -250,11 +250,20 @@ RC_GTEST_PROP(Polygons, DualsOfRandomTriangulationsAreEmbedded, ()) {
   if (!result.certificate.bijective) RC_FAIL(failures(result.certificate));
 }
 
+TEST(Polygons, StandardWeightsAreCotangents) {
+  EmbedOptions cotan;
+  cotan.weights.kind = WeightKind::cotan;
+  const EmbedResult standard = sample("432").result;
+  EXPECT_EQ(standard.weights.kind, WeightKind::cotan);
+  EXPECT_EQ(standard.embedding.positions, sample("432", cotan).result.embedding.positions);
+}
+
 TEST(Polygons, TrianglesGivenAsPolygonsAreEmbeddedToTheSameBytes) {
   for (const std::string signature : {"432", "*33", "2*3"}) {
     const test::SampleEmbedding& expected = test::sample_embedding(signature);
     EmbedOptions options;
     options.threads = 1;
+    options.weights.kind = WeightKind::cotan;
     const PolygonMesh mesh = to_polygon_mesh(expected.mesh);
     const Orbifold orbifold = parse_orbifold(signature);
     EXPECT_EQ(choose_marked_vertices(mesh, orbifold), expected.marks);
@@ -320,7 +329,7 @@ TEST(Polygons, CotangentsOfSquaresAreOne) {
   const Triangulation triangulation = triangulate(mesh);
   const Connectivity connectivity = connect(mesh, triangulation);
   const EdgeWeights weights =
-      edge_weights({mesh.V, on_vertices(triangulation, mesh.corners)}, connectivity, WeightOptions());
+      edge_weights({mesh.V, on_vertices(triangulation, mesh.corners)}, connectivity, {WeightKind::cotan});
   for (int e = 0; e < weights.w.size(); ++e)
     EXPECT_TRUE(weights.w[e] == 1 || weights.w[e] == 0.5) << weights.w[e];
   EXPECT_EQ(weights.clamped_edges, 0);

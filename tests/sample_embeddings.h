@@ -45,12 +45,13 @@ inline SampleEmbedding make_sample(const std::string& signature, const EmbedOpti
   return {mesh, marks, embed(mesh, orbifold, marks, options)};
 }
 
-/// With default options, computed once.
+/// With the paper's weights and otherwise default options, computed once.
 inline const SampleEmbedding& sample_embedding(const std::string& signature) {
   static std::map<std::string, SampleEmbedding> samples;
   const auto at = samples.find(signature);
   if (at != samples.end()) return at->second;
   EmbedOptions options;
+  options.weights.kind = WeightKind::cotan;
   options.threads = 1;
   return samples.emplace(signature, make_sample(signature, options)).first->second;
 }

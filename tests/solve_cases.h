@@ -34,7 +34,7 @@ inline std::unique_ptr<SolveCase> solve_case(const std::string& signature, const
   result->mesh = perturbed(sphere ? icosphere(2) : round_disk(7), 0.03, 7);
   result->marks = choose_marked_vertices(result->mesh, result->orbifold);
   result->connectivity = connect(result->mesh.F, vertex_count(result->mesh));
-  result->weights = edge_weights(result->mesh, result->connectivity, {});
+  result->weights = edge_weights(result->mesh, result->connectivity, {WeightKind::cotan});
   result->cut =
       cut_to_disk(result->mesh, result->connectivity, result->marks, result->orbifold.inner_marks, options);
   result->tile = basic_tile(result->orbifold, result->cut.arrangement);

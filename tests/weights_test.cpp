@@ -29,7 +29,7 @@ using test::vertex_count;
 
 Connectivity connectivity_of(const Mesh& mesh) { return connect(mesh.F, vertex_count(mesh)); }
 
-EdgeWeights weights_of(const Mesh& mesh, const WeightOptions& options = {}) {
+EdgeWeights weights_of(const Mesh& mesh, const WeightOptions& options = {WeightKind::cotan}) {
   return edge_weights(mesh, connectivity_of(mesh), options);
 }
 

@@ -101,7 +101,7 @@ DividedMesh divide(const PolygonMesh& mesh) {
 void require_weights_of_polygons(const EmbedOptions& options) {
   using enum WeightKind;
   const WeightKind kind = options.weights.kind;
-  if (!options.weights_file.empty() || kind == cotan || kind == uniform) return;
+  if (!options.weights_file.empty() || kind == standard || kind == cotan || kind == uniform) return;
   throw ArgumentError(fmt::format(
       "{} weights are not there for faces of more than three corners; take cotan or uniform, or a "
       "file of weights",
@@ -487,8 +487,11 @@ std::vector<int> far_from_each_other(const Mesh& mesh, const SoundSurface& surfa
 EmbedResult embed_prepared(const Mesh& mesh, Preparation& prepared, const Orbifold& orbifold,
                            const std::vector<int>& marked_vertices, const EmbedOptions& options) {
   if (options.threads < 0) throw ArgumentError("the number of threads must not be negative");
+  EmbedOptions chosen = options;
+  if (chosen.weights.kind == WeightKind::standard)
+    chosen.weights.kind = prepared.polygons ? WeightKind::cotan : WeightKind::delaunay;
   return with_threads(options.threads, [&] {
-    return embed_or_keep_faces(mesh, prepared, orbifold, marked_vertices, options);
+    return embed_or_keep_faces(mesh, prepared, orbifold, marked_vertices, chosen);
   });
 }
 

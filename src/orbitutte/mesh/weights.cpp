@@ -153,6 +153,8 @@ EdgeWeights weights_of_kind(const Mesh& mesh, const Connectivity& connectivity,
 
 std::string name(WeightKind kind) {
   switch (kind) {
+    case WeightKind::standard:
+      return "standard";
     case WeightKind::cotan:
       return "cotan";
     case WeightKind::delaunay:
@@ -189,6 +191,8 @@ EdgeWeights edge_weights(const Mesh& mesh, const Connectivity& connectivity, con
         fmt::format("the clamp of the weights is {}; it must be positive and finite", options.clamp));
   if (options.kind == WeightKind::file)
     throw ArgumentError("weights of the kind 'file' are read by read_weights");
+  if (options.kind == WeightKind::standard)
+    return edge_weights(mesh, connectivity, {WeightKind::delaunay, options.clamp, options.kept_faces});
   EdgeWeights result = weights_of_kind(mesh, connectivity, options);
   result.kind = options.kind;
   result.clamp = options.clamp;

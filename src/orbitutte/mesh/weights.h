@@ -10,6 +10,7 @@
 namespace orbitutte {
 
 enum class WeightKind {
+  standard,    ///< delaunay, or cotan on meshes with faces of more than three corners
   cotan,       ///< w_ij = (cot a + cot b)/2 over the angles opposite to the edge; those not positive become
                ///< `clamp`
   delaunay,    ///< the same of the intrinsic Delaunay triangulation, whose weights are nonnegative; zeros
@@ -20,11 +21,11 @@ enum class WeightKind {
   file         ///< given by the caller
 };
 
-/// "cotan", "delaunay", "mean-value", "uniform" or "file".
+/// "standard", "cotan", "delaunay", "mean-value", "uniform" or "file".
 std::string name(WeightKind kind);
 
 struct WeightOptions {
-  WeightKind kind = WeightKind::cotan;
+  WeightKind kind = WeightKind::standard;
   double clamp = 0.01;          ///< of cotangents that are not positive, > 0: the paper's value
   std::vector<int> kept_faces;  ///< of kind `delaunay`: faces whose edges are not flipped
 };
@@ -44,7 +45,7 @@ struct EdgeWeights {
 /// nothing to `cotan`; `delaunay` and `mean_value` go by mollified_lengths. Mean value weights are made
 /// symmetric, since a minimiser of an energy knows no others: they are positive, but no longer reproduce
 /// linear maps (M. Floater, "Mean value coordinates", CAGD 20 (2003)). Throws ArgumentError for a clamp that
-/// is not positive and finite, and for WeightKind::file.
+/// is not positive and finite, and for WeightKind::file. The faces are all there are, so `standard` is `delaunay`.
 EdgeWeights edge_weights(const Mesh& mesh, const Connectivity& connectivity, const WeightOptions& options);
 
 /// Cotangent weights of an intrinsic triangulation, as WeightKind::delaunay says.
