@@ -22,6 +22,7 @@
 #include "orbitutte/solve/flipped_edges.h"
 #include "orbitutte/solve/frame.h"
 #include "orbitutte/solve/initial_embedding.h"
+#include "orbitutte/solve/planar_minimum.h"
 
 namespace orbitutte {
 namespace {
@@ -256,6 +257,84 @@ void warn_of_collapse(const FaceView& faces, const std::vector<int>& collapsing,
                   unavoidable, nonpositive.size(), collapsing.front()));
 }
 
+// What has a minimiser: the mesh cut open, and a tile that its boundary is glued to.
+struct Problem {
+  const Mesh& mesh;
+  const CutMesh& cut;
+  const Orbifold& orbifold;
+  const EdgeWeights& weights;
+  std::function<GluedEdges(const BoundaryConditions&)> glued_along;
+  LaplacianOptions laplacian;
+  Tile tile;
+  BoundaryConditions boundary;
+};
+
+// The minimiser, and the tile and gluing in the frame where it lies.
+struct Placement {
+  Minimum minimum;
+  Tile tile;
+  BoundaryConditions boundary;
+};
+
+LaplacianOptions with_reuse(const EmbedOptions& options, const Preparation& prepared) {
+  LaplacianOptions laplacian = options.laplacian;
+  laplacian.reuse = prepared.laplacians;
+  return laplacian;
+}
+
+// Turns the map where the tile is free to turn: to where small spots are resolved.
+void resolve(const Problem& problem, const SphericalEnergy& energy, Placement& placed) {
+  Points& positions = placed.minimum.positions;
+  const std::optional<Matrix3> frame =
+      stays_put(placed.tile) ? std::nullopt : resolving_frame(energy, positions);
+  if (!frame) return;
+  placed.tile = rotated(placed.tile, *frame);
+  placed.boundary = glue(problem.cut, placed.tile, problem.orbifold);
+  const SphericalEnergy there(problem.glued_along(placed.boundary), problem.weights, placed.boundary);
+  positions = settle_in_frame(positions, *frame, there, placed.boundary);
+}
+
+Placement minimum_on_sphere(const Problem& problem, const EmbedOptions& options, Stages& stage) {
+  const GluedEdges glued = problem.glued_along(problem.boundary);
+  require_apart(glued, problem.boundary, problem.orbifold);
+  const SphericalEnergy energy(glued, problem.weights, problem.boundary);  // (2)
+  const LaplacianSolver laplacian = stage("factorize", [&] {
+    return LaplacianSolver(problem.cut, glued, problem.weights, problem.boundary, problem.laplacian);
+  });
+  const Points start = stage("initialize", [&] {  // appendix B
+    return initial_embedding(problem.mesh, problem.cut, problem.tile, problem.boundary, laplacian);
+  });
+  LbfgsOptions lbfgs;
+  lbfgs.tolerance = options.tolerance;
+  lbfgs.max_iterations = options.max_iterations;
+  lbfgs.callback = [&](int iteration, const Iteration& state) {
+    stage.tell({"optimize", iteration, state.energy, state.gradient_norm});
+    return true;
+  };
+  Placement placed = {{}, problem.tile, problem.boundary};
+  placed.minimum =
+      stage("optimize", [&] { return minimize(energy, laplacian, start, lbfgs); });  // algorithm 1
+  fix_gauge(placed.tile, placed.minimum.positions);
+  resolve(problem, energy, placed);
+  return placed;
+}
+
+Placement minimum_in_plane(const Problem& problem, const EmbedOptions&, Stages& stage) {
+  const GluedEdges glued = problem.glued_along(problem.boundary);
+  Placement placed = {{}, problem.tile, problem.boundary};
+  stage("optimize", [&] {
+    PlanarMinimum solution =
+        planar_minimum(problem.cut, glued, problem.weights, problem.boundary, problem.laplacian);
+    placed.minimum.positions = std::move(solution.positions);
+    placed.minimum.energy = solution.energy;
+    placed.minimum.gradient_norm = solution.gradient_norm;
+    placed.minimum.iterations = placed.minimum.evaluations = 1;
+    placed.minimum.termination = Termination::converged;  // a linear system has been solved
+    placed.minimum.history = {{solution.energy, solution.gradient_norm, 0}};
+  });
+  return placed;
+}
+
 EmbedResult embed_here(const Mesh& mesh, Preparation& prepared, const Orbifold& orbifold,
                        const std::vector<int>& marked_vertices, const EmbedOptions& options) {
   if (marked_vertices.size() != orbifold.marks.size())
@@ -293,41 +372,21 @@ EmbedResult embed_here(const Mesh& mesh, Preparation& prepared, const Orbifold& 
     prepared.cut_through = through;
   });
   const CutMesh& cut = prepared.cut;
-  Tile tile = basic_tile(orbifold, cut.arrangement);  // appendix A
-  BoundaryConditions boundary = boundary_conditions(mesh, cut, tile, orbifold, options.spread);
   const auto glued_along = [&](const BoundaryConditions& conditions) {
     return weights.triangulation
                ? flipped_edges(mesh.F, connectivity, *weights.triangulation, cut, conditions)
                : glued_edges(cut, connectivity, conditions);
   };
-  const GluedEdges glued = glued_along(boundary);
-  require_apart(glued, boundary, orbifold);
-  const SphericalEnergy energy(glued, weights, boundary);  // (2)
-  LaplacianOptions laplacian_options = options.laplacian;
-  laplacian_options.reuse = prepared.laplacians;
-  const LaplacianSolver laplacian =
-      stage("factorize", [&] { return LaplacianSolver(cut, glued, weights, boundary, laplacian_options); });
-  const Points start =
-      stage("initialize", [&] { return initial_embedding(mesh, cut, tile, boundary, laplacian); });  // B
-
-  LbfgsOptions lbfgs;
-  lbfgs.tolerance = options.tolerance;
-  lbfgs.max_iterations = options.max_iterations;
-  lbfgs.callback = [&](int iteration, const Iteration& state) {
-    stage.tell({"optimize", iteration, state.energy, state.gradient_norm});
-    return true;
-  };
-  result.minimum =
-      stage("optimize", [&] { return minimize(energy, laplacian, start, lbfgs); });  // algorithm 1
+  Tile tile = basic_tile(orbifold, cut.arrangement);  // appendix A
+  BoundaryConditions boundary = boundary_conditions(mesh, cut, tile, orbifold, options.spread);
+  const Problem problem = {mesh, cut,     orbifold, weights, glued_along, with_reuse(options, prepared),
+                           tile, boundary};
+  Placement placed = tile.geometry() == Geometry::spherical ? minimum_on_sphere(problem, options, stage)
+                                                            : minimum_in_plane(problem, options, stage);
+  result.minimum = std::move(placed.minimum);
+  tile = std::move(placed.tile);
+  boundary = std::move(placed.boundary);
   Points& positions = result.minimum.positions;
-  fix_gauge(tile, positions);
-  const std::optional<Matrix3> frame = stays_put(tile) ? std::nullopt : resolving_frame(energy, positions);
-  if (frame) {
-    tile = rotated(tile, *frame);
-    boundary = glue(cut, tile, orbifold);
-    const SphericalEnergy there(glued_along(boundary), weights, boundary);
-    positions = settle_in_frame(positions, *frame, there, boundary);
-  }
   const InputFaces faces(prepared, mesh.F), cut_faces(prepared, cut.F, cut.turned);
   const std::vector<Ear> ears = find_ears(cut_faces.view(), tile, boundary);
   result.warnings = warnings_about(weights, ears);
@@ -341,7 +400,8 @@ EmbedResult embed_here(const Mesh& mesh, Preparation& prepared, const Orbifold& 
                       cut.source_vertex,
                       boundary.seams,
                       boundary.cones,
-                      cut_faces.polygons()};
+                      cut_faces.polygons(),
+                      orbifold.geometry};
   stage("certify", [&] {
     result.certificate = certify(static_cast<int>(mesh.V.rows()), faces.view(), result.embedding);
     if (!result.certificate.bijective && weights.triangulation)

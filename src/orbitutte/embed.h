@@ -70,6 +70,8 @@ struct EmbedResult {
 /// docs/deviations.md, and judges the result. Not converging and not being bijective are results, not errors:
 /// see minimum.termination and certificate.bijective, which is true only for converged maps. Throws MeshError
 /// naming the defect and the vertex, edge or face; ArgumentError; Cancelled; std::bad_alloc.
+/// Into a Euclidean orbifold (parse_euclidean_orbifold) the energy has chords of the plane in place of arcs,
+/// and one linear solve finds its minimum.
 EmbedResult embed(const Mesh& mesh, const Orbifold& orbifold, const std::vector<int>& marked_vertices,
                   const EmbedOptions& options = {});
 

@@ -46,13 +46,14 @@ MeshError no_path(int i, int j) {
   return MeshError(fmt::format("no edge path joins the marked vertices {} and {}; mark others", i, j));
 }
 
-Path path_through(const Mesh& mesh, const EdgeGraph& graph, const std::vector<int>& marks,
-                  std::uint64_t seed) {
-  if (marks.size() == 2) {
-    Path path = shortest_path(graph, marks[0], {marks[1]});
-    if (path.empty()) throw no_path(marks[0], marks[1]);
-    return path;
-  }
+Path path_through_two(const EdgeGraph& graph, const std::vector<int>& marks) {
+  Path path = shortest_path(graph, marks[0], {marks[1]});
+  if (path.empty()) throw no_path(marks[0], marks[1]);
+  return path;
+}
+
+Path path_through_three(const Mesh& mesh, const EdgeGraph& graph, const std::vector<int>& marks,
+                        std::uint64_t seed) {
   const int middle = middle_mark(mesh, marks, seed);
   const int first = marks[(middle + 2) % 3], last = marks[(middle + 1) % 3];
   auto [back, forth] = disjoint_paths(graph, marks[middle], {first, last});
@@ -60,6 +61,80 @@ Path path_through(const Mesh& mesh, const EdgeGraph& graph, const std::vector<in
   std::reverse(back.begin(), back.end());
   back.insert(back.end(), forth.begin() + 1, forth.end());
   return back;
+}
+
+// The graph with a path drawn together to one vertex, the last, that is joined to its ends; inside it is
+// gone.
+EdgeGraph contracted(const EdgeGraph& graph, const Path& path) {
+  const int n = graph.vertex_count();
+  std::vector<char> inside(n, 0);
+  for (std::size_t k = 1; k + 1 < path.size(); ++k) inside[path[k]] = 1;
+  EdgeGraph result;
+  std::vector<std::array<int, 2>> edges;
+  const auto add = [&](int v, int w, double length) {
+    edges.push_back({v, w});
+    result.length.push_back(length);
+  };
+  for (int v = 0; v < n; ++v) {
+    for (int k = graph.neighbors.start[v]; k < graph.neighbors.start[v + 1]; ++k) {
+      const int w = graph.neighbors.neighbor[k];
+      if (v < w && !inside[v] && !inside[w]) add(v, w, graph.length[graph.neighbors.edge[k]]);
+    }
+  }
+  add(path.front(), n, 0);
+  add(path.back(), n, 0);
+  result.neighbors = neighbors(edges, n + 1);
+  return result;
+}
+
+// From one mark to another by a shortest path, and from its ends, by disjoint paths, to the others.
+Path path_through_four(const EdgeGraph& graph, const std::vector<int>& marks, int first, int second) {
+  std::vector<int> others;
+  EdgeGraph inner = graph;
+  inner.dead_end.assign(graph.vertex_count(), 0);
+  for (const int mark : marks) {
+    if (mark == marks[first] || mark == marks[second]) continue;
+    others.push_back(mark);
+    inner.dead_end[mark] = 1;
+  }
+  const Path middle = shortest_path(inner, marks[first], {marks[second]});
+  if (middle.empty()) return {};
+  auto [back, forth] =
+      disjoint_paths(contracted(graph, middle), graph.vertex_count(), {others[0], others[1]});
+  if (back.empty()) return {};
+  if (back[1] != middle.front()) std::swap(back, forth);
+  Path path(back.rbegin(), back.rend() - 2);  // without the vertex that stands for the path, and its end
+  path.insert(path.end(), middle.begin(), middle.end());
+  path.insert(path.end(), forth.begin() + 2, forth.end());
+  return path;
+}
+
+double straight_length(const Mesh& mesh, const Path& path) {
+  double length = 0;
+  for (std::size_t k = 1; k < path.size(); ++k) length += straight_distance(mesh, path[k - 1], path[k]);
+  return length;
+}
+
+// The shortest over the choices of the two marks in the middle; two that lie on the surface such that one way
+// is barred can be joined in another.
+Path shortest_path_through_four(const Mesh& mesh, const EdgeGraph& graph, const std::vector<int>& marks) {
+  Path best;
+  for (int first = 0; first < 4; ++first) {
+    for (int second = first + 1; second < 4; ++second) {
+      const Path path = path_through_four(graph, marks, first, second);
+      if (!path.empty() && (best.empty() || straight_length(mesh, path) < straight_length(mesh, best)))
+        best = path;
+    }
+  }
+  if (best.empty()) throw no_path(marks[0], marks[1]);
+  return best;
+}
+
+Path path_through(const Mesh& mesh, const EdgeGraph& graph, const std::vector<int>& marks,
+                  std::uint64_t seed) {
+  if (marks.size() == 2) return path_through_two(graph, marks);
+  if (marks.size() == 3) return path_through_three(mesh, graph, marks, seed);
+  return shortest_path_through_four(mesh, graph, marks);
 }
 
 // A half-edge that leaves each vertex (-1 where no face uses it); at boundary vertices the one on the
@@ -106,10 +181,10 @@ void check_marks_of_disk(const std::vector<int>& marks, int inner_marks,
 }
 
 void check_number_of_marks(const std::vector<int>& marks, bool one_sided) {
-  const std::size_t fewest = one_sided ? 1 : 2, most = one_sided ? 1 : 3;
+  const std::size_t fewest = one_sided ? 1 : 2, most = one_sided ? 1 : 4;
   if (marks.size() < fewest || marks.size() > most)
     throw MeshError(fmt::format("{} marked vertices on a {}", marks.size(),
-                                one_sided ? "projective plane; mark one" : "sphere; mark two or three"));
+                                one_sided ? "projective plane; mark one" : "sphere; mark two to four"));
 }
 
 // From the mark inside a disk to the nearest vertex of the boundary that is not marked; a path that met the

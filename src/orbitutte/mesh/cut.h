@@ -33,12 +33,12 @@ struct CutOptions {
 /// Cuts so that every marked vertex lies on the boundary of a disk. The first `inner_marks` of the marks lie
 /// inside the surface, the others on its boundary.
 /// A sphere with two marks is cut along the shortest edge path between them; with three, along two disjoint
-/// paths from one of them to the other two. A disk whose marks are on its boundary is left as it is; one with
-/// a mark inside is cut along the shortest edge path from it to a vertex of the boundary that is not marked,
-/// and meets the boundary nowhere else. A projective plane with one mark is cut along a one-sided loop
-/// through it, and its faces are turned so that those of the disk agree (see one_sided_loop). Throws
-/// MeshError for marks that are not vertices of a face, repeated, too few or too many, or not where they have
-/// to be.
+/// paths from one of them to the other two; with four, along a path between two of them that disjoint paths
+/// extend to the others. A disk whose marks are on its boundary is left as it is; one with a mark inside is
+/// cut along the shortest edge path from it to a vertex of the boundary that is not marked, and meets the
+/// boundary nowhere else. A projective plane with one mark is cut along a one-sided loop through it, and its
+/// faces are turned so that those of the disk agree (see one_sided_loop). Throws MeshError for marks that are
+/// not vertices of a face, repeated, too few or too many, or not where they have to be.
 CutMesh cut_to_disk(const Mesh& mesh, const Connectivity& connectivity, const std::vector<int>& marks,
                     int inner_marks, const CutOptions& options = {});
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// A map of a cut mesh onto the basic tile of a spherical orbifold S^2/G: what is certified, measured, tiled
+// A map of a cut mesh onto the basic tile of an orbifold, S^2/G or R^2/G: what is certified, measured, tiled
 // and written.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "orbitutte/types.h"
+#include "orbitutte/orbifold/geometry.h"
 
 namespace orbitutte {
 
@@ -21,7 +21,7 @@ std::string name(SeamKind kind);
 struct Seam {
   std::vector<int> left;                    ///< cut vertices
   std::vector<int> right;                   ///< cut vertices, as many as in left
-  Matrix3 transform = Matrix3::Identity();  ///< an element of O(3)
+  Matrix3 transform = Matrix3::Identity();  ///< an element of O(3), or an isometry of the plane
 
   SeamKind kind() const;
 };
@@ -41,8 +41,8 @@ struct ConeCopies {
 
 struct Embedding {
   std::string signature;  ///< Conway's symbol
-  int group_order = 1;    ///< |G|
-  Points positions;       ///< n_cut x 3, on the unit sphere; vertices that no face uses sit at the north pole
+  int group_order = 1;    ///< |G|; 0 in the plane, where it is infinite
+  Points positions;  ///< n_cut x 3, on the unit sphere (or z = 1); vertices that no face uses sit at (0, 0, 1)
   Faces faces;  ///< m x 3, the faces of the input in their order, on cut vertices; polygons in triangles
   std::vector<int>
       source_vertex;  ///< n_cut: the input vertex; the first n cut vertices are the input vertices
@@ -50,6 +50,7 @@ struct Embedding {
   std::vector<ConeCopies> cones;
   Polygons polygons;  ///< the faces of the input in their order, on cut vertices, where some have more than
                       ///< three corners; none where all are triangles
+  Geometry geometry = Geometry::spherical;
 
   /// The faces of the input, on cut vertices.
   FaceView input_faces() const { return polygons.count() > 0 ? FaceView(polygons) : FaceView(faces); }

@@ -21,11 +21,12 @@ struct Family {
   Tile (*tile)(const std::vector<int>& orders, const std::vector<int>& marks);
   bool cut_to_mirror = false;  ///< the second corner of the tile is the end of the cut on the mirror
   int smallest_order = 2;      ///< that N may be
+  Geometry geometry = Geometry::spherical;
 };
 
 const std::vector<Family>& family_table();
 
-/// The row that the symbol belongs to, or null.
-const Family* find_family(const ConwaySymbol& symbol);
+/// The row of this geometry that the symbol belongs to, or null.
+const Family* find_family(const ConwaySymbol& symbol, Geometry geometry = Geometry::spherical);
 
 }  // namespace orbitutte

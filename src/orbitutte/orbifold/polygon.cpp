@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <unordered_set>
 
 namespace orbitutte {
@@ -195,6 +196,7 @@ Tile polygon_tile(const std::vector<PolygonCorner>& corners, const std::vector<i
 }
 
 Orbifold orbifold_of(const Embedding& embedding) {
+  if (embedding.geometry == Geometry::euclidean) return parse_euclidean_orbifold(embedding.signature);
   if (embedding.signature != polygon_signature) return parse_orbifold(embedding.signature);
   Corners corners;
   for (const ConeCopies& cone : embedding.cones)
@@ -202,7 +204,24 @@ Orbifold orbifold_of(const Embedding& embedding) {
   return polygon_orbifold(corners);
 }
 
+namespace {
+
+// Of a plane polygon: half the sum of the cross products of neighbouring corners.
+double plane_area(const Tile& tile) {
+  double twice = 0;
+  for (std::size_t k = 0; k < tile.sides.size(); ++k)
+    twice += tile.sides[k].start.cross(tile.sides[(k + 1) % tile.sides.size()].start).z();
+  return twice / 2;
+}
+
+}  // namespace
+
 double area(const Orbifold& orbifold) {
+  if (orbifold.geometry == Geometry::euclidean) {
+    std::vector<int> any(orbifold.marks.size());
+    std::iota(any.begin(), any.end(), 0);
+    return plane_area(basic_tile(orbifold, any));
+  }
   if (orbifold.corners.empty()) return 4 * pi / orbifold.group_order;
   double area = 2 * pi;
   for (const double turn : turns(orbifold.corners)) area -= turn;

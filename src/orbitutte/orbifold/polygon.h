@@ -27,7 +27,7 @@ Tile polygon_tile(const std::vector<PolygonCorner>& corners, const std::vector<i
 /// where they are. Throws ArgumentError and MeshError where that is nothing.
 Orbifold orbifold_of(const Embedding& embedding);
 
-/// 4 pi/|G|; of a polygon the sum of its interior angles less (n - 2) pi.
+/// 4 pi/|G|; in the plane the tile's; of a polygon the sum of its interior angles less (n - 2) pi.
 double area(const Orbifold& orbifold);
 
 }  // namespace orbitutte

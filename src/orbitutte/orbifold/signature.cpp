@@ -213,6 +213,17 @@ std::vector<Mark> marks_of(const ConwaySymbol& symbol) {
   return marks;
 }
 
+Orbifold orbifold_of(const ConwaySymbol& symbol, const Family& family) {
+  Orbifold orbifold;
+  orbifold.signature = symbol.text();
+  orbifold.symbol = symbol;
+  orbifold.topology = family.topology;
+  orbifold.marks = marks_of(symbol);
+  orbifold.inner_marks = static_cast<int>(symbol.rotations.size());
+  orbifold.geometry = family.geometry;
+  return orbifold;
+}
+
 }  // namespace
 
 std::string ConwaySymbol::text() const {
@@ -223,14 +234,20 @@ Orbifold parse_orbifold(const std::string& signature) {
   const ConwaySymbol symbol = choose(signature, all_readings(signature));
   if (const std::string reason = objection(symbol); !reason.empty()) refuse(signature, reason);
   const Fraction chi = euler_characteristic(symbol);
-  Orbifold orbifold;
-  orbifold.signature = symbol.text();
-  orbifold.symbol = symbol;
+  Orbifold orbifold = orbifold_of(symbol, *find_family(symbol));
   orbifold.group_order = static_cast<int>(2 * chi.denominator / chi.numerator);
-  orbifold.topology = find_family(symbol)->topology;
-  orbifold.marks = marks_of(symbol);
-  orbifold.inner_marks = static_cast<int>(symbol.rotations.size());
   return orbifold;
+}
+
+Orbifold parse_euclidean_orbifold(const std::string& signature) {
+  for (const ConwaySymbol& symbol : all_readings(signature)) {
+    if (const Family* family = find_family(symbol, Geometry::euclidean)) {
+      Orbifold orbifold = orbifold_of(symbol, *family);
+      orbifold.group_order = 0;
+      return orbifold;
+    }
+  }
+  refuse(signature, "is none of the Euclidean orbifolds 333, 442, 632, 2222, *333, *442, *632 and *2222");
 }
 
 std::vector<double> metric_angles(const std::vector<Mark>& marks) {
@@ -247,7 +264,8 @@ std::vector<double> metric_angles(const std::vector<Mark>& marks) {
 std::vector<FamilyDescription> families() {
   std::vector<FamilyDescription> result;
   for (const Family& family : family_table())
-    result.push_back({family.name, family.group_order, family.topology, family.marked_points});
+    if (family.geometry == Geometry::spherical)
+      result.push_back({family.name, family.group_order, family.topology, family.marked_points});
   return result;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Conway's symbols of the spherical orbifolds S^2/G, and what each family asks of a mesh.
+// Conway's symbols of the spherical orbifolds S^2/G and of the Euclidean ones with the same kinds of marks,
+// and what each family asks of a mesh.
 #pragma once
 
 #include <string>
@@ -33,17 +34,22 @@ struct Mark {
 struct Orbifold {
   std::string signature;  ///< canonical text, the orders in the arrangement that was given
   ConwaySymbol symbol;
-  int group_order = 1;                   ///< |G|
+  int group_order = 1;                   ///< |G|; 0 where it is infinite
   Topology topology = Topology::sphere;  ///< what the mesh has to be
   std::vector<Mark> marks;               ///< in the order in which vertices are marked
   int inner_marks = 0;  ///< so many, the first, lie inside the surface, the others on its boundary
   std::vector<PolygonCorner> corners;  ///< of a fixed polygon, one a mark; otherwise none (polygon.h)
+  Geometry geometry = Geometry::spherical;
 };
 
 /// Reads a symbol and finds its family. Orders may come in any arrangement.
 /// Throws ArgumentError, in one sentence: what is no symbol; what could be read in two ways (both are named);
 /// orders that make a Euclidean or hyperbolic orbifold or none at all (teardrops, spindles, order one).
 Orbifold parse_orbifold(const std::string& signature);
+
+/// The same for the Euclidean orbifolds of spheres with cones, 333, 442, 632 and 2222, and of disks with
+/// corners, *333, *442, *632 and *2222.
+Orbifold parse_euclidean_orbifold(const std::string& signature);
 
 /// The angle of each mark in the metric that weights take at cones (sharpened_at_cones), radians; 0 where the
 /// mark is no cone. It is the mark's own, but twice that where two alike are all there are: these lie
@@ -60,7 +66,7 @@ struct FamilyDescription {
   std::string marked_points;
 };
 
-/// All families that can be embedded.
+/// All families of spherical orbifolds.
 std::vector<FamilyDescription> families();
 
 }  // namespace orbitutte

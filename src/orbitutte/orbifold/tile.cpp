@@ -10,7 +10,10 @@
 
 namespace orbitutte {
 
-Vector3 TileSide::point(double s) const { return std::cos(s) * start + std::sin(s) * direction; }
+Vector3 TileSide::point(double s) const {
+  if (geometry == Geometry::euclidean) return start + s * direction;
+  return std::cos(s) * start + std::sin(s) * direction;
+}
 
 Vector3 Tile::centroid() const {
   Vector3 sum = Vector3::Zero();
@@ -20,7 +23,7 @@ Vector3 Tile::centroid() const {
 
 Tile basic_tile(const Orbifold& orbifold, const std::vector<int>& arrangement) {
   if (!orbifold.corners.empty()) return polygon_tile(orbifold.corners, arrangement);
-  const Family& family = *find_family(orbifold.symbol);
+  const Family& family = *find_family(orbifold.symbol, orbifold.geometry);
   const int marks = static_cast<int>(orbifold.marks.size()), corners = marks + family.cut_to_mirror;
   std::vector<int> orders;
   for (const int mark : arrangement) {

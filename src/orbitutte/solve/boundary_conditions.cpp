@@ -52,7 +52,7 @@ void spread_transforms(const std::vector<Seam>& seams, int input_vertices, Bound
     for (std::size_t k = 0; k < seam.left.size(); ++k) {
       const int l = seam.left[k], r = seam.right[k];
       if (r >= input_vertices && l < input_vertices) {
-        conditions.transform_of[r] = index_among(conditions.transforms, seam.transform.transpose());
+        conditions.transform_of[r] = index_among(conditions.transforms, inverse_isometry(seam.transform));
       } else if (l >= input_vertices && r < input_vertices) {
         conditions.transform_of[l] = index_among(conditions.transforms, seam.transform);
       }
@@ -60,22 +60,28 @@ void spread_transforms(const std::vector<Seam>& seams, int input_vertices, Bound
   }
 }
 
-// The plane that the reflection I - 2 n n' leaves in place.
-Basis mirror_plane(const Matrix3& reflection) {
-  const Matrix3 twice_projector = Matrix3::Identity() - reflection;  // 2 n n'
+// All of space, or of the plane.
+Basis room_inside(Geometry geometry) {
+  return Matrix3::Identity().leftCols(geometry == Geometry::spherical ? 3 : 2);
+}
+
+// What a reflection leaves in place: the plane I - 2 n n' does, or the direction of a line of the plane.
+Basis room_on_mirror(const Matrix3& reflection, Geometry geometry) {
+  const Matrix3 twice_projector = Matrix3::Identity() - linear_part(reflection);  // 2 n n'
   Eigen::Index axis = 0;
   twice_projector.diagonal().maxCoeff(&axis);
   const Vector3 normal = twice_projector.col(axis).normalized();
+  if (geometry == Geometry::euclidean) return Vector3(-normal.y(), normal.x(), 0);
   Basis basis(3, 2);
   basis.col(0) = normal.unitOrthogonal();
   basis.col(1) = normal.cross(basis.col(0));
   return basis;
 }
 
-void keep_on_mirrors(const std::vector<Seam>& seams, int input_vertices, BoundaryConditions& conditions) {
-  for (const Seam& seam : seams) {
+void keep_on_mirrors(Geometry geometry, int input_vertices, BoundaryConditions& conditions) {
+  for (const Seam& seam : conditions.seams) {
     if (seam.left != seam.right) continue;
-    conditions.bases.push_back(mirror_plane(seam.transform));
+    conditions.bases.push_back(room_on_mirror(seam.transform, geometry));
     for (const int v : seam.left) {
       if (v >= input_vertices) continue;  // a copy, at the end of the cut
       if (conditions.basis_of[v] != held_in_place)
@@ -141,12 +147,12 @@ BoundaryConditions glue(const CutMesh& cut, const Tile& tile, const Orbifold& or
   conditions.cones = cones_of(cut, orbifold);
   conditions.transforms = {Matrix3::Identity()};
   conditions.transform_of.assign(cut.vertex_count(), 0);
-  conditions.bases = {Basis(Matrix3::Identity()), Basis(3, 0)};
+  conditions.bases = {room_inside(tile.geometry()), Basis(3, 0)};
   conditions.basis_of.assign(input_vertices, in_space);
   conditions.held = Points::Zero(input_vertices, 3);
   hold_corners(tile, input_vertices, conditions);
   spread_transforms(conditions.seams, input_vertices, conditions);
-  keep_on_mirrors(conditions.seams, input_vertices, conditions);
+  keep_on_mirrors(tile.geometry(), input_vertices, conditions);
   hold_unreferenced(cut, conditions);
   return conditions;
 }

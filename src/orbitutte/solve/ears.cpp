@@ -50,7 +50,7 @@ std::vector<Ear> find_ears(const FaceView& faces, const Tile& tile, const Bounda
   EarSearch search(faces, static_cast<int>(boundary.transform_of.size()));
   for (std::size_t s = 0; s < tile.sides.size(); ++s) {
     if (!tile.sides[s].held() && tile.sides[s].partner != static_cast<int>(s)) continue;
-    search.search(static_cast<int>(s), boundary.sides[s], -tile.sides[s].pole());
+    search.search(static_cast<int>(s), boundary.sides[s], tile.sides[s].outward());
   }
   return std::move(search.ears);
 }

@@ -26,7 +26,7 @@ class Elements {
   int inverse(int a) {
     if (a == 0) return 0;
     const auto [at, is_new] = inverses_.try_emplace(a, 0);
-    if (is_new) at->second = number(distinct_[a].transpose());
+    if (is_new) at->second = number(inverse_isometry(distinct_[a]));
     return at->second;
   }
 

@@ -64,8 +64,8 @@ GluedEdges glued_edges(const CutMesh& cut, const Connectivity& connectivity,
       const auto at = known.find(key);
       t = at != known.end()
               ? at->second
-              : known[key] =
-                    index_among(result.transforms, boundary.transform(a).transpose() * boundary.transform(b));
+              : known[key] = index_among(result.transforms,
+                                         inverse_isometry(boundary.transform(a)) * boundary.transform(b));
     }
     result.edges[e] = {cut.source_vertex[a], cut.source_vertex[b], t};
   }

@@ -27,6 +27,7 @@
 #include "orbitutte/verify/convexity.h"
 #include "orbitutte/verify/held_sides.h"
 #include "orbitutte/verify/laid_out.h"
+#include "orbitutte/verify/metric.h"
 #include "orbitutte/verify/orientation.h"
 #include "orbitutte/verify/spherical_triangle.h"
 
@@ -109,10 +110,16 @@ Check cut_mesh_check(int n, const FaceView& input, const Embedding& embedding) {
   return offences.check("cut_mesh");
 }
 
-Check unit_check(const Points& positions) {
-  if (!positions.allFinite()) return none("unit_positions", 1, "a position is not finite");
-  const double off = positions.rows() ? (positions.rowwise().norm().array() - 1).abs().maxCoeff() : 0.0;
-  return at_most("unit_positions", off, unit_bound);
+// On the unit sphere, or in the plane z = 1.
+Check surface_check(const Embedding& embedding) {
+  const bool spherical = embedding.geometry == Geometry::spherical;
+  const std::string name = spherical ? "unit_positions" : "plane_positions";
+  const Points& X = embedding.positions;
+  if (!X.allFinite()) return none(name, 1, "a position is not finite");
+  if (X.rows() == 0) return at_most(name, 0, unit_bound);
+  const auto off =
+      spherical ? (X.rowwise().norm().array() - 1).abs().eval() : (X.col(2).array() - 1).abs().eval();
+  return at_most(name, off.maxCoeff(), unit_bound);
 }
 
 // The boundary half-edges of the cut mesh, each by its origin; empty, with an offence, unless the cut mesh is
@@ -235,14 +242,18 @@ Check held_sides_check(const Embedding& embedding) {
   return none(name, static_cast<long long>(departures.size()), departures.empty() ? "" : departures.front());
 }
 
-// Orthogonal transforms whose determinant is that of their kind.
-Check transform_check(const std::vector<Seam>& seams) {
+bool is_orthogonal(const Matrix3& M) {
+  return M.allFinite() && (M * M.transpose() - Matrix3::Identity()).cwiseAbs().maxCoeff() < unit_bound;
+}
+
+// Isometries whose determinant is that of their kind.
+Check transform_check(const Embedding& embedding) {
   Offences offences;
+  const std::vector<Seam>& seams = embedding.seams;
   for (std::size_t s = 0; s < seams.size(); ++s) {
-    const Matrix3& M = seams[s].transform;
-    const bool orthogonal =
-        M.allFinite() && (M * M.transpose() - Matrix3::Identity()).cwiseAbs().maxCoeff() < unit_bound;
-    if (!orthogonal) {
+    const bool spherical = embedding.geometry == Geometry::spherical;
+    const Matrix3 M = spherical ? seams[s].transform : linear_part(seams[s].transform);
+    if (!is_orthogonal(M)) {
       offences.add("the transform of seam {} is not orthogonal", s);
     } else if (seams[s].left == seams[s].right &&
                (M.determinant() > 0 || std::abs(M.trace() - 1) > unit_bound)) {
@@ -308,6 +319,7 @@ Check cone_check(const Embedding& embedding) {
 
 // The largest difference between an angle sum and 2 pi/order (rotation) or pi/order (corner).
 Check angle_check(const Embedding& embedding) {
+  const Metric& metric = metric_of(embedding.geometry);
   constexpr int no_cone = -1;
   std::vector<int> cone_of(embedding.source_vertex.size(), no_cone);
   for (std::size_t k = 0; k < embedding.cones.size(); ++k)
@@ -318,7 +330,8 @@ Check angle_check(const Embedding& embedding) {
     const int cone = cone_of[origin(F, h)];
     if (cone == no_cone) continue;
     const Points& X = embedding.positions;
-    angle[cone] += angle_at(X.row(origin(F, h)), X.row(target(F, h)), X.row(origin(F, previous_halfedge(h))));
+    angle[cone] +=
+        metric.angle(X.row(origin(F, h)), X.row(target(F, h)), X.row(origin(F, previous_halfedge(h))));
   }
   double worst = 0;
   for (std::size_t k = 0; k < embedding.cones.size(); ++k) {
@@ -386,17 +399,18 @@ Check convexity_check(const Embedding& embedding, std::vector<int>& nonpositive)
 Check edge_length_check(const Embedding& embedding, double& longest) {
   const Points& X = embedding.positions;
   const FaceView faces = embedding.input_faces();
+  const auto length = metric_of(embedding.geometry).length;
   const auto squared_chord = [&](int a, int b) { return (X.row(a) - X.row(b)).squaredNorm(); };
-  const auto largest = [&](int f, const auto& length) {
+  const auto largest = [&](int f, const auto& measure) {
     double result = 0;
     int a = faces[f].back();
-    for (const int b : faces[f]) result = std::max(result, length(std::exchange(a, b), b));
+    for (const int b : faces[f]) result = std::max(result, measure(std::exchange(a, b), b));
     return result;
   };
   const double widest = parallel_max(faces.count(), [&](int f) { return largest(f, squared_chord); });
   longest = parallel_max(faces.count(), [&](int f) {
     return largest(
-        f, [&](int a, int b) { return squared_chord(a, b) < widest ? 0.0 : arc_length(X.row(a), X.row(b)); });
+        f, [&](int a, int b) { return squared_chord(a, b) < widest ? 0.0 : length(X.row(a), X.row(b)); });
   });
   Check check = {"edge_lengths", longest < pi, longest, pi, {}};
   if (!check.passed) check.detail = "an edge is not shorter than pi";
@@ -405,9 +419,10 @@ Check edge_length_check(const Embedding& embedding, double& longest) {
 
 Check area_check(const Embedding& embedding, Certificate& certificate) {
   const Points& X = embedding.positions;
+  const Metric& metric = metric_of(embedding.geometry);
   certificate.signed_area = parallel_sum(static_cast<int>(embedding.faces.rows()), [&](int f) {
     const auto v = embedding.faces.row(f);
-    return signed_area(X.row(v[0]), X.row(v[1]), X.row(v[2]));
+    return metric.area(X.row(v[0]), X.row(v[1]), X.row(v[2]));
   });
   Check check =
       at_most("signed_area", std::abs(certificate.signed_area - certificate.expected_area), area_bound);
@@ -426,7 +441,7 @@ bool check_input(int vertex_count, const FaceView& faces, const Embedding& embed
                  Certificate& certificate) {
   certificate.expected_area = 4 * pi / embedding.group_order;
   certificate.checks.push_back(cut_mesh_check(vertex_count, faces, embedding));
-  certificate.checks.push_back(unit_check(embedding.positions));
+  certificate.checks.push_back(surface_check(embedding));
   return all_passed(certificate.checks);
 }
 
@@ -435,12 +450,12 @@ bool check_input(int vertex_count, const FaceView& faces, const Embedding& embed
 bool check_gluing(const Embedding& embedding, const Embedding& triangles, Certificate& certificate) {
   std::vector<Check>& checks = certificate.checks;
   checks.push_back(seam_gluing_check(triangles));
-  checks.push_back(transform_check(embedding.seams));
+  checks.push_back(transform_check(embedding));
   checks.push_back(cone_check(embedding));
   if (!all_passed(checks)) return false;
   certificate.expected_area = area(orbifold_of(embedding));
   checks.push_back(held_sides_check(embedding));
-  checks.push_back(group_check(embedding));
+  if (embedding.geometry == Geometry::spherical) checks.push_back(group_check(embedding));
   certificate.max_seam_residual = max_seam_residual(embedding);
   checks.push_back(at_most("seam_residual", certificate.max_seam_residual, seam_bound));
   return true;
@@ -452,7 +467,8 @@ void check_faces(const Embedding& embedding, const Embedding& triangles, const s
                  Certificate& certificate) {
   std::vector<Check>& checks = certificate.checks;
   checks.push_back(orientation_check(triangles, face_of, certificate.nonpositive_faces));
-  checks.push_back(edge_length_check(embedding, certificate.max_edge_length));
+  const Check lengths = edge_length_check(embedding, certificate.max_edge_length);
+  if (embedding.geometry == Geometry::spherical) checks.push_back(lengths);
   checks.push_back(angle_check(triangles));
   checks.push_back(area_check(triangles, certificate));
   certificate.bijective = all_passed(checks);
@@ -466,7 +482,7 @@ bool check_layout(const Embedding& layout, const IntrinsicTriangulation& triangu
     if (layout.source_vertex[h] != origin(triangulation.F, h))
       offences.add("flips do not lead to face {} of the triangulation", h / 3);
   certificate.checks.push_back(offences.check("flips"));
-  Check unit = unit_check(layout.positions);
+  Check unit = surface_check(layout);
   unit.name = "unit_corners";
   certificate.checks.push_back(unit);
   return all_passed(certificate.checks);

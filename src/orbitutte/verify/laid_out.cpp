@@ -18,7 +18,7 @@ std::map<Pair, Matrix3> continuations(const std::vector<Seam>& seams) {
     if (seam.left == seam.right) continue;
     for (std::size_t k = 1; k < seam.left.size(); ++k) {
       result[ascending(seam.left[k - 1], seam.left[k])] = seam.transform;
-      result[ascending(seam.right[k - 1], seam.right[k])] = seam.transform.transpose();
+      result[ascending(seam.right[k - 1], seam.right[k])] = inverse_isometry(seam.transform);
     }
   }
   return result;
@@ -60,7 +60,8 @@ class Layout {
         Side{opposite_[ka], beyond(ka)}, Side{opposite_[al], into * beyond(al)},
         Side{opposite_[lb], into * beyond(lb)}, Side{opposite_[bk], beyond(bk)}};
     for (const int s : {1, 2})
-      if (sides[s].opposite >= 0) set_beyond(sides[s].opposite, beyond(sides[s].opposite) * into.transpose());
+      if (sides[s].opposite >= 0)
+        set_beyond(sides[s].opposite, beyond(sides[s].opposite) * inverse_isometry(into));
     set_corner(h, l), set_corner(bk, k), set_corner(ka, a);
     set_corner(g, k), set_corner(next_halfedge(g), l), set_corner(previous_halfedge(g), b);
     set_beyond(h, Matrix3::Identity());
@@ -120,6 +121,7 @@ Embedding laid_out(const Mesh& mesh, const Embedding& embedding,
   Embedding result;
   result.signature = embedding.signature;
   result.group_order = embedding.group_order;
+  result.geometry = embedding.geometry;
   result.positions = layout.positions();
   result.faces.resize(mesh.F.rows(), 3);
   for (int h = 0; h < static_cast<int>(mesh.F.size()); ++h) result.faces.data()[h] = h;
