@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: MIT
+// Euclidean orbifolds, through the same tiles, cuts, seams and certificate as spherical ones.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "orbitutte/embed.h"
+#include "orbitutte/orbifold/polygon.h"
+#include "orbitutte/orbifold/tile.h"
+#include "orbitutte/verify/metric.h"
+#include "test_meshes.h"
+
+namespace orbitutte {
+namespace {
+
+using std::numbers::pi;
+using testing::HasSubstr;
+
+const std::vector<std::string> closed_symbols = {"333", "442", "244", "424", "632", "236", "326", "2222"};
+const std::vector<std::string> mirrored_symbols = {"*333", "*442", "*244", "*632", "*263", "*2222"};
+
+std::vector<std::string> all_symbols() {
+  std::vector<std::string> all = closed_symbols;
+  all.insert(all.end(), mirrored_symbols.begin(), mirrored_symbols.end());
+  return all;
+}
+
+std::vector<int> any_arrangement(const Orbifold& orbifold) {
+  std::vector<int> result;
+  for (int k = 0; k < static_cast<int>(orbifold.marks.size()); ++k) result.push_back(k);
+  return result;
+}
+
+EmbedOptions with(WeightKind kind, std::uint64_t cut_seed = 0) {
+  EmbedOptions options;
+  options.threads = 1;
+  options.weights.kind = kind;
+  options.cut.seed = cut_seed;
+  return options;
+}
+
+struct Sample {
+  Mesh mesh;
+  std::vector<int> marks;
+  EmbedResult result;
+};
+
+Sample sample(const std::string& symbol, const EmbedOptions& options = with(WeightKind::cotan)) {
+  const Orbifold orbifold = parse_euclidean_orbifold(symbol);
+  const Mesh mesh = orbifold.topology == Topology::sphere ? test::perturbed(test::icosphere(3), 0.02, 7)
+                                                          : test::perturbed(test::round_disk(10), 0.02, 7);
+  const std::vector<int> marks = choose_marked_vertices(mesh, orbifold);
+  return {mesh, marks, embed(mesh, orbifold, marks, options)};
+}
+
+/// The lengths of the edges of the uncut mesh in the plane.
+Eigen::VectorXd edge_lengths(const Sample& sample) {
+  const Connectivity connectivity = connect(sample.mesh.F, test::vertex_count(sample.mesh));
+  Eigen::VectorXd lengths(static_cast<Eigen::Index>(connectivity.edges.size()));
+  const Embedding& embedding = sample.result.embedding;
+  for (int h = 0; h < static_cast<int>(embedding.faces.size()); ++h)
+    lengths[connectivity.edge_of[h]] = (embedding.positions.row(origin(embedding.faces, h)) -
+                                        embedding.positions.row(target(embedding.faces, h)))
+                                           .norm();
+  return lengths;
+}
+
+// ------------------------------------------------------------------------------------------------------
+// tiles
+
+TEST(PlaneTile, SidesCloseUpAndCarryTheirPartners) {
+  for (const std::string& symbol : all_symbols()) {
+    const Orbifold orbifold = parse_euclidean_orbifold(symbol);
+    const Tile tile = basic_tile(orbifold, any_arrangement(orbifold));
+    const int n = static_cast<int>(tile.sides.size());
+    for (int k = 0; k < n; ++k) {
+      const TileSide &side = tile.sides[k], &next = tile.sides[(k + 1) % n],
+                     &partner = tile.sides[side.partner];
+      EXPECT_NEAR((side.point(side.length) - next.start).norm(), 0, 1e-14) << symbol;
+      EXPECT_EQ(side.start.z(), 1);
+      for (const double t : {0.0, 0.3, 1.0}) {
+        const double s = t * side.length, other = side.partner_reverses() ? side.length - s : s;
+        EXPECT_NEAR((side.point(s) - side.transform * partner.point(other)).norm(), 0, 1e-14)
+            << symbol << " " << k;
+      }
+      EXPECT_NEAR((side.transform * partner.transform - Matrix3::Identity()).norm(), 0, 1e-14);
+      EXPECT_NEAR((inverse_isometry(side.transform) - partner.transform).norm(), 0, 1e-14);
+    }
+  }
+}
+
+TEST(PlaneTile, AnglesAroundAMarkAddUpToItsOrdersShare) {
+  for (const std::string& symbol : all_symbols()) {
+    const Orbifold orbifold = parse_euclidean_orbifold(symbol);
+    const Tile tile = basic_tile(orbifold, any_arrangement(orbifold));
+    std::vector<double> angle(orbifold.marks.size(), 0);
+    const std::size_t n = tile.sides.size();
+    for (std::size_t k = 0; k < n; ++k)
+      angle[tile.sides[k].mark] +=
+          metric_of(Geometry::euclidean)
+              .angle(tile.sides[k].start, tile.sides[(k + 1) % n].start, tile.sides[(k + n - 1) % n].start);
+    for (std::size_t m = 0; m < angle.size(); ++m) {
+      const double expected =
+          (orbifold.marks[m].kind == ConeKind::rotation ? 2 : 1) * pi / orbifold.marks[m].order;
+      EXPECT_NEAR(std::remainder(angle[m] - expected, 2 * pi), 0, 1e-12) << symbol << " " << m;
+    }
+    EXPECT_GT(area(orbifold), 0);
+  }
+}
+
+TEST(PlaneTile, OnlyTheEightOrbifoldsAreThere) {
+  for (const char* symbol :
+       {"532", "22", "3*3", "22*", "22x", "4*2", "*22", "2*22", "7", "x", "", "abc", "33"})
+    EXPECT_THROW(parse_euclidean_orbifold(symbol), ArgumentError) << symbol;
+  for (const std::string& symbol : all_symbols()) {
+    try {
+      parse_orbifold(symbol);
+      ADD_FAILURE() << symbol << " is taken for a spherical orbifold";
+    } catch (const ArgumentError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("Euclidean"));
+    }
+  }
+}
+
+// -------------------------------------------------------------------------------------------------------
+// maps
+
+TEST(Plane, EverySymbolIsCertified) {
+  for (const WeightKind kind : {WeightKind::cotan, WeightKind::delaunay, WeightKind::uniform}) {
+    for (const std::string& symbol : all_symbols()) {
+      const Sample s = sample(symbol, with(kind));
+      std::string failed;
+      for (const Check& check : s.result.certificate.checks)
+        if (!check.passed) failed += check.name + ": " + check.detail + "; ";
+      EXPECT_TRUE(s.result.certificate.bijective) << symbol << " " << name(kind) << " " << failed;
+      EXPECT_LT(s.result.certificate.max_seam_residual, 1e-12);
+      EXPECT_LT(s.result.minimum.gradient_norm, 1e-11);
+      EXPECT_EQ(s.result.embedding.geometry, Geometry::euclidean);
+    }
+  }
+}
+
+// A map of degree one covers the tile, so E is twice its area at least, and that only where it is conformal.
+TEST(Plane, EnergyIsAboveTwiceTheArea) {
+  for (const std::string& symbol : all_symbols()) {
+    const Sample s = sample(symbol);
+    EXPECT_GT(s.result.minimum.energy, 2 * s.result.certificate.signed_area) << symbol;
+  }
+}
+
+TEST(Plane, TheCutChangesNothing) {
+  for (const std::string& symbol : closed_symbols) {
+    const Eigen::VectorXd before = edge_lengths(sample(symbol));
+    for (const std::uint64_t seed : {1, 2, 3})
+      EXPECT_LT((edge_lengths(sample(symbol, with(WeightKind::cotan, seed))) - before).cwiseAbs().maxCoeff(),
+                1e-12)
+          << symbol << " " << seed;
+  }
+}
+
+// A mirrored map, and one with a vertex across an edge, are no embeddings.
+TEST(Plane, PlantedFaultsAreSeen) {
+  const Sample s = sample("442");
+  Embedding moved = s.result.embedding, mirrored = moved, lifted = moved;
+  int inner = 0;
+  while (std::count(moved.source_vertex.begin(), moved.source_vertex.end(), inner) > 1) ++inner;
+  moved.positions.row(inner) += Eigen::RowVector3d(1, 0, 0);
+  EXPECT_FALSE(certify(s.mesh, moved).bijective);
+  mirrored.positions.col(0) *= -1;
+  EXPECT_FALSE(certify(s.mesh, mirrored).bijective);
+  lifted.positions.col(2).array() += 0.1;
+  EXPECT_FALSE(certify(s.mesh, lifted).bijective);
+  Embedding sheared = s.result.embedding;
+  sheared.seams[0].transform(0, 1) += 0.01;
+  EXPECT_FALSE(certify(s.mesh, sheared).bijective);
+}
+
+// ----------------------------------------------------------------------------------------------- exact
+// solutions
+
+/// A triangle of n^2 triangles, or with `sides` = 2 two of them glued along their boundary; its corners are
+/// given.
+struct FlatTriangle {
+  Mesh mesh;
+  std::vector<int> corners;
+};
+
+FlatTriangle flat_triangle(const std::array<Vector3, 3>& at, int n, int sides) {
+  std::map<std::array<int, 3>, int> index;  // by row, column and side; side 0 for the boundary
+  std::vector<Vector3> points;
+  std::vector<std::vector<int>> triangles;
+  const auto vertex = [&](int i, int j, int side) {
+    const bool outer = i == 0 || j == 0 || i + j == n;
+    const auto [entry, is_new] = index.try_emplace({i, j, outer ? 0 : side}, static_cast<int>(points.size()));
+    if (is_new)
+      points.push_back(at[0] + (at[1] - at[0]) * (double(i) / n) + (at[2] - at[0]) * (double(j) / n));
+    return entry->second;
+  };
+  for (int side = 0; side < sides; ++side) {
+    for (int i = 0; i < n; ++i) {
+      for (int j = 0; i + j < n; ++j) {
+        const auto add = [&](int a, int b, int c) {
+          triangles.push_back(side == 0 ? std::vector<int>{a, b, c} : std::vector<int>{a, c, b});
+        };
+        add(vertex(i, j, side), vertex(i + 1, j, side), vertex(i, j + 1, side));
+        if (i + j + 1 < n) add(vertex(i + 1, j, side), vertex(i + 1, j + 1, side), vertex(i, j + 1, side));
+      }
+    }
+  }
+  return {test::mesh(points, triangles), {index.at({0, 0, 0}), index.at({n, 0, 0}), index.at({0, n, 0})}};
+}
+
+// The triangle with angles pi/n1, pi/n2, pi/n3 is the tile itself, and its double the closed orbifold.
+TEST(Plane, DoubledTrianglesAndTrianglesAreLaidOutAsTheyAre) {
+  for (const auto& [symbol, n] :
+       {std::pair("333", std::array{3, 3, 3}), std::pair("442", std::array{4, 4, 2}),
+        std::pair("632", std::array{6, 3, 2})}) {
+    const double a1 = pi / n[0], a2 = pi / n[1], a3 = pi / n[2];
+    const std::array<Vector3, 3> at = {Vector3::Zero(), Vector3(std::sin(a3), 0, 0),
+                                       std::sin(a2) * Vector3(std::cos(a1), std::sin(a1), 0)};
+    for (const int sides : {1, 2}) {
+      const FlatTriangle flat = flat_triangle(at, 6, sides);
+      const Orbifold orbifold = parse_euclidean_orbifold((sides == 1 ? "*" : "") + std::string(symbol));
+      Sample s = {flat.mesh, flat.corners, embed(flat.mesh, orbifold, flat.corners, with(WeightKind::cotan))};
+      EXPECT_TRUE(s.result.certificate.bijective) << symbol;
+      const Eigen::VectorXd lengths = edge_lengths(s);
+      const Connectivity connectivity = connect(flat.mesh.F, test::vertex_count(flat.mesh));
+      for (Eigen::Index e = 0; e < lengths.size(); ++e) {
+        const auto [i, j] = connectivity.edges[e];
+        EXPECT_NEAR(lengths[e], (flat.mesh.V.row(i) - flat.mesh.V.row(j)).norm(), 1e-12)
+            << symbol << " " << sides;
+      }
+      EXPECT_NEAR(s.result.distortion.angle.max, 1, 1e-6);
+      EXPECT_NEAR(s.result.distortion.area.max, 1, 1e-6);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace orbitutte
