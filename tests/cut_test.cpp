@@ -621,11 +621,11 @@ TEST(Cut, MarksThatNoPathJoinsToTheBoundaryAreRefused) {
             "no edge path leads from the marked vertex 0 to the boundary; mark another vertex");
 }
 
-TEST(Cut, OneMarkOrFourOnASphereAreRefused) {
-  const std::string on_a_sphere = " marked vertices on a sphere; mark two or three";
+TEST(Cut, OneMarkOrFiveOnASphereAreRefused) {
+  const std::string on_a_sphere = " marked vertices on a sphere; mark two to four";
   EXPECT_EQ(refusal(test::octahedron(), {}), "0" + on_a_sphere);
   EXPECT_EQ(refusal(test::octahedron(), {0}), "1" + on_a_sphere);
-  EXPECT_EQ(refusal(test::octahedron(), {0, 1, 2, 3}), "4" + on_a_sphere);
+  EXPECT_EQ(refusal(test::octahedron(), {0, 1, 2, 3, 4}), "5" + on_a_sphere);
 }
 
 TEST(Cut, ADiskWithoutMarksIsRefused) {
