@@ -38,6 +38,12 @@ struct TileArguments {
 };
 int tile_command(const TileArguments& arguments);
 
+struct RenderArguments {
+  std::string embedding, report, mesh, output;
+  std::string panel = "sheet", view, up = "y", size;
+};
+int render_command(const RenderArguments& arguments);
+
 struct SampleArguments {
   std::string output, shape = "figure";
   int faces = 20000;

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/output/render/plots.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace orbitutte {
+namespace {
+
+constexpr Rgb unmeasured = {150, 150, 150};
+
+// The value that the share `q` of all values stays below; 0 where there are none.
+double quantile(std::vector<double> values, double q) {
+  if (values.empty()) return 0;
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+std::vector<double> log_areas(const std::vector<FaceDistortion>& faces) {
+  std::vector<double> values;
+  for (const FaceDistortion& face : faces)
+    if (face.area > 0) values.push_back(std::log2(face.area));
+  return values;
+}
+
+// A linear map of an interval of values onto pixels.
+struct Axis {
+  double low, high;    // values
+  double first, last;  // pixels
+
+  double operator()(double value) const { return first + (value - low) / (high - low) * (last - first); }
+};
+
+std::string power_of_two(int exponent) {
+  return exponent < 0 ? fmt::format("1/{}", 1LL << -exponent) : fmt::format("{}", 1LL << exponent);
+}
+
+std::string power_of_ten(int exponent) {
+  static constexpr std::array<const char*, 10> digits = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string text = exponent < 0 ? "10⁻" : "10";
+  for (const char digit : std::to_string(std::abs(exponent))) text += digits[digit - '0'];
+  return text;
+}
+
+// Whole steps from -range to range, seven numbers at most.
+std::vector<int> octaves(double range) {
+  const int last = static_cast<int>(std::floor(range + 1e-9)), step = (last + 2) / 3;
+  std::vector<int> result;
+  for (int k = -(last / std::max(step, 1)) * step; k <= last; k += std::max(step, 1)) result.push_back(k);
+  return result;
+}
+
+struct Tick {
+  double at;  // 0 .. 1 along the bar
+  std::string text;
+};
+
+void draw_bar(Canvas& canvas, const Box& box, const std::function<Colour(double)>& colour,
+              const std::vector<Tick>& ticks) {
+  const double em = canvas.em(), width = std::min(0.7 * box.width, 22 * em);
+  const Box bar = {box.x + 0.5 * (box.width - width), box.y + 0.4 * em, width, 0.8 * em};
+  constexpr int steps = 256;
+  for (int k = 0; k < steps; ++k)
+    // Each strip reaches below the next one: no gaps where they meet inside a pixel.
+    canvas.box({bar.x + width * k / steps, bar.y, width - width * k / steps, bar.height},
+               srgb(colour((k + 0.5) / steps)));
+  for (const Tick& tick : ticks) {
+    const double x = bar.x + tick.at * width;
+    canvas.line({{x, bar.bottom()}, {x, bar.bottom() + 0.3 * em}}, {.colour = ink::quiet});
+    canvas.text({x, bar.bottom() + 1.3 * em}, tick.text, {.size = 0.9, .align = Align::centre});
+  }
+}
+
+void draw_bar_title(Canvas& canvas, const Box& box, const std::string& title) {
+  canvas.text({box.x + 0.5 * box.width, box.y + 3.6 * canvas.em()}, title,
+              {.size = 0.9, .colour = ink::quiet, .align = Align::centre});
+}
+
+void draw_frame(Canvas& canvas, const Box& box) {
+  canvas.line({{box.x, box.y}, {box.x, box.bottom()}, {box.right(), box.bottom()}}, {.colour = ink::quiet});
+}
+
+void x_label(Canvas& canvas, const Box& plot, const std::string& text) {
+  canvas.text({plot.x + 0.5 * plot.width, plot.bottom() + 2.9 * canvas.em()}, text,
+              {.colour = ink::quiet, .align = Align::centre});
+}
+
+void x_tick(Canvas& canvas, const Box& plot, double x, const std::string& text) {
+  const double em = canvas.em();
+  canvas.line({{x, plot.bottom()}, {x, plot.bottom() + 0.3 * em}}, {.colour = ink::quiet});
+  canvas.text({x, plot.bottom() + 1.4 * em}, text, {.size = 0.9, .align = Align::centre});
+}
+
+void y_tick(Canvas& canvas, const Box& plot, double y, const std::string& text) {
+  const double em = canvas.em();
+  canvas.line({{plot.x, y}, {plot.right(), y}}, {.width = 0.05, .colour = ink::hairline});
+  canvas.text({plot.x - 0.4 * em, y + 0.32 * em}, text, {.size = 0.9, .align = Align::right});
+}
+
+// A round number of at most `count` steps up to `largest`: 1, 2 or 5 times a power of ten.
+double round_step(double largest, int count) {
+  const double raw = largest / count, decade = std::pow(10, std::floor(std::log10(raw)));
+  for (const double factor : {1.0, 2.0, 5.0})
+    if (factor * decade >= raw * (1 - 1e-9)) return factor * decade;
+  return 10 * decade;
+}
+
+void mark_value(Canvas& canvas, const Box& plot, double x, const LineStyle& style) {
+  canvas.line({{x, plot.bottom()}, {x, plot.y - 0.2 * canvas.em()}}, style);
+}
+
+struct Bins {
+  double range;
+  std::vector<double> shares;   // of all values, in equal bins from -range to range
+  double below = 0, above = 0;  // the shares beyond the range, which the outermost bins contain
+};
+
+Bins bins_of(const std::vector<double>& values) {
+  std::vector<double> magnitudes;
+  for (const double value : values) magnitudes.push_back(std::abs(value));
+  Bins bins = {std::clamp(std::ceil(2 * 1.05 * quantile(magnitudes, 0.97)) / 2, 0.5, 10.0),
+               std::vector<double>(61, 0.0)};
+  const double count = static_cast<double>(bins.shares.size());
+  for (const double value : values) {
+    const double at = std::clamp((value / bins.range + 1) / 2 * count, 0.0, count - 0.5);
+    const double share = 1.0 / static_cast<double>(values.size());
+    bins.shares[static_cast<std::size_t>(at)] += share;
+    if (value < -bins.range) bins.below += share;
+    if (value > bins.range) bins.above += share;
+  }
+  return bins;
+}
+
+struct Series {
+  std::string name;
+  Rgb colour;
+  std::vector<double> values;  // by iteration; those that are not positive are not shown
+};
+
+// Decades that hold all positive values.
+std::array<int, 2> decades(const std::vector<Series>& all) {
+  double low = 1e300, high = 0;
+  for (const Series& series : all)
+    for (const double value : series.values)
+      if (value > 0) low = std::min(low, value), high = std::max(high, value);
+  if (high == 0) return {-1, 0};
+  const int first = static_cast<int>(std::floor(std::log10(low)));
+  return {first, std::max(first + 1, static_cast<int>(std::ceil(std::log10(high))))};
+}
+
+void draw_series(Canvas& canvas, const Series& series, const Axis& x, const Axis& y) {
+  std::vector<Place> points;
+  for (std::size_t k = 0; k < series.values.size(); ++k)
+    if (series.values[k] > 0) points.emplace_back(x(static_cast<double>(k)), y(std::log10(series.values[k])));
+  canvas.line(points, {.width = 0.12, .colour = series.colour});
+  if (points.size() > 60) return;
+  for (const Place& point : points) canvas.disc(point, 0.24 * canvas.em(), series.colour);
+}
+
+void draw_legend(Canvas& canvas, const Place& top_right, const std::vector<Series>& all) {
+  const double em = canvas.em();
+  double width = 0;
+  for (const Series& series : all) width = std::max(width, canvas.text_width(series.name, {}));
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const double y = top_right[1] + (1.2 + 1.5 * static_cast<double>(k)) * em, x = top_right[0] - width;
+    canvas.line({{x - 2.2 * em, y - 0.35 * em}, {x - 0.5 * em, y - 0.35 * em}},
+                {.width = 0.16, .colour = all[k].colour});
+    canvas.text({x, y}, all[k].name, {});
+  }
+}
+
+}  // namespace
+
+Colour AreaScale::colour(const FaceDistortion& face) const {
+  return face.area > 0 ? diverging_colour(std::log2(face.area) / range) : linear(unmeasured);
+}
+
+Colour AngleScale::colour(const FaceDistortion& face) const {
+  return face.angle > 0 ? sequential_colour((face.angle - 1) / (largest - 1)) : linear(unmeasured);
+}
+
+AreaScale area_scale(const std::vector<FaceDistortion>& faces) {
+  std::vector<double> magnitudes = log_areas(faces);
+  for (double& value : magnitudes) value = std::abs(value);
+  return {std::clamp(std::ceil(quantile(std::move(magnitudes), 0.9)), 1.0, 6.0)};
+}
+
+AngleScale angle_scale(const std::vector<FaceDistortion>& faces) {
+  std::vector<double> ratios;
+  for (const FaceDistortion& face : faces)
+    if (face.angle > 0) ratios.push_back(face.angle);
+  const double wanted = quantile(std::move(ratios), 0.95);
+  for (const double largest : {1.1, 1.2, 1.5, 2.0, 3.0, 5.0})
+    if (wanted <= largest) return {largest};
+  return {10};
+}
+
+void draw_scale(Canvas& canvas, const Box& box, const AreaScale& scale) {
+  std::vector<Tick> ticks;
+  for (const int k : octaves(scale.range)) ticks.push_back({0.5 * (k / scale.range + 1), power_of_two(k)});
+  draw_bar(
+      canvas, box, [&](double t) { return diverging_colour(2 * t - 1); }, ticks);
+  draw_bar_title(canvas, box, "area on the sphere : area on the mesh");
+}
+
+void draw_scale(Canvas& canvas, const Box& box, const AngleScale& scale) {
+  std::vector<Tick> ticks;
+  for (int k = 0; k <= 4; ++k)
+    ticks.push_back({k / 4.0, fmt::format("{:.4g}", 1 + k / 4.0 * (scale.largest - 1))});
+  draw_bar(canvas, box, sequential_colour, ticks);
+  draw_bar_title(canvas, box, "ratio of singular values");
+}
+
+void draw_histogram(Canvas& canvas, const Box& box, const std::vector<FaceDistortion>& faces) {
+  const double em = canvas.em();
+  const std::vector<double> values = log_areas(faces);
+  const AreaScale scale = area_scale(faces);
+  const Bins bins = bins_of(values);
+  const double highest = std::max(*std::max_element(bins.shares.begin(), bins.shares.end()), 1e-9);
+  const Box plot = box.inset(4 * em, 2.2 * em, em, 3.6 * em);
+  const Axis x = {-bins.range, bins.range, plot.x, plot.right()};
+  const Axis y = {0, 1.05 * highest, plot.bottom(), plot.y};
+
+  const double step = round_step(1.05 * highest, 5);
+  for (double share = step; share <= 1.05 * highest; share += step)
+    y_tick(canvas, plot, y(share), fmt::format("{:.3g}%", 100 * share));
+  const double count = static_cast<double>(bins.shares.size()), width = plot.width / count;
+  for (std::size_t k = 0; k < bins.shares.size(); ++k) {
+    const double left = plot.x + width * static_cast<double>(k), top = y(bins.shares[k]);
+    const double middle = (2 * (static_cast<double>(k) + 0.5) / count - 1) * bins.range;
+    canvas.box({left, top, width, plot.bottom() - top}, srgb(0.93F * diverging_colour(middle / scale.range)));
+  }
+  draw_frame(canvas, plot);
+  for (const int k : octaves(bins.range)) x_tick(canvas, plot, x(k), power_of_two(k));
+  const bool is_open = std::max(bins.below, bins.above) > 0.002;
+  x_label(canvas, plot,
+          is_open ? "area on the sphere : area on the mesh  (outermost bars: and beyond)"
+                  : "area on the sphere : area on the mesh");
+  if (values.empty()) return;
+  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  const double median = quantile(values, 0.5);
+  mark_value(canvas, plot, x(std::clamp(median, -bins.range, bins.range)), {.width = 0.1});
+  mark_value(canvas, plot, x(std::clamp(mean, -bins.range, bins.range)), {.width = 0.1, .dash = 0.4});
+  canvas.text({plot.x + 0.5 * plot.width, box.y + 1.0 * em},
+              fmt::format("median {:.3g} (line),  geometric mean {:.3g} (dashed)", std::exp2(median),
+                          std::exp2(mean)),
+              {.size = 0.9, .colour = ink::quiet, .align = Align::centre});
+}
+
+void draw_convergence(Canvas& canvas, const Box& box, const std::vector<Iteration>& history) {
+  const double em = canvas.em();
+  const Box plot = box.inset(4 * em, 0.8 * em, em, 3.6 * em);
+  Series excess = {"(energy − last) / last", {0, 92, 160}, {}},
+         gradient = {"gradient norm", {204, 85, 17}, {}};
+  for (const Iteration& row : history) {
+    excess.values.push_back((row.energy - history.back().energy) / history.back().energy);
+    gradient.values.push_back(row.gradient_norm);
+  }
+  const auto [first, last] = decades({excess, gradient});
+  const double iterations = std::max(1.0, static_cast<double>(history.size()) - 1);
+  const Axis x = {0, iterations, plot.x + em, plot.right() - em};
+  const Axis y = {static_cast<double>(first), static_cast<double>(last), plot.bottom(), plot.y};
+  const int stride = (last - first + 5) / 6;
+  for (int k = last; k >= first; k -= stride) y_tick(canvas, plot, y(k), power_of_ten(k));
+  draw_frame(canvas, plot);
+  const double step = std::max(1.0, round_step(iterations, 8));
+  for (double k = 0; k <= iterations; k += step) x_tick(canvas, plot, x(k), fmt::format("{:.0f}", k));
+  x_label(canvas, plot, "iteration");
+  for (const Series& series : {gradient, excess}) draw_series(canvas, series, x, y);
+  draw_legend(canvas, {plot.right() - 0.5 * em, plot.y}, {excess, gradient});
+}
+
+}  // namespace orbitutte
