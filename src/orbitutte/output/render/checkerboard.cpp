@@ -59,7 +59,7 @@ double parity(const Eigen::Vector2d& place) {
 // each stronger than the coarser ones.
 double board(Eigen::Vector2d place, double enlarged) {
   double value = parity(place), total = 1;
-  constexpr double most = 12;  // where the image has no area, all are too coarse
+  constexpr double most = 6;  // where the image has no area, all are too coarse
   for (double level = std::min(std::log(enlarged / 1.5) / std::log(4.0), most); level > 0; level -= 1) {
     const double weight = std::min(level, 1.0), coarser = 1 - 0.7 * weight;
     place *= 4;

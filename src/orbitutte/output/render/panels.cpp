@@ -152,7 +152,7 @@ struct PanelPainter::Parts {
       const Vector3 at = to.project(marked.row(c).transpose() + ball * to.axes.row(2).transpose());
       draw_label(canvas, {box.x + at[0], box.y + at[1]}, ball / to.pixel,
                  {marked.row(c), embedding.cones[c].order, cone_colour(static_cast<int>(c)),
-                  figure().is_visible(marked.row(c), view().viewer)});
+                  figure().is_visible(marked.row(c), view().viewer, ball)});
     }
   }
 
@@ -247,7 +247,7 @@ void draw_sheet(PanelPainter& painter, Canvas& canvas, const RenderSubject& subj
   canvas.text(
       {page.x, page.y + 3.5 * em},
       fmt::format("{} triangles,  cones at vertices {},  group of order {},  energy {:.6g}, {}",
-                  subject.mesh.F.rows(), fmt::join(cones, ", "), subject.report.group_order,
+                  with_commas(subject.mesh.F.rows()), fmt::join(cones, ", "), subject.report.group_order,
                   subject.report.energy, subject.report.bijective ? "certified bijective" : "not certified"),
       {.colour = ink::quiet});
   const Box body = page.inset(0, 5 * em, 0, 0);
@@ -260,7 +260,7 @@ void draw_sheet(PanelPainter& painter, Canvas& canvas, const RenderSubject& subj
     canvas.text({box.x + 0.5 * box.width, box.bottom() - 0.4 * em}, caption,
                 {.align = Align::centre, .bold = true});
   };
-  captioned(Panel::source, cell(0, 0), "Source mesh, cut from cone to cone");
+  captioned(Panel::source, cell(0, 0), "Source mesh, marked vertices and seams");
   captioned(Panel::sphere, cell(1, 0), "Its tile on the sphere, and the copies");
   captioned(Panel::checkerboard, cell(2, 0), "Checkerboard through the map");
   captioned(Panel::area, cell(0, 1), "Area distortion");

@@ -124,7 +124,7 @@ struct Bins {
 Bins bins_of(const std::vector<double>& values) {
   std::vector<double> magnitudes;
   for (const double value : values) magnitudes.push_back(std::abs(value));
-  Bins bins = {std::clamp(std::ceil(2 * 1.05 * quantile(magnitudes, 0.97)) / 2, 0.5, 10.0),
+  Bins bins = {std::clamp(std::ceil(2 * 1.05 * quantile(magnitudes, 0.97)) / 2, 0.5, 16.0),
                std::vector<double>(61, 0.0)};
   const double count = static_cast<double>(bins.shares.size());
   for (const double value : values) {
@@ -163,15 +163,16 @@ void draw_series(Canvas& canvas, const Series& series, const Axis& x, const Axis
   for (const Place& point : points) canvas.disc(point, 0.24 * canvas.em(), series.colour);
 }
 
-void draw_legend(Canvas& canvas, const Place& top_right, const std::vector<Series>& all) {
+// In a row that ends at `right`.
+void draw_legend(Canvas& canvas, const Place& right, const std::vector<Series>& all) {
   const double em = canvas.em();
-  double width = 0;
-  for (const Series& series : all) width = std::max(width, canvas.text_width(series.name, {}));
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    const double y = top_right[1] + (1.2 + 1.5 * static_cast<double>(k)) * em, x = top_right[0] - width;
-    canvas.line({{x - 2.2 * em, y - 0.35 * em}, {x - 0.5 * em, y - 0.35 * em}},
-                {.width = 0.16, .colour = all[k].colour});
-    canvas.text({x, y}, all[k].name, {});
+  double x = right[0];
+  for (auto series = all.rbegin(); series != all.rend(); ++series) {
+    x -= canvas.text_width(series->name, {.size = 0.9});
+    canvas.text({x, right[1]}, series->name, {.size = 0.9, .colour = ink::quiet});
+    canvas.line({{x - 2 * em, right[1] - 0.32 * em}, {x - 0.4 * em, right[1] - 0.32 * em}},
+                {.width = 0.16, .colour = series->colour});
+    x -= 3.2 * em;
   }
 }
 
@@ -188,7 +189,10 @@ Colour AngleScale::colour(const FaceDistortion& face) const {
 AreaScale area_scale(const std::vector<FaceDistortion>& faces) {
   std::vector<double> magnitudes = log_areas(faces);
   for (double& value : magnitudes) value = std::abs(value);
-  return {std::clamp(std::ceil(quantile(std::move(magnitudes), 0.9)), 1.0, 6.0)};
+  const double wanted = quantile(std::move(magnitudes), 0.9);
+  for (const double range : {1.0, 2.0, 3.0, 4.0})
+    if (wanted <= range) return {range};
+  return {6};
 }
 
 AngleScale angle_scale(const std::vector<FaceDistortion>& faces) {
@@ -255,7 +259,7 @@ void draw_histogram(Canvas& canvas, const Box& box, const std::vector<FaceDistor
 
 void draw_convergence(Canvas& canvas, const Box& box, const std::vector<Iteration>& history) {
   const double em = canvas.em();
-  const Box plot = box.inset(4 * em, 0.8 * em, em, 3.6 * em);
+  const Box plot = box.inset(4 * em, 2.2 * em, em, 3.6 * em);
   Series excess = {"(energy − last) / last", {0, 92, 160}, {}},
          gradient = {"gradient norm", {204, 85, 17}, {}};
   for (const Iteration& row : history) {
@@ -273,7 +277,7 @@ void draw_convergence(Canvas& canvas, const Box& box, const std::vector<Iteratio
   for (double k = 0; k <= iterations; k += step) x_tick(canvas, plot, x(k), fmt::format("{:.0f}", k));
   x_label(canvas, plot, "iteration");
   for (const Series& series : {gradient, excess}) draw_series(canvas, series, x, y);
-  draw_legend(canvas, {plot.right() - 0.5 * em, plot.y}, {excess, gradient});
+  draw_legend(canvas, {plot.right(), box.y + em}, {excess, gradient});
 }
 
 }  // namespace orbitutte

@@ -75,12 +75,18 @@ std::vector<Vector3> directions_around(const Vector3& up) {
   return directions;
 }
 
+// A flat face seen straight on shows no depth.
+Vector3 a_little_aside(const View& view) {
+  const Matrix3 axes = view_axes(view);
+  return (axes.row(2) + 0.3 * axes.row(0) + 0.2 * axes.row(1)).normalized();
+}
+
 // Marked vertices count most, then how much of the surface faces the viewer; the front breaks ties.
 double score(const SourceFigure& figure, const Points& marked, const View& view) {
   const Vector3& viewer = view.viewer;
   double visible = 0;
   for (Eigen::Index i = 0; i < marked.rows(); ++i)
-    visible += figure.is_visible(marked.row(i), viewer) ? 1.0 / static_cast<double>(marked.rows()) : 0;
+    visible += figure.is_visible(marked.row(i), viewer, 0.02) ? 1.0 / static_cast<double>(marked.rows()) : 0;
   return 0.6 * visible + 2 * projected_share(figure, viewer) + 0.2 * front_axes(view.up).row(2).dot(viewer);
 }
 
@@ -118,14 +124,14 @@ Light SourceFigure::light_at(const Camera& camera, const Ray& ray, const Hit& hi
   return {brightness(in_view, open), gloss(in_view) * open};
 }
 
-bool SourceFigure::is_visible(const Vector3& point, const Vector3& viewer) const {
-  const Vector3 start = point + 0.01 * viewer;
+bool SourceFigure::is_visible(const Vector3& point, const Vector3& viewer, double clearance) const {
+  const Vector3 start = point + clearance * viewer;
   return !scene_.is_blocked({start.cast<float>(), viewer.cast<float>()});
 }
 
 View default_view(const SourceFigure& figure, const Points& marked, const Vector3& up) {
   const Orientation open = orientation(figure);
-  if (open.integral.norm() > 0.25 * open.area) return {open.integral.normalized(), up};
+  if (open.integral.norm() > 0.25 * open.area) return {a_little_aside({open.integral, up}), up};
   View best = {Vector3::UnitZ(), up};
   double best_score = -1;
   for (const Vector3& viewer : directions_around(up)) {

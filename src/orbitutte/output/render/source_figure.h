@@ -31,8 +31,9 @@ class SourceFigure {
 
   Image draw(const Camera& camera, const SurfaceColour& colour, const Ornaments& ornaments) const;
 
-  /// Whether nothing of the surface lies between a point just above it and the viewer (a direction).
-  bool is_visible(const Vector3& point, const Vector3& viewer) const;
+  /// Whether nothing of the surface lies between a point, moved by `clearance` towards the viewer (a
+  /// direction), and the viewer.
+  bool is_visible(const Vector3& point, const Vector3& viewer, double clearance) const;
 
  private:
   Light light_at(const Camera& camera, const Ray& ray, const Hit& hit, unsigned sample) const;

@@ -83,7 +83,7 @@ Image SphereFigure::draw(const Camera& camera, const Ornaments& ornaments) const
     if (!distance) return Rgba::Zero();  // copies' seams do not stand out: the outline stays round
     const Vector3f point = (ray.origin + *distance * ray.direction).normalized();
     const Vector3f normal = camera.axes.cast<float>() * point;
-    return opaque((0.30F + 0.72F * brightness(normal, 1)) * surface_colour(point, camera.pixel) +
+    return opaque((0.40F + 0.62F * brightness(normal, 1)) * surface_colour(point, camera.pixel) +
                   0.6F * gloss(normal));
   });
 }
