@@ -40,7 +40,7 @@ int tile_command(const TileArguments& arguments);
 
 struct RenderArguments {
   std::string embedding, report, mesh, output;
-  std::string panel = "sheet", view, up = "y", size;
+  std::string panel = "sheet", view, up, size;
 };
 int render_command(const RenderArguments& arguments);
 

@@ -112,8 +112,8 @@ void add_render(CLI::App& app, int& code) {
       ->capture_default_str();
   command->add_option("--view", arguments->view,
                       "front, back, left, right, top, bottom or 'x,y,z' towards the viewer; default: chosen");
-  command->add_option("--up", arguments->up, "What points up: x, y, z, -x, -y, -z or 'x,y,z'")
-      ->capture_default_str();
+  command->add_option("--up", arguments->up,
+                      "What points up: x, y, z, -x, -y, -z or 'x,y,z'; default: y or z");
   command->add_option("--size", arguments->size, "Pixels, e.g. 1600x1200 or 900");
   command->callback([arguments, &code] { code = run([&] { return render_command(*arguments); }); });
 }

@@ -23,12 +23,17 @@ struct RenderOptions {
   Panel panel = Panel::sheet;
   int width = 0;  ///< pixels, 64 .. 10,000; 0: what suits the panel
   int height = 0;
-  std::optional<Vector3> view;    ///< from the figure towards the viewer; without: chosen
-  Vector3 up = Vector3::UnitY();  ///< what points up, for figures of the source mesh
+  std::optional<Vector3>
+      view;  ///< of the source mesh, towards the viewer; of the sphere where it is the only panel
+  std::optional<Vector3> up;  ///< what points up; without: y or z, whichever the mesh stands on
 };
 
 /// "1200x800", or "1200" for a square. Throws ArgumentError.
 void parse_size(const std::string& text, RenderOptions& options);
+
+/// What points up where nobody says: y, as in most files; z for what stands on a broad base across z and not
+/// across y, as parts for printing do. V: n x 3.
+Vector3 default_up(const Points& V);
 
 /// A direction "x,y,z" or "x", "-x", ... "-z". Throws ArgumentError.
 Vector3 parse_up(const std::string& text);

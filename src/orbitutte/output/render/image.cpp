@@ -15,8 +15,7 @@ Image supersample(const PictureSize& size, const std::function<Rgba(const Sample
       Rgba sum = Rgba::Zero();
       for (int k = 0; k < per_pixel; ++k)
         sum += shade({static_cast<float>(column) + offset(k % samples_across),
-                      static_cast<float>(row) + offset(k / samples_across),
-                      static_cast<unsigned>(pixel * per_pixel + k)});
+                      static_cast<float>(row) + offset(k / samples_across), k});
       image.pixels[pixel] = sum / per_pixel;
     }
   });

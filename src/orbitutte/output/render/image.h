@@ -35,7 +35,7 @@ struct Image {
 struct Sample {
   float x = 0;
   float y = 0;
-  unsigned number = 0;  ///< counts the samples of the picture
+  int number = 0;  ///< in the pixel, 0 .. samples_across^2 - 1
 };
 
 /// How many samples a pixel has along each side.

@@ -4,7 +4,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <numbers>
 
 #include "orbitutte/mesh/connectivity.h"
@@ -42,24 +41,17 @@ DisjointSets smooth_corners(const Points& V, const Faces& F, const CornerNormals
   return corners;
 }
 
-// Bits without any pattern (T. Wang's integer hash).
-std::uint32_t scramble(std::uint32_t x) {
-  x = (x ^ 61U) ^ (x >> 16U);
-  x *= 9U;
-  x ^= x >> 4U;
-  x *= 0x27d4eb2dU;
-  return x ^ (x >> 15U);
-}
-
 float fraction(float x) { return x - std::floor(x); }
 
-// The k-th direction of a pixel on the hemisphere about the z axis, cosine-weighted: Roberts' R2 sequence,
-// which fills the unit square evenly, shifted by another vector in every pixel.
-Vector3f hemisphere_direction(unsigned pixel, unsigned k) {
-  const float shift_u = static_cast<float>(scramble(2 * pixel) >> 8U) / (1U << 24U);
-  const float shift_v = static_cast<float>(scramble(2 * pixel + 1) >> 8U) / (1U << 24U);
-  const float u = fraction(shift_u + 0.7548776662F * static_cast<float>(k));
-  const float v = fraction(shift_v + 0.5698402910F * static_cast<float>(k));
+// Interleaved gradient noise (J. Jimenez, "Next Generation Post Processing in Call of Duty", 2014): a number
+// 0 .. 1 for every pixel that takes all values in every small block of pixels.
+float dither(float x, float y) { return fraction(52.9829189F * fraction(0.06711056F * x + 0.00583715F * y)); }
+
+// The k-th direction of a pixel on the hemisphere about the z axis, cosine-weighted: M. Roberts' R2 sequence,
+// which fills the unit square evenly, shifted by the pixel's own number.
+Vector3f hemisphere_direction(float shift, int k) {
+  const float u = fraction(shift + 0.7548776662F * static_cast<float>(k));
+  const float v = fraction(7 * shift + 0.5698402910F * static_cast<float>(k));
   const float angle = 2 * std::numbers::pi_v<float> * v, radius = std::sqrt(u);
   return {radius * std::cos(angle), radius * std::sin(angle), std::sqrt(1 - u)};
 }
@@ -98,15 +90,16 @@ float gloss(const Vector3f& normal) {
   return 0.07F * std::pow(std::max(0.0F, normal.dot(halfway)), 40.0F);
 }
 
-float openness(const RayScene& scene, const Ray& from, float reach, unsigned sample) {
-  constexpr unsigned per_pixel = samples_across * samples_across;
+float openness(const RayScene& scene, const Ray& from, float reach, const Sample& sample) {
+  constexpr int rays = 3;
+  const float shift = dither(std::floor(sample.x), std::floor(sample.y));
   const Eigen::Quaternionf turn = Eigen::Quaternionf::FromTwoVectors(Vector3f::UnitZ(), from.direction);
   int open = 0;
-  for (unsigned k = 0; k < 2; ++k) {
-    const Vector3f direction = turn * hemisphere_direction(sample / per_pixel, 2 * (sample % per_pixel) + k);
+  for (int k = 0; k < rays; ++k) {
+    const Vector3f direction = turn * hemisphere_direction(shift, rays * sample.number + k);
     open += scene.is_blocked({from.origin, direction, reach}) ? 0 : 1;
   }
-  return 0.5F * static_cast<float>(open);
+  return static_cast<float>(open) / rays;
 }
 
 }  // namespace orbitutte

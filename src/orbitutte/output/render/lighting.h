@@ -2,6 +2,7 @@
 // Normals, lights and shade.
 #pragma once
 
+#include "orbitutte/output/render/image.h"
 #include "orbitutte/output/render/ray_scene.h"
 
 namespace orbitutte {
@@ -21,9 +22,10 @@ float brightness(const Vector3f& normal, float openness);
 /// What a slightly glossy surface reflects of the main light besides, about 0 .. 0.1.
 float gloss(const Vector3f& normal);
 
-/// The share of the hemisphere above a point that nothing blocks within `reach`, estimated with two rays that
-/// depend on `sample` alone; over the samples of a pixel they are spread evenly.
-/// origin: just above the surface; normal: unit.
-float openness(const RayScene& scene, const Ray& from, float reach, unsigned sample);
+/// The share of the hemisphere above a point that nothing blocks within `reach`, estimated with a few rays.
+/// Over the samples of a pixel their directions are spread evenly, and from pixel to pixel they are turned
+/// such that what noise remains is finely grained. from: its origin just above the surface, its direction the
+/// unit normal.
+float openness(const RayScene& scene, const Ray& from, float reach, const Sample& sample);
 
 }  // namespace orbitutte

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "orbitutte/output/render/checkerboard.h"
+#include "orbitutte/output/render/default_view.h"
 #include "orbitutte/output/render/mesh_lines.h"
 #include "orbitutte/output/render/plots.h"
 #include "orbitutte/output/render/source_figure.h"
@@ -67,7 +68,7 @@ std::string with_commas(long long number) {
   return text;
 }
 
-// A ball's number. Balls behind the figure are rings.
+// A ball's number. Where the ball is behind the figure, an open circle stands for it.
 struct BallLabel {
   Vector3 centre;
   int order = 1;
@@ -83,7 +84,8 @@ void draw_label(Canvas& canvas, const Place& at, double radius, const BallLabel&
                 {.size = size, .colour = ink::paper, .align = Align::centre, .bold = true});
     return;
   }
-  canvas.ring(at, 0.85 * radius, {.width = 0.18 * radius / canvas.em(), .colour = label.colour, .dash = 0.2});
+  canvas.disc(at, 0.9 * radius, ink::paper);
+  canvas.ring(at, 0.9 * radius, {.width = 0.2 * radius / canvas.em(), .colour = label.colour});
   canvas.text(baseline, std::to_string(label.order),
               {.size = size, .colour = label.colour, .align = Align::centre, .bold = true});
 }
@@ -108,9 +110,10 @@ struct PanelPainter::Parts {
   }
 
   const View& view() {
-    if (!source_view && options.view) source_view = View{options.view->normalized(), options.up};
-    if (!source_view)
-      source_view = default_view(figure(), marked_positions(figure(), subject.embedding), options.up);
+    if (source_view) return *source_view;
+    const Vector3 up = options.up ? *options.up : default_up(subject.mesh.V);
+    source_view = options.view ? View{options.view->normalized(), up}
+                               : default_view(figure(), marked_positions(figure(), subject.embedding), up);
     return *source_view;
   }
 
@@ -158,7 +161,8 @@ struct PanelPainter::Parts {
 
   // The tile in the middle, a little from above and from the right, the sphere's axis upright.
   View sphere_view(const Vector3& centre) const {
-    if (options.view && options.panel == Panel::sphere) return {*options.view, options.up};
+    if (options.view && options.panel == Panel::sphere)
+      return {*options.view, options.up.value_or(Vector3::UnitZ())};
     const Matrix3 axes = view_axes({centre, Vector3::UnitZ()});
     const double tilt = std::min(0.16 * std::sqrt(4 * std::numbers::pi / subject.embedding.group_order), 0.3);
     return {(centre + tilt * (axes.row(0) + axes.row(1)).transpose()).normalized(), Vector3::UnitZ()};

@@ -36,17 +36,13 @@ class SourceFigure {
   bool is_visible(const Vector3& point, const Vector3& viewer, double clearance) const;
 
  private:
-  Light light_at(const Camera& camera, const Ray& ray, const Hit& hit, unsigned sample) const;
+  Light light_at(const Camera& camera, const Ray& ray, const Hit& hit, const Sample& sample) const;
 
   Points V_;
   Faces F_;
   CornerNormals normals_;
   RayScene scene_;
 };
-
-/// Where the view is not given: upright, from the side that shows most of the marked vertices (rows of
-/// `marked`) and of the surface; a surface that is open, from where it is open to.
-View default_view(const SourceFigure& figure, const Points& marked, const Vector3& up);
 
 /// How a ball or a tube is lit.
 Rgba shade_ornament(const Camera& camera, const Ornaments& ornaments, const Hit& hit);
