@@ -2,7 +2,11 @@
 // I. Wald et al., "Embree: A Kernel Framework for Efficient CPU Ray Tracing", ACM TOG 33(4), 2014.
 #include "orbitutte/output/render/ray_scene.h"
 
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
 #include <embree3/rtcore.h>
+#endif
 #include <fmt/format.h>
 
 #include <array>
@@ -70,6 +74,24 @@ RTCRay to_rtc(const Ray& ray) {
   return result;
 }
 
+// The two calls whose signatures changed with Embree 4.
+#if RTC_VERSION_MAJOR >= 4
+void intersect(RTCScene scene, RTCRayHit& query) { rtcIntersect1(scene, &query); }
+void occlude(RTCScene scene, RTCRay& query) { rtcOccluded1(scene, &query); }
+#else
+void intersect(RTCScene scene, RTCRayHit& query) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(scene, &context, &query);
+}
+
+void occlude(RTCScene scene, RTCRay& query) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1(scene, &context, &query);
+}
+#endif
+
 }  // namespace
 
 RayScene::RayScene() : scene_(rtcNewScene(device()), rtcReleaseScene) {
@@ -126,11 +148,9 @@ void RayScene::commit() {
 }
 
 std::optional<Hit> RayScene::first_hit(const Ray& ray) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
   RTCRayHit query = {to_rtc(ray), {}};
   query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(scene_.get(), &context, &query);
+  intersect(scene_.get(), query);
   const RTCHit& found = query.hit;
   if (found.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
   Hit hit;
@@ -147,10 +167,8 @@ std::optional<Hit> RayScene::first_hit(const Ray& ray) const {
 }
 
 bool RayScene::is_blocked(const Ray& ray) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
   RTCRay query = to_rtc(ray);
-  rtcOccluded1(scene_.get(), &context, &query);
+  occlude(scene_.get(), query);
   return query.tfar < 0;
 }
 
