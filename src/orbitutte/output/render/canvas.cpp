@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdint>
+#include <new>
 #include <numbers>
 
 namespace orbitutte {
@@ -35,6 +37,15 @@ std::uint32_t on_paper(const Rgba& pixel) {
   const Rgb colour = srgb(pixel.head<3>() + (1 - pixel[3]));
   return 0xff000000U | static_cast<std::uint32_t>(colour.red) << 16U |
          static_cast<std::uint32_t>(colour.green) << 8U | colour.blue;
+}
+
+// Cairo numbers surfaces through the whole process, and writes the number into an attribute that nothing
+// refers to.
+void drop_surface_number(std::string& svg) {
+  const std::size_t begin = svg.find(" id=\"surface");
+  if (begin == std::string::npos) return;
+  const std::size_t end = svg.find('>', begin);
+  svg.erase(begin, end - begin);
 }
 
 }  // namespace
@@ -162,6 +173,7 @@ std::string Canvas::finish() {
   } else {
     cairo_surface_finish(state_->surface);
     check(cairo_surface_status(state_->surface));
+    drop_surface_number(state_->bytes);
   }
   return std::move(state_->bytes);
 }
