@@ -27,7 +27,7 @@ int render_command(const RenderArguments& arguments) {
   const Embedding embedding = read_embedding(arguments.embedding, report);
   const Mesh mesh = to_triangle_mesh(read_mesh(arguments.mesh));
   if (!arguments.view.empty())
-    options.view = parse_view(arguments.view, options.up ? *options.up : default_up(mesh.V));
+    options.view = parse_view(arguments.view, options.up ? *options.up : default_up(mesh));
   const std::string title = std::filesystem::path(arguments.mesh).filename().string();
   write_picture(arguments.output, {mesh, embedding, report, title}, options);
   return drawn;

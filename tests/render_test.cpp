@@ -291,20 +291,23 @@ TEST(Render, OptionsAreRead) {
   EXPECT_LT((parse_view("3,0,-4", Vector3::UnitY()) - Vector3(0.6, 0, -0.8)).norm(), 1e-15);
 }
 
-TEST(DefaultView, PartsThatStandOnABroadBaseAcrossZHaveZUp) {
-  Points box(8, 3);
-  for (int v = 0; v < 8; ++v) box.row(v) << v % 2, v / 2 % 2, v / 4;
-  Points on_point = box;  // the lower vertices in one point: it stands on nothing
-  EXPECT_EQ(default_up(box), Vector3::UnitY()) << "a box stands on every side";
-  on_point.row(0) << 0.5, 0.5, 0;
-  for (const int v : {0, 1}) on_point.row(v) << 0.5, 0, 0.5;
-  for (const int v : {4, 5}) on_point.row(v) << 0.5, 0, 0.5;
-  EXPECT_EQ(default_up(on_point), Vector3::UnitY());
-  Points pyramid(5, 3);
-  pyramid << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0.5, 0.5, 1;
-  pyramid.row(0)[1] = pyramid.row(1)[1] = 0.0;
-  EXPECT_EQ(default_up(pyramid * Eigen::AngleAxisd(0.3, Vector3::UnitZ()).toRotationMatrix().transpose()),
-            Vector3::UnitZ());
+/// A pyramid whose base is the unit square across z, as a closed mesh.
+Mesh pyramid() {
+  Mesh mesh;
+  mesh.V.resize(5, 3);
+  mesh.V << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0.5, 0.5, 1;
+  mesh.F.resize(6, 3);
+  mesh.F << 0, 2, 1, 0, 3, 2, 0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4;
+  return mesh;
+}
+
+TEST(DefaultView, WhatStandsOnABroadBaseAcrossZHasZUp) {
+  Mesh mesh = pyramid();
+  EXPECT_EQ(default_up(mesh), Vector3::UnitZ());
+  EXPECT_EQ(default_up({mesh.V(Eigen::all, {1, 2, 0}), mesh.F}), Vector3::UnitY());
+  mesh.F = mesh.F.bottomRows(4).eval();  // without its base it faces whoever looks at it
+  EXPECT_EQ(default_up(mesh), Vector3::UnitY());
+  EXPECT_EQ(default_up({}), Vector3::UnitY());
 }
 
 TEST(DefaultView, OpenSurfacesAreSeenFromWhereTheyFace) {

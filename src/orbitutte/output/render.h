@@ -31,9 +31,9 @@ struct RenderOptions {
 /// "1200x800", or "1200" for a square. Throws ArgumentError.
 void parse_size(const std::string& text, RenderOptions& options);
 
-/// What points up where nobody says: y, as in most files; z for what stands on a broad base across z and not
-/// across y, as parts for printing do. V: n x 3.
-Vector3 default_up(const Points& V);
+/// What points up where nobody says: y, as in most files; z for closed meshes that stand on a broad base
+/// across z and not across y, as parts for printing do.
+Vector3 default_up(const Mesh& mesh);
 
 /// A direction "x,y,z" or "x", "-x", ... "-z". Throws ArgumentError.
 Vector3 parse_up(const std::string& text);

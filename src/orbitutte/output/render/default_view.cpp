@@ -32,18 +32,18 @@ struct Orientation {
   double area = 0;
 };
 
-Orientation orientation(const SourceFigure& figure) {
+Orientation orientation(const Points& V, const Faces& F) {
   Orientation result;
-  const Points& V = figure.positions();
-  for (Eigen::Index f = 0; f < figure.faces().rows(); ++f) {
-    const auto F = figure.faces().row(f);
-    const Vector3 a = V.row(F[0]), b = V.row(F[1]), c = V.row(F[2]);
+  for (Eigen::Index f = 0; f < F.rows(); ++f) {
+    const Vector3 a = V.row(F(f, 0)), b = V.row(F(f, 1)), c = V.row(F(f, 2));
     const Vector3 normal = 0.5 * (b - a).cross(c - a);
     result.integral += normal;
     result.area += normal.norm();
   }
   return result;
 }
+
+bool is_open(const Orientation& orientation) { return orientation.integral.norm() > 0.25 * orientation.area; }
 
 // The area that is seen where no part hides another, as a share of the whole.
 double projected_share(const SourceFigure& figure, const Vector3& viewer) {
@@ -88,15 +88,16 @@ double score(const SourceFigure& figure, const Points& marked, const View& view)
 
 }  // namespace
 
-Vector3 default_up(const Points& V) {
-  if (V.rows() == 0) return Vector3::UnitY();
-  const double across_y = base_share(V, 1), across_z = base_share(V, 2);
+Vector3 default_up(const Mesh& mesh) {
+  // What is open does not stand on its rim but faces the viewer.
+  if (mesh.F.rows() == 0 || is_open(orientation(mesh.V, mesh.F))) return Vector3::UnitY();
+  const double across_y = base_share(mesh.V, 1), across_z = base_share(mesh.V, 2);
   return across_z > 0.6 && across_z > 2 * across_y ? Vector3::UnitZ() : Vector3::UnitY();
 }
 
 View default_view(const SourceFigure& figure, const Points& marked, const Vector3& up) {
-  const Orientation open = orientation(figure);
-  if (open.integral.norm() > 0.25 * open.area) return {a_little_aside({open.integral, up}), up};
+  const Orientation facing = orientation(figure.positions(), figure.faces());
+  if (is_open(facing)) return {a_little_aside({facing.integral, up}), up};
   View best = {Vector3::UnitZ(), up};
   double best_score = -1;
   for (const Vector3& viewer : directions_around(up)) {

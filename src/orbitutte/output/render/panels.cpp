@@ -111,7 +111,7 @@ struct PanelPainter::Parts {
 
   const View& view() {
     if (source_view) return *source_view;
-    const Vector3 up = options.up ? *options.up : default_up(subject.mesh.V);
+    const Vector3 up = options.up ? *options.up : default_up(subject.mesh);
     source_view = options.view ? View{options.view->normalized(), up}
                                : default_view(figure(), marked_positions(figure(), subject.embedding), up);
     return *source_view;

@@ -46,7 +46,7 @@ std::optional<float> distance_to_sphere(const Ray& ray) {
 }
 
 Colour copy_colour(const TileCopy& copy) {
-  return mix(linear(tile_colour(copy.colour, false)), linear(ink::paper), copy.mirrored ? 0.35F : 0.6F);
+  return mix(linear(tile_colour(copy.colour, false)), linear(ink::paper), copy.mirrored ? 0.45F : 0.6F);
 }
 
 }  // namespace
