@@ -262,6 +262,19 @@ TEST(Render, AnotherMeshIsRefused) {
       MeshError);
 }
 
+TEST(Render, VerticesThatNoFaceUsesDoNotMakeTheFigureSmall) {
+  const Subject subject("432");
+  Mesh mesh = subject.sample.mesh;
+  const Eigen::Index n = mesh.V.rows();
+  mesh.V.conservativeResize(n + 1, 3);
+  mesh.V.row(n) << 100, 200, 300;
+  const RenderOptions options = options_of(Panel::source, 90, 90);
+  EXPECT_TRUE(render_png({mesh, subject.sample.embedding(), subject.report, ""}, options) ==
+              render_png(subject.get(), options));
+  mesh.V.row(n)[0] = std::nan("");
+  EXPECT_THROW(render_png({mesh, subject.sample.embedding(), subject.report, ""}, options), MeshError);
+}
+
 TEST(Render, PictureIsWrittenWhole) {
   const Subject subject("432");
   const std::string path = testing::TempDir() + "orbitutte_render_test.PNG";

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace orbitutte {
@@ -72,10 +73,11 @@ double board(Eigen::Vector2d place, double enlarged) {
 }  // namespace
 
 std::vector<float> sides_on_source(const Embedding& embedding, const Points& source, const Plane& plane) {
-  std::vector<float> sides(embedding.faces.rows());
-  for (Eigen::Index f = 0; f < embedding.faces.rows(); ++f)
-    sides[f] =
-        static_cast<float>(std::sqrt(source_area(embedding, source, f) / plane_area(embedding, plane, f)));
+  std::vector<float> sides(embedding.faces.rows(), std::numeric_limits<float>::infinity());
+  for (Eigen::Index f = 0; f < embedding.faces.rows(); ++f) {
+    const double area = plane_area(embedding, plane, f);
+    if (area > 0) sides[f] = static_cast<float>(std::sqrt(source_area(embedding, source, f) / area));
+  }
   return sides;
 }
 

@@ -124,7 +124,7 @@ struct Bins {
 Bins bins_of(const std::vector<double>& values) {
   std::vector<double> magnitudes;
   for (const double value : values) magnitudes.push_back(std::abs(value));
-  Bins bins = {std::clamp(std::ceil(2 * 1.05 * quantile(magnitudes, 0.97)) / 2, 0.5, 16.0),
+  Bins bins = {std::clamp(std::ceil(2 * 1.05 * quantile(magnitudes, 0.97)) / 2, 1.0, 16.0),
                std::vector<double>(61, 0.0)};
   const double count = static_cast<double>(bins.shares.size());
   for (const double value : values) {
@@ -244,7 +244,7 @@ void draw_histogram(Canvas& canvas, const Box& box, const std::vector<FaceDistor
   for (const int k : octaves(bins.range)) x_tick(canvas, plot, x(k), power_of_two(k));
   const bool is_open = std::max(bins.below, bins.above) > 0.002;
   x_label(canvas, plot,
-          is_open ? "area on the sphere : area on the mesh  (outermost bars: and beyond)"
+          is_open ? "area, sphere : mesh  (outermost bars: and beyond)"
                   : "area on the sphere : area on the mesh");
   if (values.empty()) return;
   const double mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());

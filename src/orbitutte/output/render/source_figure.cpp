@@ -15,10 +15,18 @@ constexpr double camera_distance = 4;    // the figure lies in the unit ball
 constexpr float surface_offset = 2e-4F;  // how far above the surface rays begin that leave it
 constexpr float reach_of_shade = 0.6F;
 
+// Vertices that no face uses come to lie on the first face's first corner: they must not make the figure
+// small.
+Points used_positions(const Points& V, const Faces& F) {
+  Points used = V(F(0, 0), Eigen::all).replicate(V.rows(), 1);
+  for (const int v : F.reshaped()) used.row(v) = V.row(v);
+  return used;
+}
+
 Points in_unit_ball(const Points& V) {
   const Vector3 low = V.colwise().minCoeff(), high = V.colwise().maxCoeff();
-  const double radius = std::max(0.5 * (high - low).norm(), std::numeric_limits<double>::min());
-  return (V.rowwise() - 0.5 * (low + high).transpose()) / radius;
+  const double radius = std::max(0.5 * (high - low).stableNorm(), std::numeric_limits<double>::min());
+  return (V.rowwise() - (0.5 * low + 0.5 * high).transpose()) / radius;
 }
 
 Vector3f interpolate(const CornerNormals& normals, const Hit& hit) {
@@ -33,7 +41,7 @@ Vector3f towards(const Vector3f& normal, const Vector3f& viewer) {
 }  // namespace
 
 SourceFigure::SourceFigure(const Points& V, const Faces& F)
-    : V_(in_unit_ball(V)), F_(F), normals_(corner_normals(V_, F_, crease)) {
+    : V_(in_unit_ball(used_positions(V, F))), F_(F), normals_(corner_normals(V_, F_, crease)) {
   scene_.add_triangles(V_, F_);
   scene_.commit();
 }

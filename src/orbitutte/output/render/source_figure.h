@@ -22,7 +22,7 @@ struct Light {
 
 class SourceFigure {
  public:
-  /// V is scaled into the unit ball about the origin.
+  /// V (n x 3, finite) is scaled into the unit ball about the origin. There must be a face.
   SourceFigure(const Points& V, const Faces& F);
 
   const Points& positions() const { return V_; }  ///< n x 3, in the unit ball
