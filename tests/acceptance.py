@@ -7,6 +7,7 @@ is no part of it: where it is missing, everything is skipped. Needs numpy.
 
   embed         every family on every mesh: verify_embedding.py and 'orbitutte verify' accept; exit 0 exactly when certified
   tile          the tiling of one embedding of each family is a closed surface of Euler characteristic 2, counterclockwise
+  render        a picture is a PNG of the size asked for, the same bytes twice; a plot is SVG; what makes no sense is refused
   golden        the reference's energies to 1e-9 (relative) and edge lengths to 1e-7, with the reference's weights
   cut-seed      20 cuts of the same mesh: no edge length changes by more than 1e-8
   repeat        two runs give the same bytes, but for times and memory in the report
@@ -19,10 +20,12 @@ import json
 import os
 import pathlib
 import shlex
+import struct
 import subprocess
 import sys
 import tempfile
 import time
+import xml.etree.ElementTree
 
 import numpy as np
 
@@ -239,6 +242,23 @@ class Suite:
         self.run(commands, self.orbitutte, 'tile', ply, report_path(ply), '-o', tiling)
         check_closed_sphere(Ply(tiling), report['orbifold']['group_order'], report['mesh']['faces'])
 
+    def test_render(self, name, commands, folder, mesh, signature):
+        _, ply, _ = self.embed(commands, folder, mesh, signature, self.marked(mesh, signature))
+
+        def render(picture, *options, codes=(0,)):
+            path = folder / picture
+            self.run(commands, self.orbitutte, 'render', ply, report_path(ply), self.shared / 'meshes' / mesh, '-o', path,
+                     *options, codes=codes)
+            return path.read_bytes() if path.exists() else b''
+
+        sheet = render('sheet.png', '--size', '480x400')
+        expect(sheet.startswith(b'\x89PNG') and struct.unpack('>II', sheet[16:24]) == (480, 400), 'no PNG of 480 x 400 pixels')
+        expect(render('again.png', '--size', '480x400') == sheet, 'two runs gave different pictures')
+        root = xml.etree.ElementTree.fromstring(render('plot.svg', '--panel', 'histogram'))
+        expect(root.tag.endswith('svg'), 'no SVG')
+        for options in (['--panel', 'nonsense'], ['--view', 'nowhere'], ['--size', '1x1'], ['--panel', 'histogram', '--up', 'w']):
+            expect(not render('refused.png', *options, codes=(2,)), f"{' '.join(options)}: a file was written")
+
     def test_golden(self, name, commands, folder, golden_folder):
         golden = json.loads((golden_folder / 'golden.json').read_text())
         mesh, signature, cones = golden['mesh'], golden['signature'], golden['cones']
@@ -321,6 +341,7 @@ class Suite:
             add(f'golden/{folder.name}', self.test_golden, folder)
         for signature in ONE_OF_EACH_FAMILY:
             add(f'tile/{signature}', self.test_tile, 'camelhead.off' if '*' in signature else 'my_man_maxp.off', signature)
+        add('render/camelhead/*432', self.test_render, 'camelhead.off', '*432')
         for mesh, signature in [('my_man_maxp.off', '532'), ('my_man_maxp.off', '33'), ('camelhead.off', '*432'),
                                 ('camelhead.off', '3*2'), ('camelhead.off', '5*')]:
             add(f'repeat/{stem(mesh)}/{signature}', self.test_repeat, mesh, signature)

@@ -14,7 +14,7 @@
 #include "orbitutte/mesh/file.h"
 #include "orbitutte/output/render/checkerboard.h"
 #include "orbitutte/output/render/default_view.h"
-#include "orbitutte/output/render/plots.h"
+#include "orbitutte/output/render/scales.h"
 #include "orbitutte/output/render/sphere_figure.h"
 #include "orbitutte/parallel.h"
 #include "sample_embeddings.h"
@@ -171,7 +171,7 @@ TEST(Render, SphereHasARoundOutline) {
   const Subject subject("*532");
   const SphereFigure sphere(subject.sample.embedding(),
                             std::vector<float>(subject.sample.embedding().source_vertex.size(), 1));
-  Camera camera = fit_camera({}, sphere_extent(), {101, 101}, 0.9);
+  const Camera camera = sphere_camera({}, {101, 101}, 0.9);
   Ornaments none;
   none.commit();
   const Image image = sphere.draw(camera, none);
@@ -187,7 +187,8 @@ TEST(Render, SphereShowsTheTileInItsMiddle) {
   for (const std::string signature : {"432", "*223", "33", "5*", "3x"}) {
     const Embedding& embedding = sample_embedding(signature).embedding();
     const SphereFigure sphere(embedding, std::vector<float>(embedding.source_vertex.size(), 1));
-    Camera camera = fit_camera({sphere.centre(), Vector3(0.1, 0.2, 0.9)}, sphere_extent(), {31, 31}, 0.9);
+    const Camera camera = sphere_camera(
+        {tile_centre(embedding.positions, embedding.faces), Vector3(0.1, 0.2, 0.9)}, {31, 31}, 0.9);
     Ornaments none;
     none.commit();
     const Rgba middle = sphere.draw(camera, none).at(15, 15);

@@ -111,21 +111,8 @@ double Canvas::text_width(const std::string& text, const TextStyle& style) const
 }
 
 void Canvas::line(const std::vector<Place>& points, const LineStyle& style) {
-  cairo_t* const context = state_->context;
-  for (const Place& point : points) cairo_line_to(context, point[0], point[1]);
-  const double dash = style.dash * em_;
-  cairo_set_dash(context, &dash, style.dash > 0 ? 1 : 0, 0);
-  cairo_set_line_join(context, CAIRO_LINE_JOIN_ROUND);
-  cairo_set_line_width(context, style.width * em_);
-  set_source(context, style.colour);
-  cairo_stroke(context);
-}
-
-void Canvas::polygon(const std::vector<Place>& points, const Rgb& colour) {
   for (const Place& point : points) cairo_line_to(state_->context, point[0], point[1]);
-  cairo_close_path(state_->context);
-  set_source(state_->context, colour);
-  cairo_fill(state_->context);
+  stroke(style);
 }
 
 void Canvas::box(const Box& box, const Rgb& colour) {
@@ -141,10 +128,15 @@ void Canvas::disc(const Place& centre, double radius, const Rgb& colour) {
 }
 
 void Canvas::ring(const Place& centre, double radius, const LineStyle& style) {
+  cairo_arc(state_->context, centre[0], centre[1], radius, 0, 2 * std::numbers::pi);
+  stroke(style);
+}
+
+void Canvas::stroke(const LineStyle& style) {
   cairo_t* const context = state_->context;
-  cairo_arc(context, centre[0], centre[1], radius, 0, 2 * std::numbers::pi);
   const double dash = style.dash * em_;
   cairo_set_dash(context, &dash, style.dash > 0 ? 1 : 0, 0);
+  cairo_set_line_join(context, CAIRO_LINE_JOIN_ROUND);
   cairo_set_line_width(context, style.width * em_);
   set_source(context, style.colour);
   cairo_stroke(context);

@@ -55,7 +55,6 @@ class Canvas {
   double text_width(const std::string& text, const TextStyle& style) const;
 
   void line(const std::vector<Place>& points, const LineStyle& style);
-  void polygon(const std::vector<Place>& points, const Rgb& colour);
   void box(const Box& box, const Rgb& colour);
   void disc(const Place& centre, double radius, const Rgb& colour);
   void ring(const Place& centre, double radius, const LineStyle& style);
@@ -65,6 +64,8 @@ class Canvas {
   std::string finish();
 
  private:
+  void stroke(const LineStyle& style);
+
   struct State;
   std::shared_ptr<State> state_;
   PictureSize size_;

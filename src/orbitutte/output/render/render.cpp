@@ -70,15 +70,10 @@ std::string picture(PictureFormat format, const RenderSubject& subject, const Re
   require_same_mesh(subject);
   const PictureSize size = picture_size(options);
   Canvas canvas(format, size, em_of(options.panel, size));
-  PanelPainter painter(subject, options);
-  if (options.panel == Panel::sheet) {
-    draw_sheet(painter, canvas, subject);
-  } else {
-    const double margin = canvas.em();
-    painter.draw(options.panel, canvas,
-                 Box{0, 0, static_cast<double>(size.width), static_cast<double>(size.height)}.inset(
-                     margin, margin, margin, margin));
-  }
+  PictureParts parts(subject, options);
+  const double margin = (options.panel == Panel::sheet ? 1.5 : 1) * canvas.em();
+  const Box page = {0, 0, static_cast<double>(size.width), static_cast<double>(size.height)};
+  draw_panel(options.panel, canvas, page.inset(margin, margin, margin, margin), parts);
   return canvas.finish();
 }
 

@@ -26,17 +26,6 @@ RayScene copies_of_tile(const Points& positions, const Faces& faces, const std::
   return scene;
 }
 
-// The direction of the integral of position over the tile; never a mean of corners, which may cancel.
-Vector3 centre_of(const Points& positions, const Faces& faces) {
-  Vector3 sum = Vector3::Zero();
-  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
-    const Vector3 a = positions.row(faces(f, 0)), b = positions.row(faces(f, 1)),
-                  c = positions.row(faces(f, 2));
-    sum += (b - a).cross(c - a).norm() * (a + b + c);
-  }
-  return sum.norm() > 1e-12 ? sum.normalized() : Vector3(Vector3::UnitX());
-}
-
 // Where a ray of the camera meets the unit sphere, if it does.
 std::optional<float> distance_to_sphere(const Ray& ray) {
   const float towards = -ray.origin.dot(ray.direction);
@@ -56,7 +45,6 @@ SphereFigure::SphereFigure(const Embedding& embedding, std::vector<float> relief
       faces_(embedding.faces),
       relief_(std::move(relief)),
       copies_(tile_copies(embedding)),
-      centre_(centre_of(positions_, faces_)),
       edge_length_(mean_edge_length(positions_, faces_)),
       scene_(copies_of_tile(positions_, faces_, copies_)) {}
 
@@ -118,10 +106,22 @@ Ornaments sphere_ornaments(const Embedding& embedding, const std::vector<TileCop
   return result;
 }
 
-Points sphere_extent() {
-  Points extent(6, 3);
-  extent << Matrix3::Identity(), -Matrix3::Identity();
-  return extent;
+Camera sphere_camera(const View& view, const PictureSize& size, double fill) {
+  Camera camera;
+  camera.axes = view_axes(view);
+  camera.size = size;
+  camera.pixel = 2 / (fill * std::min(size.width, size.height));
+  return camera;
+}
+
+Vector3 tile_centre(const Points& positions, const Faces& faces) {
+  Vector3 sum = Vector3::Zero();
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+    const Vector3 a = positions.row(faces(f, 0)), b = positions.row(faces(f, 1)),
+                  c = positions.row(faces(f, 2));
+    sum += (b - a).cross(c - a).norm() * (a + b + c);
+  }
+  return sum.norm() > 1e-12 ? sum.normalized() : Vector3(Vector3::UnitX());
 }
 
 }  // namespace orbitutte

@@ -19,11 +19,8 @@ class SphereFigure {
   /// it, so that the source can be recognised on the sphere.
   SphereFigure(const Embedding& embedding, std::vector<float> relief);
 
-  /// The tile's centre, a unit vector.
-  const Vector3& centre() const { return centre_; }
   const std::vector<TileCopy>& copies() const { return copies_; }
 
-  /// The sphere fills the camera's picture up to the share `fill`.
   Image draw(const Camera& camera, const Ornaments& ornaments) const;
 
  private:
@@ -33,7 +30,6 @@ class SphereFigure {
   Faces faces_;
   std::vector<float> relief_;
   std::vector<TileCopy> copies_;
-  Vector3 centre_;
   double edge_length_ = 0;  // the mean, on the sphere
   RayScene scene_;
 };
@@ -47,7 +43,11 @@ double ball_radius(int group_order);
 /// The seams of the tile in their colours, thin grey ones in all copies, and balls at the marked vertices.
 Ornaments sphere_ornaments(const Embedding& embedding, const std::vector<TileCopy>& copies);
 
-/// The sphere as a point set whose box is that of the sphere: 6 x 3.
-Points sphere_extent();
+/// The camera for which the sphere fills the share `fill` of the picture's shorter side.
+Camera sphere_camera(const View& view, const PictureSize& size, double fill);
+
+/// The direction of the integral of position over the tile, a unit vector; never a mean of corners, which may
+/// cancel.
+Vector3 tile_centre(const Points& positions, const Faces& faces);
 
 }  // namespace orbitutte
