@@ -46,17 +46,16 @@ Colour from_oklab(const Eigen::Vector3f& lab) {
   return (rgb_from_eye * (eye_from_oklab * lab).array().cube().matrix()).array();
 }
 
-// The point t in 0 .. 1 of the straight line in Oklab.
-Colour between(const Rgb& from, const Rgb& to, double t) {
-  const Eigen::Vector3f a = oklab(linear(from)), b = oklab(linear(to));
-  return from_oklab(a + static_cast<float>(t) * (b - a)).max(0).min(1);
+// The point t in 0 .. 1 of the straight line between two colours in Oklab.
+Colour between(const Eigen::Vector3f& from, const Eigen::Vector3f& to, double t) {
+  return from_oklab(from + static_cast<float>(t) * (to - from)).max(0).min(1);
 }
 
-// The same colour at another lightness.
-Rgb with_lightness(const Rgb& colour, float lightness) {
+// The same colour at another lightness, in Oklab; what no screen can show is cut off.
+Eigen::Vector3f at_lightness(const Rgb& colour, float lightness) {
   Eigen::Vector3f lab = oklab(linear(colour));
   lab[0] = lightness;
-  return srgb(from_oklab(lab));
+  return oklab(linear(srgb(from_oklab(lab))));
 }
 
 }  // namespace
@@ -75,15 +74,17 @@ double lightness(const Colour& colour) { return oklab(colour)[0]; }
 
 Colour diverging_colour(double t) {
   constexpr float darkest = 0.46F;
-  static const Rgb white = {244, 244, 242}, blue = with_lightness({33, 102, 172}, darkest),
-                   red = with_lightness({178, 24, 43}, darkest);
+  static const Eigen::Vector3f white = oklab(linear({244, 244, 242})),
+                               blue = at_lightness({33, 102, 172}, darkest),
+                               red = at_lightness({178, 24, 43}, darkest);
   return between(white, t < 0 ? blue : red, std::min(std::abs(t), 1.0));
 }
 
 Colour sequential_colour(double t) {
   // Three stops of equally spaced lightness.
-  static const Rgb pale = with_lightness({255, 247, 214}, 0.96F),
-                   middle = with_lightness({221, 106, 96}, 0.66F), dark = with_lightness({80, 24, 96}, 0.36F);
+  static const Eigen::Vector3f pale = at_lightness({255, 247, 214}, 0.96F),
+                               middle = at_lightness({221, 106, 96}, 0.66F),
+                               dark = at_lightness({80, 24, 96}, 0.36F);
   const double s = std::min(std::max(t, 0.0), 1.0);
   return s < 0.5 ? between(pale, middle, 2 * s) : between(middle, dark, 2 * s - 1);
 }

@@ -58,10 +58,6 @@ double round_step(double largest, int count) {
   return 10 * decade;
 }
 
-void mark_value(Canvas& canvas, const Box& plot, double x, const LineStyle& style) {
-  canvas.line({{x, plot.bottom()}, {x, plot.y - 0.2 * canvas.em()}}, style);
-}
-
 struct Bins {
   double range;
   std::vector<double> shares;   // of all values, in equal bins from -range to range
@@ -84,6 +80,43 @@ Bins bins_of(const std::vector<double>& values) {
   return bins;
 }
 
+// Where a plot's axes are, in a box that also holds its numbers and labels.
+Box plot_area(const Canvas& canvas, const Box& box) {
+  const double em = canvas.em();
+  return box.inset(4 * em, 2.2 * em, em, 3.6 * em);
+}
+
+void draw_bars(Canvas& canvas, const Box& plot, const Bins& bins, const AreaScale& scale) {
+  const double count = static_cast<double>(bins.shares.size()), width = plot.width / count;
+  const double highest = *std::max_element(bins.shares.begin(), bins.shares.end());
+  const Axis y = {0, std::max(1.05 * highest, 1e-9), plot.bottom(), plot.y};
+  const double step = round_step(y.high, 5);
+  for (double share = step; share <= y.high; share += step)
+    y_tick(canvas, plot, y(share), fmt::format("{:.3g}%", 100 * share));
+  for (std::size_t k = 0; k < bins.shares.size(); ++k) {
+    const double left = plot.x + width * static_cast<double>(k), top = y(bins.shares[k]);
+    const double middle = (2 * (static_cast<double>(k) + 0.5) / count - 1) * bins.range;
+    canvas.box({left, top, width, plot.bottom() - top}, srgb(0.93F * diverging_colour(middle / scale.range)));
+  }
+}
+
+// A full line at the median and a dashed one at the mean, and their values above the plot.
+void mark_centres(Canvas& canvas, const Box& plot, const Axis& x, const std::vector<double>& values) {
+  const double em = canvas.em();
+  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  const double median = quantile(values, 0.5);
+  const auto mark = [&](double value, const LineStyle& style) {
+    const double at = x(std::clamp(value, x.low, x.high));
+    canvas.line({{at, plot.bottom()}, {at, plot.y - 0.2 * em}}, style);
+  };
+  mark(median, {.width = 0.1});
+  mark(mean, {.width = 0.1, .dash = 0.4});
+  const std::string text = fmt::format("median {:.3g} (line),  geometric mean {:.3g} (dashed)",
+                                       std::exp2(median), std::exp2(mean));
+  canvas.text({plot.x + 0.5 * plot.width, plot.y - 1.2 * em}, text,
+              {.size = 0.9, .colour = ink::quiet, .align = Align::centre});
+}
+
 struct Series {
   std::string name;
   Rgb colour;
@@ -91,7 +124,7 @@ struct Series {
 };
 
 // Decades that hold all positive values.
-std::array<int, 2> decades(const std::vector<Series>& all) {
+std::array<int, 2> decades(const std::array<Series, 2>& all) {
   double low = 1e300, high = 0;
   for (const Series& series : all)
     for (const double value : series.values)
@@ -111,7 +144,7 @@ void draw_series(Canvas& canvas, const Series& series, const Axis& x, const Axis
 }
 
 // In a row that ends at `right`.
-void draw_legend(Canvas& canvas, const Place& right, const std::vector<Series>& all) {
+void draw_legend(Canvas& canvas, const Place& right, const std::array<Series, 2>& all) {
   const double em = canvas.em();
   double x = right[0];
   for (auto series = all.rbegin(); series != all.rend(); ++series) {
@@ -123,54 +156,38 @@ void draw_legend(Canvas& canvas, const Place& right, const std::vector<Series>& 
   }
 }
 
-}  // namespace
-
-void draw_histogram(Canvas& canvas, const Box& box, const std::vector<FaceDistortion>& faces) {
-  const double em = canvas.em();
-  const std::vector<double> values = log_areas(faces);
-  const AreaScale scale = area_scale(faces);
-  const Bins bins = bins_of(values);
-  const double highest = std::max(*std::max_element(bins.shares.begin(), bins.shares.end()), 1e-9);
-  const Box plot = box.inset(4 * em, 2.2 * em, em, 3.6 * em);
-  const Axis x = {-bins.range, bins.range, plot.x, plot.right()};
-  const Axis y = {0, 1.05 * highest, plot.bottom(), plot.y};
-
-  const double step = round_step(1.05 * highest, 5);
-  for (double share = step; share <= 1.05 * highest; share += step)
-    y_tick(canvas, plot, y(share), fmt::format("{:.3g}%", 100 * share));
-  const double count = static_cast<double>(bins.shares.size()), width = plot.width / count;
-  for (std::size_t k = 0; k < bins.shares.size(); ++k) {
-    const double left = plot.x + width * static_cast<double>(k), top = y(bins.shares[k]);
-    const double middle = (2 * (static_cast<double>(k) + 0.5) / count - 1) * bins.range;
-    canvas.box({left, top, width, plot.bottom() - top}, srgb(0.93F * diverging_colour(middle / scale.range)));
-  }
-  draw_frame(canvas, plot);
-  for (const int k : octaves(bins.range)) x_tick(canvas, plot, x(k), power_of_two(k));
-  const bool is_open = std::max(bins.below, bins.above) > 0.002;
-  x_label(canvas, plot,
-          is_open ? "area, sphere : mesh  (outermost bars: and beyond)"
-                  : "area on the sphere : area on the mesh");
-  if (values.empty()) return;
-  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-  const double median = quantile(values, 0.5);
-  mark_value(canvas, plot, x(std::clamp(median, -bins.range, bins.range)), {.width = 0.1});
-  mark_value(canvas, plot, x(std::clamp(mean, -bins.range, bins.range)), {.width = 0.1, .dash = 0.4});
-  canvas.text({plot.x + 0.5 * plot.width, box.y + 1.0 * em},
-              fmt::format("median {:.3g} (line),  geometric mean {:.3g} (dashed)", std::exp2(median),
-                          std::exp2(mean)),
-              {.size = 0.9, .colour = ink::quiet, .align = Align::centre});
-}
-
-void draw_convergence(Canvas& canvas, const Box& box, const std::vector<Iteration>& history) {
-  const double em = canvas.em();
-  const Box plot = box.inset(4 * em, 2.2 * em, em, 3.6 * em);
+std::array<Series, 2> convergence_series(const std::vector<Iteration>& history) {
   Series excess = {"(energy − last) / last", {0, 92, 160}, {}},
          gradient = {"gradient norm", {204, 85, 17}, {}};
   for (const Iteration& row : history) {
     excess.values.push_back((row.energy - history.back().energy) / history.back().energy);
     gradient.values.push_back(row.gradient_norm);
   }
-  const auto [first, last] = decades({excess, gradient});
+  return {excess, gradient};
+}
+
+}  // namespace
+
+void draw_histogram(Canvas& canvas, const Box& box, const std::vector<FaceDistortion>& faces) {
+  const std::vector<double> values = log_areas(faces);
+  const Bins bins = bins_of(values);
+  const Box plot = plot_area(canvas, box);
+  draw_bars(canvas, plot, bins, area_scale(faces));
+  draw_frame(canvas, plot);
+  const Axis x = {-bins.range, bins.range, plot.x, plot.right()};
+  for (const int k : octaves(bins.range)) x_tick(canvas, plot, x(k), power_of_two(k));
+  const bool is_open = std::max(bins.below, bins.above) > 0.002;
+  x_label(canvas, plot,
+          is_open ? "area, sphere : mesh  (outermost bars: and beyond)"
+                  : "area on the sphere : area on the mesh");
+  if (!values.empty()) mark_centres(canvas, plot, x, values);
+}
+
+void draw_convergence(Canvas& canvas, const Box& box, const std::vector<Iteration>& history) {
+  const double em = canvas.em();
+  const Box plot = plot_area(canvas, box);
+  const auto series = convergence_series(history);
+  const auto [first, last] = decades(series);
   const double iterations = std::max(1.0, static_cast<double>(history.size()) - 1);
   const Axis x = {0, iterations, plot.x + em, plot.right() - em};
   const Axis y = {static_cast<double>(first), static_cast<double>(last), plot.bottom(), plot.y};
@@ -180,8 +197,8 @@ void draw_convergence(Canvas& canvas, const Box& box, const std::vector<Iteratio
   const double step = std::max(1.0, round_step(iterations, 8));
   for (double k = 0; k <= iterations; k += step) x_tick(canvas, plot, x(k), fmt::format("{:.0f}", k));
   x_label(canvas, plot, "iteration");
-  for (const Series& series : {gradient, excess}) draw_series(canvas, series, x, y);
-  draw_legend(canvas, {plot.right(), box.y + em}, {excess, gradient});
+  for (const Series& one : series) draw_series(canvas, one, x, y);
+  draw_legend(canvas, {plot.right(), plot.y - 1.2 * em}, series);
 }
 
 }  // namespace orbitutte
