@@ -9,7 +9,7 @@ void draw_label(Canvas& canvas, const BallLabel& label) {
     canvas.ring(label.at, 0.9 * label.radius,
                 {.width = 0.2 * label.radius / canvas.em(), .colour = label.colour});
   }
-  const double size = 1.25 * label.radius;
+  const double size = (label.order < 10 ? 1.25 : 0.95) * label.radius;
   const Place baseline = {label.at[0], label.at[1] + 0.36 * size};
   canvas.text(baseline, std::to_string(label.order),
               {.size = size / canvas.em(),

@@ -20,7 +20,7 @@ float linear_channel(std::uint8_t channel) {
 std::uint8_t srgb_channel(float channel) {
   const float c = std::min(std::max(channel, 0.0F), 1.0F);
   const float s = c <= 0.0031308F ? 12.92F * c : 1.055F * std::pow(c, 1 / 2.4F) - 0.055F;
-  return static_cast<std::uint8_t>(255 * s + 0.5F);
+  return static_cast<std::uint8_t>(std::lround(255 * s));
 }
 
 // Linear sRGB to the responses of the eye's cones, and their cube roots to Oklab.

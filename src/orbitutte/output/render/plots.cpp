@@ -65,8 +65,8 @@ struct Bins {
 };
 
 Bins bins_of(const std::vector<double>& values) {
-  std::vector<double> magnitudes;
-  for (const double value : values) magnitudes.push_back(std::abs(value));
+  std::vector<double> magnitudes = values;
+  for (double& value : magnitudes) value = std::abs(value);
   Bins bins = {std::clamp(std::ceil(2 * 1.05 * quantile(magnitudes, 0.97)) / 2, 1.0, 16.0),
                std::vector<double>(61, 0.0)};
   const double count = static_cast<double>(bins.shares.size());
