@@ -27,6 +27,10 @@
 #include <stb_image.h>
 #pragma GCC diagnostic pop
 
+// Cairo keeps fonts until the program ends, in fontconfig's memory: the leak sanitizer should not count them.
+// It calls this function; without sanitizers nobody does.
+extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfig\n"; }
+
 namespace orbitutte {
 namespace {
 

@@ -4,6 +4,7 @@
 // (2021).
 #include "orbitutte/output/render/colour.h"
 
+#include <Eigen/LU>
 #include <array>
 #include <cmath>
 
