@@ -168,7 +168,7 @@ Vector3 parse_up(const std::string& text) {
 
 Vector3 parse_view(const std::string& text, const Vector3& up) {
   const Matrix3 axes = front_axes(up);
-  const Vector3 right = axes.row(0), above = axes.row(1), front = axes.row(2);
+  Vector3 right = axes.row(0), above = axes.row(1), front = axes.row(2);
   if (text == "front") return front;
   if (text == "back") return -front;
   if (text == "right") return right;

@@ -29,8 +29,8 @@ void draw_surface(Canvas& canvas, const Box& box, PictureParts& parts, const Sur
 }
 
 std::vector<int> source_of(const Embedding& embedding, const std::vector<int>& cut_vertices) {
-  std::vector<int> vertices;
-  for (const int v : cut_vertices) vertices.push_back(embedding.source_vertex[v]);
+  std::vector<int> vertices = cut_vertices;
+  for (int& v : vertices) v = embedding.source_vertex[v];
   return vertices;
 }
 
@@ -53,7 +53,7 @@ SurfaceColour plain_colour(const SourceFigure& figure, double pixel) {
   const float lines = line_strength(mean_edge_length(figure.positions(), figure.faces()) / pixel);
   const Colour body = linear(bold_colour);
   return [&figure, pixel, lines, body](const Hit& hit) -> Colour {
-    if (lines == 0) return body;
+    if (lines == 0) return Colour(body);
     return body * (1 - 0.45F * lines * line_coverage(figure.positions(), figure.faces(), hit, pixel));
   };
 }

@@ -91,6 +91,7 @@ Ornaments sphere_ornaments(const Embedding& embedding, const std::vector<TileCop
   thin.commit();
   Ornaments result;
   std::vector<Matrix3> transforms;
+  transforms.reserve(copies.size());
   for (const TileCopy& copy : copies) transforms.push_back(copy.transform);
   result.add_copies(thin, transforms);
   for (std::size_t s = 0; s < embedding.seams.size(); ++s) {
