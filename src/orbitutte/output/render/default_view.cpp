@@ -77,13 +77,14 @@ Vector3 a_little_aside(const View& view) {
   return (axes.row(2) + 0.3 * axes.row(0) + 0.2 * axes.row(1)).normalized();
 }
 
-// Marked vertices count most, then how much of the surface faces the viewer; the front breaks ties.
+// Marked vertices that are seen, how much of the surface faces the viewer, and how near the view is to the
+// front: weights by which heads show their faces and animals their flanks.
 double score(const SourceFigure& figure, const Points& marked, const View& view) {
   const Vector3& viewer = view.viewer;
   double visible = 0;
   for (Eigen::Index i = 0; i < marked.rows(); ++i)
     visible += figure.is_visible(marked.row(i), viewer, 0.02) ? 1.0 / static_cast<double>(marked.rows()) : 0;
-  return 0.6 * visible + 2 * projected_share(figure, viewer) + 0.2 * front_axes(view.up).row(2).dot(viewer);
+  return 0.5 * visible + 2 * projected_share(figure, viewer) + 0.45 * front_axes(view.up).row(2).dot(viewer);
 }
 
 }  // namespace
