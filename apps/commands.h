@@ -44,6 +44,12 @@ struct ExportArguments {
 };
 int export_command(const ExportArguments& arguments);
 
+struct RenderArguments {
+  std::string embedding, report, mesh, output;
+  std::string panel = "sheet", view, up, size;
+};
+int render_command(const RenderArguments& arguments);
+
 struct SampleArguments {
   std::string output, shape = "figure";
   int faces = 20000;

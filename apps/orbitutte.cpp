@@ -128,6 +128,25 @@ void add_export(CLI::App& app, int& code) {
   command->callback([arguments, &code] { code = run([&] { return export_command(*arguments); }); });
 }
 
+void add_render(CLI::App& app, int& code) {
+  auto* command = app.add_subcommand("render", "Pictures of an embedding: PNG, and SVG for the plots");
+  auto arguments = std::make_shared<RenderArguments>();
+  command->add_option("embedding", arguments->embedding, "The embedding (PLY)")->required();
+  command->add_option("report", arguments->report, "Its report (JSON)")->required();
+  command->add_option("mesh", arguments->mesh, "The input mesh")->required();
+  command->add_option("-o,--output", arguments->output, "The picture: .png or .svg")->required();
+  command
+      ->add_option("--panel", arguments->panel,
+                   "source, sphere, area, angle, checkerboard, histogram, convergence, or sheet: all of them")
+      ->capture_default_str();
+  command->add_option("--view", arguments->view,
+                      "front, back, left, right, top, bottom or 'x,y,z' towards the viewer; default: chosen");
+  command->add_option("--up", arguments->up,
+                      "What points up: x, y, z, -x, -y, -z or 'x,y,z'; default: y or z");
+  command->add_option("--size", arguments->size, "Pixels, e.g. 1600x1200 or 900");
+  command->callback([arguments, &code] { code = run([&] { return render_command(*arguments); }); });
+}
+
 void add_sample(CLI::App& app, int& code) {
   auto* command = app.add_subcommand("sample", "Generate a mesh to try things on");
   auto arguments = std::make_shared<SampleArguments>();
@@ -155,6 +174,7 @@ int main(int argc, char** argv) {
   add_verify(app, code);
   add_tile(app, code);
   add_export(app, code);
+  add_render(app, code);
   add_sample(app, code);
   try {
     app.parse(argc, argv);

@@ -7,6 +7,7 @@ is no part of it: where it is missing, everything is skipped. Needs numpy.
 
   embed         every family on every mesh: verify_embedding.py and 'orbitutte verify' accept; exit 0 exactly when certified
   tile          the tiling of one embedding of each family is a closed surface of Euler characteristic 2, counterclockwise
+  render        a picture is a PNG of the size asked for, the same bytes twice; a plot is SVG; what makes no sense is refused
   golden        the reference's energies to 1e-9 (relative) and edge lengths to 1e-7, with the reference's weights
   weights       Delaunay and mean value weights on every mesh: as embed, and Delaunay is nearer to conformal than the clamp
   polygon       the tile of *222 as a fixed polygon: certified, and the map is more sheared than that into the orbifold
@@ -24,10 +25,12 @@ import json
 import os
 import pathlib
 import shlex
+import struct
 import subprocess
 import sys
 import tempfile
 import time
+import xml.etree.ElementTree
 
 import numpy as np
 
@@ -411,6 +414,23 @@ class Suite:
         self.run(commands, PYTHON, self.checker, folder / 'fans.off', folder / 'fans.ply', report_file, '--weights-file',
                  folder / 'weights.txt')
 
+    def test_render(self, name, commands, folder, mesh, signature):
+        _, ply, _ = self.embed(commands, folder, mesh, signature, self.marked(mesh, signature))
+
+        def render(picture, *options, codes=(0,)):
+            path = folder / picture
+            self.run(commands, self.orbitutte, 'render', ply, report_path(ply), self.path(mesh), '-o', path,
+                     *options, codes=codes)
+            return path.read_bytes() if path.exists() else b''
+
+        sheet = render('sheet.png', '--size', '480x400')
+        expect(sheet.startswith(b'\x89PNG') and struct.unpack('>II', sheet[16:24]) == (480, 400), 'no PNG of 480 x 400 pixels')
+        expect(render('again.png', '--size', '480x400') == sheet, 'two runs gave different pictures')
+        root = xml.etree.ElementTree.fromstring(render('plot.svg', '--panel', 'histogram'))
+        expect(root.tag.endswith('svg'), 'no SVG')
+        for options in (['--panel', 'nonsense'], ['--view', 'nowhere'], ['--size', '1x1'], ['--panel', 'histogram', '--up', 'w']):
+            expect(not render('refused.png', *options, codes=(2,)), f"{' '.join(options)}: a file was written")
+
     def test_golden(self, name, commands, folder, golden_folder):
         golden = json.loads((golden_folder / 'golden.json').read_text())
         mesh, signature, cones = golden['mesh'], golden['signature'], golden['cones']
@@ -549,6 +569,7 @@ class Suite:
         for signature in ['532', '33', '*33', '5*', '3x'] if quick else ONE_OF_EACH_FAMILY:
             mesh = 'camelhead.off' if '*' in signature else 'boy.ply' if 'x' in signature else 'my_man_maxp.off'
             add(f'theorem2/{signature}', self.test_theorem2, mesh, signature)
+        add('render/camelhead/*432', self.test_render, 'camelhead.off', '*432')
         for mesh, signature in [('my_man_maxp.off', '532'), ('my_man_maxp.off', '33'), ('camelhead.off', '*432'),
                                 ('camelhead.off', '3*2'), ('camelhead.off', '5*'), ('boy.ply', '3x')]:
             add(f'repeat/{stem(mesh)}/{signature}', self.test_repeat, mesh, signature)

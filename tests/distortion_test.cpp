@@ -260,6 +260,15 @@ TEST(Distortion, HistogramIsOpenAtBothEnds) {
   EXPECT_EQ(sum(distortion.histogram.counts), 3);
 }
 
+TEST(Distortion, IsTheMeanOverTheFaces) {
+  const test::SampleEmbedding& sample = test::sample_embedding("432");
+  double area = 0, angle = 0;
+  const std::vector<FaceDistortion> faces = measure_faces(sample.mesh, sample.embedding());
+  for (const FaceDistortion& face : faces) area += std::max(face.area, 1 / face.area), angle += face.angle;
+  EXPECT_NEAR(area / static_cast<double>(faces.size()), sample.result.distortion.area.mean, 1e-9);
+  EXPECT_NEAR(angle / static_cast<double>(faces.size()), sample.result.distortion.angle.mean, 1e-9);
+}
+
 TEST(Distortion, IsNeverBelowOne) {
   for (const std::string& signature : test::sample_signatures()) {
     const Distortion& distortion = test::sample_embedding(signature).result.distortion;

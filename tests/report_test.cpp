@@ -178,6 +178,8 @@ TEST(Report, ReadBackSaysTheSame) {
     expect_same(report.seams, result.embedding.seams);
     expect_same(report.cones, result.embedding.cones);
     EXPECT_EQ(report.energy, result.minimum.energy);
+    ASSERT_EQ(report.history.size(), result.minimum.history.size());
+    EXPECT_EQ(report.history.back().gradient_norm, result.minimum.history.back().gradient_norm);
     EXPECT_EQ(report.weights.kind, WeightKind::cotan);
     EXPECT_EQ(report.weights.clamp, 0.01);
     EXPECT_TRUE(report.converged);
@@ -237,6 +239,8 @@ TEST(Report, MissingKeysAreNamed) {
                               "/weights/kind",
                               "/weights/clamp",
                               "/energy",
+                              "/history",
+                              "/history/0/gradient_norm",
                               "/termination",
                               "/certificate",
                               "/certificate/bijective",

@@ -195,6 +195,16 @@ TEST(Tiling, ReflectionsAlternateTwoColours) {
     EXPECT_EQ(copy.colour, copy.mirrored ? 1 : 0);
 }
 
+TEST(Tiling, CopiesAreTheSameWithoutTheMesh) {
+  const Embedding embedding = mirror_triangle(2, 2, 2, 8, 3);
+  const std::vector<TileCopy> copies = tile_copies(embedding), expected = tile_sphere(embedding).copies;
+  ASSERT_EQ(copies.size(), expected.size());
+  for (std::size_t g = 0; g < copies.size(); ++g) {
+    EXPECT_EQ(copies[g].transform, expected[g].transform);
+    EXPECT_EQ(copies[g].colour, expected[g].colour);
+  }
+}
+
 TEST(Tiling, LeavesOutVerticesWithoutFaces) {
   Embedding embedding = mirror_triangle(2, 2, 2, 8, 3);
   const Tiling expected = tile_sphere(embedding);

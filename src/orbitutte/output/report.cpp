@@ -197,6 +197,15 @@ WeightOptions to_weights(const Json& json) {
   return weights;
 }
 
+std::vector<Iteration> to_history(const Json& rows) {
+  std::vector<Iteration> history;
+  for (const Json& row : rows) {
+    typed(row, "history", row.is_object(), "a list of objects");
+    history.push_back({number(row, "energy"), number(row, "gradient_norm"), number(row, "step")});
+  }
+  return history;
+}
+
 Report to_report(const Json& json) {
   if (text(json, "schema") != "orbitutte.report/1")
     throw MeshError(fmt::format("the 'schema' is '{}', not 'orbitutte.report/1'", text(json, "schema")));
@@ -209,6 +218,7 @@ Report to_report(const Json& json) {
   for (const Json& cone : array(json, "cones")) report.cones.push_back(to_cone(cone));
   report.weights = to_weights(object(json, "weights"));
   report.energy = number(json, "energy");
+  report.history = to_history(array(json, "history"));
   report.converged = text(json, "termination") == name(Termination::converged);
   const Json& certificate = object(json, "certificate");
   report.bijective = boolean(certificate, "bijective");

@@ -32,6 +32,7 @@ struct Report {
   std::vector<ConeCopies> cones;
   WeightOptions weights;
   double energy = 0;
+  std::vector<Iteration> history;
   bool converged = false;
   bool bijective = false;
   double expected_area = 0;

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+// Stands in for render_command.cpp where the library was built without Embree and Cairo.
+#include "commands.h"
+#include "orbitutte/types.h"
+
+namespace orbitutte::cli {
+
+int render_command(const RenderArguments&) {
+  throw ArgumentError("this binary was built without pictures; build it with -D ORBITUTTE_RENDER=ON");
+}
+
+}  // namespace orbitutte::cli

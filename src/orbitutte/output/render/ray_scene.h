@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// What rays can hit: triangles, tubes, balls and copies of whole scenes, through Embree.
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "orbitutte/types.h"
+
+struct RTCSceneTy;
+
+namespace orbitutte {
+
+using Vector3f = Eigen::Vector3f;
+
+struct Ray {
+  Vector3f origin;
+  Vector3f direction;
+  float length = std::numeric_limits<float>::infinity();  ///< in lengths of `direction`
+};
+
+/// The first thing on a ray.
+struct Hit {
+  float distance = 0;  ///< in lengths of the ray's direction
+  int shape = -1;      ///< as add_... returned it
+  int primitive = -1;  ///< of triangles: the face
+  int copy = -1;       ///< as add_copy returned it; -1 where the shape is the scene's own
+  float u = 0, v = 0;  ///< of triangles: the hit is (1 - u - v) a + u b + v c
+  Vector3f normal;     ///< unit, of the shape as it stands, on either side
+};
+
+/// In single precision: coordinates should be of the order of one. Add shapes, commit, then cast rays from
+/// any thread. Throws std::bad_alloc where memory runs out.
+class RayScene {
+ public:
+  RayScene();
+
+  int add_triangles(const Points& V, const Faces& F);
+
+  /// A round tube along a polyline of n >= 2 points (n x 3).
+  int add_tube(const Points& points, double radius);
+  int add_ball(const Vector3& centre, double radius);
+
+  /// A committed scene once more, under an orthogonal transform; its geometry is shared, not copied.
+  int add_copy(const RayScene& original, const Matrix3& transform);
+
+  void commit();
+
+  std::optional<Hit> first_hit(const Ray& ray) const;
+  bool is_blocked(const Ray& ray) const;
+
+ private:
+  std::shared_ptr<RTCSceneTy> scene_;
+  std::vector<Eigen::Matrix3f> transforms_;  ///< of every shape, the identity unless it is a copy
+};
+
+}  // namespace orbitutte

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// The panels that show the source mesh.
+#include <algorithm>
+
+#include "orbitutte/output/render/ball_labels.h"
+#include "orbitutte/output/render/checkerboard.h"
+#include "orbitutte/output/render/mesh_lines.h"
+#include "orbitutte/output/render/panels.h"
+#include "orbitutte/output/render/scales.h"
+#include "orbitutte/output/render/sphere_figure.h"
+
+namespace orbitutte {
+namespace {
+
+constexpr double scale_height = 4;       // ems
+constexpr double median_square = 0.045;  // side on the source, whose half diagonal is 1
+
+// Sizes of ornaments, as shares of half the picture's shorter side.
+constexpr double ball_share = 0.042, tube_share = 0.0085;
+
+Camera source_camera(const Box& box, PictureParts& parts) {
+  return fit_camera(parts.source_view(), parts.figure().positions(), size_of(box), figure_fill);
+}
+
+void draw_surface(Canvas& canvas, const Box& box, PictureParts& parts, const SurfaceColour& colour) {
+  Ornaments none;
+  none.commit();
+  canvas.image({box.x, box.y}, parts.figure().draw(source_camera(box, parts), colour, none));
+}
+
+std::vector<int> source_of(const Embedding& embedding, const std::vector<int>& cut_vertices) {
+  std::vector<int> vertices = cut_vertices;
+  for (int& v : vertices) v = embedding.source_vertex[v];
+  return vertices;
+}
+
+// half_side: of the picture, in the world's unit.
+Ornaments source_ornaments(PictureParts& parts, double half_side) {
+  const Embedding& embedding = parts.embedding();
+  Ornaments ornaments;
+  for (std::size_t s = 0; s < embedding.seams.size(); ++s)
+    ornaments.add_tube(polyline(parts.figure().positions(), source_of(embedding, embedding.seams[s].left)),
+                       tube_share * half_side, seam_colour(static_cast<int>(s)));
+  const Points marked = parts.marked_positions();
+  for (Eigen::Index c = 0; c < marked.rows(); ++c)
+    ornaments.add_ball(marked.row(c), ball_share * half_side, cone_colour(static_cast<int>(c)));
+  ornaments.commit();
+  return ornaments;
+}
+
+// One colour, and the triangulation where it is coarse enough.
+SurfaceColour plain_colour(const SourceFigure& figure, double pixel) {
+  const float lines = line_strength(mean_edge_length(figure.positions(), figure.faces()) / pixel);
+  const Colour body = linear(bold_colour);
+  return [&figure, pixel, lines, body](const Hit& hit) -> Colour {
+    if (lines == 0) return Colour(body);
+    return body * (1 - 0.45F * lines * line_coverage(figure.positions(), figure.faces(), hit, pixel));
+  };
+}
+
+}  // namespace
+
+void draw_source_panel(Canvas& canvas, const Box& box, PictureParts& parts) {
+  const Camera camera = source_camera(box, parts);
+  const double half_side = 0.5 * std::min(camera.size.width, camera.size.height) * camera.pixel;
+  const SourceFigure& figure = parts.figure();
+  canvas.image({box.x, box.y},
+               figure.draw(camera, plain_colour(figure, camera.pixel), source_ornaments(parts, half_side)));
+  const double radius = ball_share * half_side;
+  const Vector3 viewer = camera.axes.row(2);
+  const Points marked = parts.marked_positions();
+  for (Eigen::Index c = 0; c < marked.rows(); ++c) {
+    const Vector3 at = camera.project(marked.row(c));
+    draw_label(canvas, {.at = {box.x + at[0], box.y + at[1]},
+                        .radius = radius / camera.pixel,
+                        .order = parts.embedding().cones[c].order,
+                        .colour = cone_colour(static_cast<int>(c)),
+                        .is_visible = figure.is_visible(marked.row(c), viewer, radius)});
+  }
+}
+
+void draw_area_panel(Canvas& canvas, const Box& box, PictureParts& parts) {
+  const std::vector<FaceDistortion>& faces = parts.distortion();
+  const AreaScale scale = area_scale(faces);
+  const double below = scale_height * canvas.em();
+  draw_surface(canvas, box.inset(0, 0, 0, below), parts,
+               [&](const Hit& hit) { return scale.colour(faces[hit.primitive]); });
+  draw_scale(canvas, {box.x, box.bottom() - below, box.width, below}, scale);
+}
+
+void draw_angle_panel(Canvas& canvas, const Box& box, PictureParts& parts) {
+  const std::vector<FaceDistortion>& faces = parts.distortion();
+  const AngleScale scale = angle_scale(faces);
+  const double below = scale_height * canvas.em();
+  draw_surface(canvas, box.inset(0, 0, 0, below), parts,
+               [&](const Hit& hit) { return scale.colour(faces[hit.primitive]); });
+  draw_scale(canvas, {box.x, box.bottom() - below, box.width, below}, scale);
+}
+
+void draw_checkerboard_panel(Canvas& canvas, const Box& box, PictureParts& parts) {
+  const Embedding& embedding = parts.embedding();
+  const Checkerboard board(embedding, parts.figure().positions(),
+                           tile_centre(embedding.positions, embedding.faces), median_square);
+  const double pixel = source_camera(box, parts).pixel;
+  draw_surface(canvas, box, parts, [&](const Hit& hit) { return board.colour(hit, pixel); });
+}
+
+}  // namespace orbitutte

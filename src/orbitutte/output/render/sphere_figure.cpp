@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+// Every point of the sphere that is seen is looked up by a ray from the centre, which meets the triangle
+// whose spherical triangle holds the point: the picture shows great arcs and a round outline however coarse
+// the mesh.
+#include "orbitutte/output/render/sphere_figure.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+#include "orbitutte/output/render/mesh_lines.h"
+#include "orbitutte/output/render/source_figure.h"
+
+namespace orbitutte {
+namespace {
+
+constexpr double camera_distance = 3;
+
+RayScene copies_of_tile(const Points& positions, const Faces& faces, const std::vector<TileCopy>& copies) {
+  RayScene tile;
+  tile.add_triangles(positions, faces);
+  tile.commit();
+  RayScene scene;
+  for (const TileCopy& copy : copies) scene.add_copy(tile, copy.transform);
+  scene.commit();
+  return scene;
+}
+
+// Where a ray of the camera meets the unit sphere, if it does.
+std::optional<float> distance_to_sphere(const Ray& ray) {
+  const float towards = -ray.origin.dot(ray.direction);
+  const float inside = towards * towards - ray.origin.squaredNorm() + 1;
+  if (inside < 0) return std::nullopt;
+  return towards - std::sqrt(inside);
+}
+
+Colour copy_colour(const TileCopy& copy) {
+  return mix(linear(tile_colour(copy.colour, false)), linear(ink::paper), copy.mirrored ? 0.45F : 0.6F);
+}
+
+}  // namespace
+
+SphereFigure::SphereFigure(const Embedding& embedding, std::vector<float> relief)
+    : positions_(embedding.positions),
+      faces_(embedding.faces),
+      relief_(std::move(relief)),
+      copies_(tile_copies(embedding)),
+      edge_length_(mean_edge_length(positions_, faces_)),
+      scene_(copies_of_tile(positions_, faces_, copies_)) {}
+
+Colour SphereFigure::surface_colour(const Vector3f& point, double pixel) const {
+  const auto hit = scene_.first_hit({Vector3f::Zero(), point});
+  if (!hit) return linear(ink::figure);  // outside of a tile that has no copies
+  const TileCopy& copy = copies_[hit->copy];
+  const auto corner = faces_.row(hit->primitive);
+  const float relief =
+      (1 - hit->u - hit->v) * relief_[corner[0]] + hit->u * relief_[corner[1]] + hit->v * relief_[corner[2]];
+  const Colour base = hit->copy == 0 ? linear(bold_colour) : copy_colour(copy);
+  const float strength = hit->copy == 0 ? 0.7F : 0.3F;
+  const float line = line_strength(edge_length_ / pixel) * line_coverage(positions_, faces_, *hit, pixel);
+  return base * (1 - strength + strength * relief) * (1 - 0.5F * line);
+}
+
+Image SphereFigure::draw(const Camera& camera, const Ornaments& ornaments) const {
+  return supersample(camera.size, [&](const Sample& sample) -> Rgba {
+    const Ray ray = camera.ray(sample.x, sample.y, camera_distance);
+    const auto distance = distance_to_sphere(ray);
+    const auto ornament = ornaments.first_hit(ray);
+    if (ornament && (distance ? ornament->distance < *distance : ornament->copy < 0))
+      return shade_ornament(camera, ornaments, *ornament);
+    if (!distance) return Rgba::Zero();  // copies' seams do not stand out: the outline stays round
+    const Vector3f point = (ray.origin + *distance * ray.direction).normalized();
+    const Vector3f normal = camera.axes.cast<float>() * point;
+    return opaque((0.40F + 0.62F * brightness(normal, 1)) * surface_colour(point, camera.pixel) +
+                  0.6F * gloss(normal));
+  });
+}
+
+double seam_radius(int group_order) {
+  const double side = std::sqrt(4 * std::numbers::pi / group_order);
+  return std::clamp(0.012 * side, 0.005, 0.012);
+}
+
+double ball_radius(int group_order) { return 5.5 * seam_radius(group_order); }
+
+Ornaments sphere_ornaments(const Embedding& embedding, const std::vector<TileCopy>& copies) {
+  const double radius = seam_radius(embedding.group_order);
+  Ornaments thin;
+  for (const Seam& seam : embedding.seams)
+    thin.add_tube(polyline(embedding.positions, seam.left), 0.45 * radius, {120, 124, 134});
+  thin.commit();
+  Ornaments result;
+  std::vector<Matrix3> transforms;
+  transforms.reserve(copies.size());
+  for (const TileCopy& copy : copies) transforms.push_back(copy.transform);
+  result.add_copies(thin, transforms);
+  for (std::size_t s = 0; s < embedding.seams.size(); ++s) {
+    const Seam& seam = embedding.seams[s];
+    for (const std::vector<int>* bank : {&seam.left, &seam.right})
+      result.add_tube(polyline(embedding.positions, *bank), radius, seam_colour(static_cast<int>(s)));
+  }
+  for (std::size_t c = 0; c < embedding.cones.size(); ++c)
+    for (const int v : embedding.cones[c].copies)
+      result.add_ball(embedding.positions.row(v), ball_radius(embedding.group_order),
+                      cone_colour(static_cast<int>(c)));
+  result.commit();
+  return result;
+}
+
+Camera sphere_camera(const View& view, const PictureSize& size, double fill) {
+  Camera camera;
+  camera.axes = view_axes(view);
+  camera.size = size;
+  camera.pixel = 2 / (fill * std::min(size.width, size.height));
+  return camera;
+}
+
+Vector3 tile_centre(const Points& positions, const Faces& faces) {
+  Vector3 sum = Vector3::Zero();
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+    const Vector3 a = positions.row(faces(f, 0)), b = positions.row(faces(f, 1)),
+                  c = positions.row(faces(f, 2));
+    sum += (b - a).cross(c - a).norm() * (a + b + c);
+  }
+  return sum.norm() > 1e-12 ? sum.normalized() : Vector3(Vector3::UnitX());
+}
+
+}  // namespace orbitutte

@@ -1,0 +1,478 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/output/render.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <numbers>
+#include <regex>
+
+#include "orbitutte/mesh/file.h"
+#include "orbitutte/output/render/checkerboard.h"
+#include "orbitutte/output/render/default_view.h"
+#include "orbitutte/output/render/scales.h"
+#include "orbitutte/output/render/sphere_figure.h"
+#include "orbitutte/parallel.h"
+#include "sample_embeddings.h"
+
+#define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC
+#define STBI_ONLY_PNG
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
+#include <stb_image.h>
+#pragma GCC diagnostic pop
+
+// Cairo keeps fonts until the program ends, in fontconfig's memory: the leak sanitizer should not count them.
+// It calls this function; without sanitizers nobody does.
+extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfig\n"; }
+
+namespace orbitutte {
+namespace {
+
+using test::icosphere;
+using test::sample_embedding;
+using testing::HasSubstr;
+
+std::vector<std::string> one_signature_of_each_family() {
+  return {"532", "432", "332", "223", "33", "*532", "*432", "*332", "*223", "*33", "3*2", "2*3", "5*", "3x"};
+}
+
+Report report_of(const EmbedResult& result) {
+  Report report;
+  report.signature = result.embedding.signature;
+  report.group_order = result.embedding.group_order;
+  report.seams = result.embedding.seams;
+  report.cones = result.embedding.cones;
+  report.energy = result.minimum.energy;
+  report.history = result.minimum.history;
+  report.bijective = result.certificate.bijective;
+  return report;
+}
+
+/// What a picture is made of, with the report that it refers to.
+struct Subject {
+  const test::SampleEmbedding& sample;
+  Report report = report_of(sample.result);
+
+  explicit Subject(const std::string& signature) : sample(sample_embedding(signature)) {}
+  RenderSubject get() const { return {sample.mesh, sample.embedding(), report, "sample"}; }
+};
+
+RenderOptions options_of(Panel panel, int width, int height) {
+  RenderOptions options;
+  options.panel = panel;
+  options.width = width, options.height = height;
+  return options;
+}
+
+/// A decoded picture.
+struct Picture {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> bytes;  // red, green, blue
+
+  explicit Picture(const std::string& png) {
+    int channels = 0;
+    stbi_uc* const data = stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(png.data()),
+                                                static_cast<int>(png.size()), &width, &height, &channels, 3);
+    EXPECT_NE(data, nullptr);
+    if (data) bytes.assign(data, data + static_cast<std::ptrdiff_t>(3) * width * height);
+    stbi_image_free(data);
+  }
+
+  bool is_paper(int column, int row) const {
+    const std::uint8_t* const pixel = &bytes[3 * (static_cast<std::size_t>(row) * width + column)];
+    return pixel[0] == 255 && pixel[1] == 255 && pixel[2] == 255;
+  }
+
+  /// The box of all that is not paper: left, top, right, bottom, inclusive.
+  std::array<int, 4> inked_box() const {
+    std::array<int, 4> box = {width, height, -1, -1};
+    for (int row = 0; row < height; ++row)
+      for (int column = 0; column < width; ++column)
+        if (!is_paper(column, row))
+          box = {std::min(box[0], column), std::min(box[1], row), std::max(box[2], column),
+                 std::max(box[3], row)};
+    return box;
+  }
+
+  double inked_share() const {
+    double count = 0;
+    for (int row = 0; row < height; ++row)
+      for (int column = 0; column < width; ++column) count += is_paper(column, row) ? 0 : 1;
+    return count / (static_cast<double>(width) * height);
+  }
+};
+
+double mean_difference(const Picture& a, const Picture& b) {
+  double sum = 0;
+  for (std::size_t k = 0; k < a.bytes.size(); ++k) sum += std::abs(int{a.bytes[k]} - int{b.bytes[k]});
+  return sum / static_cast<double>(a.bytes.size());
+}
+
+TEST(Render, EveryPanelOfEveryFamilyShowsSomething) {
+  for (const std::string& signature : one_signature_of_each_family()) {
+    const Subject subject(signature);
+    for (const Panel panel : {Panel::source, Panel::sphere, Panel::area, Panel::angle, Panel::checkerboard,
+                              Panel::histogram, Panel::convergence}) {
+      const Picture picture(render_png(subject.get(), options_of(panel, 80, 72)));
+      EXPECT_EQ(picture.width, 80);
+      EXPECT_EQ(picture.height, 72);
+      EXPECT_GT(picture.inked_share(), 0.03) << signature << " " << name(panel);
+      EXPECT_LT(picture.inked_share(), 0.99) << signature << " " << name(panel);
+    }
+  }
+}
+
+TEST(Render, FigureFillsTheFrame) {
+  for (const std::string signature : {"432", "*432", "3x"}) {
+    const Subject subject(signature);
+    for (const Panel panel : {Panel::source, Panel::sphere, Panel::checkerboard}) {
+      const Picture picture(render_png(subject.get(), options_of(panel, 240, 200)));
+      const auto [left, top, right, bottom] = picture.inked_box();
+      const double filled = std::max((right - left + 1) / 240.0, (bottom - top + 1) / 200.0);
+      EXPECT_GT(filled, 0.75) << signature << " " << name(panel);
+      EXPECT_LT(filled, 0.96) << signature << " " << name(panel);
+      EXPECT_NEAR(left + right, 240, 24);
+      EXPECT_NEAR(top + bottom, 200, 24);
+    }
+  }
+}
+
+TEST(Render, SameBytesOnEveryRunAndForAnyNumberOfThreads) {
+  const Subject subject("*332");
+  const RenderOptions options = options_of(Panel::sheet, 480, 400);
+  const auto png = [&] { return render_png(subject.get(), options); };
+  const std::string first = with_threads(1, png);
+  EXPECT_TRUE(with_threads(1, png) == first);
+  EXPECT_TRUE(with_threads(2, png) == first);
+  const RenderOptions plot = options_of(Panel::histogram, 300, 200);
+  EXPECT_TRUE(render_svg(subject.get(), plot) == render_svg(subject.get(), plot));
+}
+
+TEST(Render, TurningMeshAndViewTogetherLeavesThePicture) {
+  const Subject subject("223");
+  RenderOptions options = options_of(Panel::source, 160, 160);
+  options.view = Vector3(0.3, 0.4, 1), options.up = Vector3::UnitY();
+  const Picture picture(render_png(subject.get(), options));
+
+  const Matrix3 R = Eigen::AngleAxisd(1.1, Vector3(1, 2, 3).normalized()).toRotationMatrix();
+  Mesh turned = subject.sample.mesh;
+  turned.V = turned.V * R.transpose();
+  options.view = R * *options.view, options.up = R * *options.up;
+  const Picture same(render_png({turned, subject.sample.embedding(), subject.report, ""}, options));
+  EXPECT_LT(mean_difference(picture, same), 3);
+  options.view = -*options.view;
+  const Picture other(render_png({turned, subject.sample.embedding(), subject.report, ""}, options));
+  EXPECT_GT(mean_difference(picture, other), 3);
+}
+
+TEST(Render, SphereHasARoundOutline) {
+  const Subject subject("*532");
+  const SphereFigure sphere(subject.sample.embedding(),
+                            std::vector<float>(subject.sample.embedding().source_vertex.size(), 1));
+  const Camera camera = sphere_camera({}, {101, 101}, 0.9);
+  Ornaments none;
+  none.commit();
+  const Image image = sphere.draw(camera, none);
+  for (int row = 0; row < 101; ++row)
+    for (int column = 0; column < 101; ++column) {
+      const double radius = std::hypot(column - 50.0, row - 50.0) * camera.pixel;
+      if (radius < 1 - camera.pixel) EXPECT_EQ(image.at(column, row)[3], 1);
+      if (radius > 1 + camera.pixel) EXPECT_EQ(image.at(column, row)[3], 0);
+    }
+}
+
+TEST(Render, SphereShowsTheTileInItsMiddle) {
+  for (const std::string signature : {"432", "*223", "33", "5*", "3x"}) {
+    const Embedding& embedding = sample_embedding(signature).embedding();
+    const SphereFigure sphere(embedding, std::vector<float>(embedding.source_vertex.size(), 1));
+    const Camera camera = sphere_camera(
+        {tile_centre(embedding.positions, embedding.faces), Vector3(0.1, 0.2, 0.9)}, {31, 31}, 0.9);
+    Ornaments none;
+    none.commit();
+    const Rgba middle = sphere.draw(camera, none).at(15, 15);
+    EXPECT_GT(middle[2], 1.5F * middle[0]) << signature << ": the bold colour is blue, its copies are pale";
+  }
+}
+
+TEST(Render, PngAndSvgSayTheirSize) {
+  const Subject subject("332");
+  const std::string png = render_png(subject.get(), options_of(Panel::convergence, 300, 170));
+  EXPECT_EQ(png.substr(0, 8), "\x89PNG\r\n\x1a\n");
+  const auto big_endian = [&](std::size_t at) {
+    int value = 0;
+    for (std::size_t k = at; k < at + 4; ++k) value = 256 * value + static_cast<unsigned char>(png[k]);
+    return value;
+  };
+  EXPECT_EQ(big_endian(16), 300);
+  EXPECT_EQ(big_endian(20), 170);
+  const std::string svg = render_svg(subject.get(), options_of(Panel::convergence, 300, 170));
+  EXPECT_THAT(svg, HasSubstr("viewBox=\"0 0 300 170\""));
+}
+
+/// Every element that opens closes, in order.
+void expect_well_formed(const std::string& xml) {
+  static const std::regex tag("<(/?)([A-Za-z][A-Za-z0-9:]*)([^<>]*?)(/?)>");
+  std::vector<std::string> open;
+  for (std::sregex_iterator at(xml.begin(), xml.end(), tag), end; at != end; ++at) {
+    if ((*at)[1].length() > 0) {
+      ASSERT_FALSE(open.empty());
+      ASSERT_EQ(open.back(), (*at)[2].str());
+      open.pop_back();
+    } else if ((*at)[4].length() == 0) {
+      open.push_back((*at)[2].str());
+    }
+  }
+  EXPECT_TRUE(open.empty());
+}
+
+TEST(Render, SvgIsWellFormed) {
+  const Subject subject("*33");
+  for (const Panel panel : {Panel::histogram, Panel::convergence}) {
+    const std::string svg = render_svg(subject.get(), options_of(panel, 400, 300));
+    EXPECT_TRUE(svg.starts_with("<?xml"));
+    EXPECT_THAT(svg, HasSubstr("<svg "));
+    expect_well_formed(svg);
+  }
+}
+
+TEST(Render, WhatMakesNoSenseIsRefused) {
+  const Subject subject("432");
+  RenderOptions options;
+  EXPECT_THROW(parse_panel("shpere"), ArgumentError);
+  EXPECT_THROW(parse_panel(""), ArgumentError);
+  for (const std::string size : {"", "x", "12", "0", "0x0", "100x", "100x20", "-100x100", "100x100x100",
+                                 "20000x300", "1e3", "99999999999x300"})
+    EXPECT_THROW(parse_size(size, options), ArgumentError) << size;
+  for (const std::string view :
+       {"", "behind", "1,2", "1,2,3,4", "0,0,0", "nan,0,1", "inf,0,0", "1,,2", "1, 2,3"})
+    EXPECT_THROW(parse_view(view, Vector3::UnitY()), ArgumentError) << view;
+  for (const std::string up : {"", "w", "+y", "0,0,0", "--y"})
+    EXPECT_THROW(parse_up(up), ArgumentError) << up;
+  EXPECT_THROW(render_svg(subject.get(), options_of(Panel::sphere, 100, 100)), ArgumentError);
+  EXPECT_THROW(write_picture("picture.jpg", subject.get()), ArgumentError);
+  EXPECT_THROW(write_picture("picture", subject.get()), ArgumentError);
+}
+
+TEST(Render, AnotherMeshIsRefused) {
+  const Subject subject("432");
+  const Mesh other = icosphere(1);
+  EXPECT_THROW(
+      render_png({other, subject.sample.embedding(), subject.report, ""}, options_of(Panel::area, 100, 100)),
+      MeshError);
+}
+
+TEST(Render, VerticesThatNoFaceUsesDoNotMakeTheFigureSmall) {
+  const Subject subject("432");
+  Mesh mesh = subject.sample.mesh;
+  const Eigen::Index n = mesh.V.rows();
+  mesh.V.conservativeResize(n + 1, 3);
+  mesh.V.row(n) << 100, 200, 300;
+  const RenderOptions options = options_of(Panel::source, 90, 90);
+  EXPECT_TRUE(render_png({mesh, subject.sample.embedding(), subject.report, ""}, options) ==
+              render_png(subject.get(), options));
+  mesh.V.row(n)[0] = std::nan("");
+  EXPECT_THROW(render_png({mesh, subject.sample.embedding(), subject.report, ""}, options), MeshError);
+}
+
+TEST(Render, PictureIsWrittenWhole) {
+  const Subject subject("432");
+  const std::string path = testing::TempDir() + "orbitutte_render_test.PNG";
+  const RenderOptions options = options_of(Panel::convergence, 200, 100);
+  write_picture(path, subject.get(), options);
+  EXPECT_TRUE(read_file(path) == render_png(subject.get(), options));
+  std::filesystem::remove(path);
+  EXPECT_THROW(write_picture(testing::TempDir() + "no/such/folder/a.png", subject.get(), options), FileError);
+}
+
+TEST(Render, OptionsAreRead) {
+  RenderOptions options;
+  parse_size("640x480", options);
+  EXPECT_EQ(options.width, 640);
+  EXPECT_EQ(options.height, 480);
+  parse_size("500", options);
+  EXPECT_EQ(options.width, 500);
+  EXPECT_EQ(options.height, 500);
+  for (const Panel panel : {Panel::source, Panel::sphere, Panel::area, Panel::angle, Panel::checkerboard,
+                            Panel::histogram, Panel::convergence, Panel::sheet})
+    EXPECT_EQ(parse_panel(name(panel)), panel);
+  EXPECT_EQ(parse_up("-z"), -Vector3::UnitZ());
+  EXPECT_EQ(parse_view("front", Vector3::UnitY()), Vector3::UnitZ());
+  EXPECT_EQ(parse_view("right", Vector3::UnitY()), Vector3::UnitX());
+  EXPECT_EQ(parse_view("top", Vector3::UnitZ()), Vector3::UnitZ());
+  EXPECT_EQ(parse_view("front", Vector3::UnitZ()), -Vector3::UnitY());
+  EXPECT_LT((parse_view("3,0,-4", Vector3::UnitY()) - Vector3(0.6, 0, -0.8)).norm(), 1e-15);
+}
+
+/// A pyramid whose base is the unit square across z, as a closed mesh.
+Mesh pyramid() {
+  Mesh mesh;
+  mesh.V.resize(5, 3);
+  mesh.V << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0.5, 0.5, 1;
+  mesh.F.resize(6, 3);
+  mesh.F << 0, 2, 1, 0, 3, 2, 0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4;
+  return mesh;
+}
+
+TEST(DefaultView, WhatStandsOnABroadBaseAcrossZHasZUp) {
+  Mesh mesh = pyramid();
+  EXPECT_EQ(default_up(mesh), Vector3::UnitZ());
+  EXPECT_EQ(default_up({mesh.V(Eigen::all, {1, 2, 0}), mesh.F}), Vector3::UnitY());
+  mesh.F = mesh.F.bottomRows(4).eval();  // without its base it faces whoever looks at it
+  EXPECT_EQ(default_up(mesh), Vector3::UnitY());
+  EXPECT_EQ(default_up({}), Vector3::UnitY());
+}
+
+TEST(DefaultView, OpenSurfacesAreSeenFromWhereTheyFace) {
+  const Mesh mesh = sample_embedding("*432").mesh;  // a bent disk that faces +z
+  const SourceFigure figure(mesh.V, mesh.F);
+  const View view = default_view(figure, figure.positions().topRows(1), Vector3::UnitY());
+  EXPECT_GT(view.viewer[2], 0.8);
+}
+
+TEST(Camera, ProjectsPointsOfARayToTheRay) {
+  const Points points = icosphere(1).V;
+  const Camera camera = fit_camera({Vector3(1, 2, 3), Vector3::UnitZ()}, points, {200, 100}, 0.8);
+  EXPECT_LT((camera.axes * camera.axes.transpose() - Matrix3::Identity()).norm(), 1e-12);
+  EXPECT_NEAR(camera.axes.determinant(), 1, 1e-12);
+  const Ray ray = camera.ray(37, 81, 5);
+  const Vector3 projected = camera.project((ray.origin + 3 * ray.direction).cast<double>());
+  EXPECT_NEAR(projected[0], 37, 1e-3);
+  EXPECT_NEAR(projected[1], 81, 1e-3);
+  EXPECT_NEAR(projected[2], 2, 1e-5);
+  EXPECT_NEAR(view_axes({Vector3::UnitY(), Vector3::UnitY()}).determinant(), 1, 1e-12)
+      << "up points at the viewer";
+}
+
+TEST(RayScene, HitsTheNearestShapeOfMirroredCopiesToo) {
+  RayScene original;
+  original.add_ball({2, 0.5, 0}, 0.25);
+  Points line(2, 3);
+  line << 0, -1, 0, 0, 1, 0;
+  const int tube = original.add_tube(line, 0.1);
+  original.commit();
+  RayScene scene;
+  const Matrix3 mirror = Vector3(1, -1, 1).asDiagonal();
+  const int copy = scene.add_copy(original, mirror);
+  scene.commit();
+  const auto ball = scene.first_hit({{2, -0.5, 4}, {0, 0, -1}});
+  ASSERT_TRUE(ball);
+  EXPECT_NEAR(ball->distance, 3.75, 1e-5);
+  EXPECT_EQ(ball->copy, copy);
+  EXPECT_NEAR(ball->normal[2], 1, 1e-5);
+  EXPECT_FALSE(scene.first_hit({{2, 0.5, 4}, {0, 0, -1}}));
+  const auto side = scene.first_hit({{3, -0.9F, 0}, {-1, 0, 0}});
+  ASSERT_TRUE(side);
+  EXPECT_EQ(side->shape, tube);
+  EXPECT_NEAR(side->distance, 2.9, 1e-4);
+  EXPECT_TRUE(scene.is_blocked({{3, -0.9F, 0}, {-1, 0, 0}}));
+  EXPECT_FALSE(scene.is_blocked({{3, -0.9F, 0}, {-1, 0, 0}, 1}));
+}
+
+TEST(Lighting, NormalsAreSmoothOnSpheresAndFlatOnCubes) {
+  const Mesh sphere = icosphere(3);
+  const CornerNormals smooth = corner_normals(sphere.V, sphere.F, 0.7);
+  for (Eigen::Index c = 0; c < sphere.F.size(); ++c)
+    EXPECT_LT((smooth.row(c).cast<double>() - sphere.V.row(sphere.F.data()[c])).norm(), 0.03);
+  Points V(8, 3);
+  for (int v = 0; v < 8; ++v) V.row(v) << v % 2, v / 2 % 2, v / 4;
+  Faces F(12, 3);
+  F << 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1,
+      7, 5;
+  const CornerNormals flat = corner_normals(V, F, 0.7);
+  for (Eigen::Index c = 0; c < F.size(); ++c) EXPECT_NEAR(flat.row(c).cwiseAbs().maxCoeff(), 1, 1e-6);
+}
+
+TEST(Colours, MapsAreMonotoneInLightness) {
+  double previous = 2;
+  for (int k = 0; k <= 100; ++k) {
+    const double t = k / 100.0;
+    const double sequential = lightness(sequential_colour(t));
+    EXPECT_LT(sequential, previous);
+    previous = sequential;
+    EXPECT_NEAR(lightness(diverging_colour(t)), lightness(diverging_colour(-t)), 0.01);
+    if (k > 0) EXPECT_LT(lightness(diverging_colour(t)), lightness(diverging_colour(t - 0.01)));
+  }
+}
+
+TEST(Colours, EncodingToSrgbAndBackIsExact) {
+  for (int c = 0; c < 256; ++c) {
+    const auto channel = static_cast<std::uint8_t>(c);
+    EXPECT_EQ(srgb(linear({channel, 17, 255})), (Rgb{channel, 17, 255}));
+  }
+}
+
+TEST(Checkerboard, SquaresAreRightAngledWhereTheMapIsConformal) {
+  // The identity of the sphere's upper half as the embedding: stereographic coordinates are conformal.
+  const Mesh sphere = icosphere(4);
+  Embedding embedding;
+  embedding.positions = sphere.V;
+  std::vector<int> upper;
+  for (int f = 0; f < sphere.F.rows(); ++f)
+    if (sphere.V.row(sphere.F(f, 0))[2] > 0) upper.push_back(f);
+  embedding.faces = sphere.F(upper, Eigen::all);
+  for (int v = 0; v < sphere.V.rows(); ++v) embedding.source_vertex.push_back(v);
+  const Checkerboard board(embedding, sphere.V, Vector3::UnitZ(), 0.1);
+  for (Eigen::Index f = 0; f < embedding.faces.rows(); ++f) {
+    const auto corner = embedding.faces.row(f);
+    const auto X = [&](int k) -> Vector3 { return sphere.V.row(corner[k]); };
+    const auto x = [&](int k) -> Eigen::Vector2d { return board.coordinates().row(corner[k]); };
+    const double a = (x(1) - x(0)).norm() / (X(1) - X(0)).norm(),
+                 b = (x(2) - x(0)).norm() / (X(2) - X(0)).norm();
+    EXPECT_NEAR(a / b, 1, 0.06);
+    const double scale = 1 / std::sqrt(a * b);  // a square's side on the source
+    EXPECT_GT(scale, 0.05);
+    EXPECT_LT(scale, 0.2);
+  }
+}
+
+TEST(Checkerboard, NeighbouringSquaresDiffer) {
+  // Two triangles around the pole, as large as several squares; corners far apart along one direction.
+  Embedding embedding;
+  embedding.positions.resize(3, 3);
+  embedding.positions << Vector3(0.1, -0.06, 1).normalized().transpose(),
+      Vector3(0, 0.1, 1).normalized().transpose(), Vector3(-0.1, -0.06, 1).normalized().transpose();
+  embedding.faces.resize(1, 3);
+  embedding.faces << 0, 1, 2;
+  embedding.source_vertex = {0, 1, 2};
+  const Checkerboard board(embedding, embedding.positions, Vector3::UnitZ(), 0.02);
+  const auto& coordinates = board.coordinates();
+  int changes = 0;
+  for (int k = 0; k + 1 < 200; ++k) {
+    Hit here, there;
+    here.primitive = there.primitive = 0;
+    here.u = static_cast<float>(k) / 200, there.u = static_cast<float>(k + 1) / 200;
+    const auto square = [&](const Hit& hit) {
+      const Eigen::Vector2d place = (1 - hit.u) * coordinates.row(0) + hit.u * coordinates.row(1);
+      return std::lround(std::floor(place[0]) + std::floor(place[1]));
+    };
+    const bool same_colour = (board.colour(here, 1e-4) - board.colour(there, 1e-4)).abs().maxCoeff() < 1e-3F;
+    EXPECT_EQ(same_colour, (square(here) - square(there)) % 2 == 0);
+    changes += same_colour ? 0 : 1;
+  }
+  EXPECT_GT(changes, 4);
+  Hit any;
+  any.primitive = 0, any.u = 0.21F;
+  const Colour far = board.colour(any, 1);
+  any.u = 0.35F;
+  EXPECT_LT((board.colour(any, 1) - far).abs().maxCoeff(), 1e-6F) << "squares smaller than pixels are grey";
+}
+
+TEST(Plots, ScalesHoldNineTenthsOfTheTriangles) {
+  for (const std::string signature : {"432", "*532", "5*"}) {
+    const test::SampleEmbedding& sample = sample_embedding(signature);
+    const std::vector<FaceDistortion> faces = measure_faces(sample.mesh, sample.embedding());
+    const AreaScale scale = area_scale(faces);
+    double inside = 0;
+    for (const FaceDistortion& face : faces) inside += std::abs(std::log2(face.area)) <= scale.range ? 1 : 0;
+    if (scale.range < 6) EXPECT_GE(inside, 0.89 * static_cast<double>(faces.size())) << signature;
+  }
+}
+
+}  // namespace
+}  // namespace orbitutte
