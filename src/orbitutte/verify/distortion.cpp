@@ -79,13 +79,6 @@ double length_unit(const Mesh& mesh) {
   return unit > 0 ? unit : 1;
 }
 
-// A triangle's measures; zero where there is none.
-struct FaceDistortion {
-  double area = 0;   // max(A, 1/A), A its share of the image's area over its share of the source's
-  int bin = 0;       // of A in the histogram
-  double angle = 0;  // the ratio of the singular values
-};
-
 struct FaceAreas {
   double source = 0, image = 0;
 };
@@ -103,8 +96,7 @@ FaceDistortion face_distortion(const std::array<Vector3, 3>& source, const std::
     return result;
   const double ratio = (area.image / total.image) / (area.source / total.source);
   if (!(ratio > 0) || !std::isfinite(ratio)) return result;
-  result.area = std::max(ratio, 1 / ratio);
-  result.bin = histogram_bin(ratio);
+  result.area = ratio;
   const auto e = lay_out(lengths[0], lengths[1], lengths[2]), g = lay_out(arcs[0], arcs[1], arcs[2]);
   if (!e || !g) return result;
   const double angle = ratio_of_singular_values(*e, *g);
@@ -114,7 +106,7 @@ FaceDistortion face_distortion(const std::array<Vector3, 3>& source, const std::
 
 }  // namespace
 
-Distortion measure_distortion(const Mesh& mesh, const Embedding& embedding) {
+std::vector<FaceDistortion> measure_faces(const Mesh& mesh, const Embedding& embedding) {
   const int m = static_cast<int>(mesh.F.rows());
   const double unit = length_unit(mesh);
   const auto source = [&](int f) {
@@ -143,17 +135,21 @@ Distortion measure_distortion(const Mesh& mesh, const Embedding& embedding) {
   parallel_ranges(m, [&](int begin, int end) {
     for (int f = begin; f < end; ++f) of_face[f] = face_distortion(source(f), image(f), area[f], total);
   });
+  return of_face;
+}
 
+Distortion measure_distortion(const Mesh& mesh, const Embedding& embedding) {
+  const std::vector<FaceDistortion> of_face = measure_faces(mesh, embedding);
   Distortion result;
   result.histogram = empty_histogram();
   std::vector<double> areas;
-  areas.reserve(m);
+  areas.reserve(of_face.size());
   double angle_sum = 0;
   int angles = 0;
   for (const FaceDistortion& face : of_face) {
     if (face.area > 0) {
-      areas.push_back(face.area);
-      ++result.histogram.counts[face.bin];
+      areas.push_back(std::max(face.area, 1 / face.area));
+      ++result.histogram.counts[histogram_bin(face.area)];
     }
     if (face.angle > 0) {
       angle_sum += face.angle;

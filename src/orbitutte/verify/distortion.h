@@ -23,6 +23,15 @@ struct Distortion {
   int measured_faces = 0;  ///< those not left out
 };
 
+/// What measure_distortion gathers of a single triangle.
+struct FaceDistortion {
+  double area = 0;   ///< A, not max(A, 1/A); 0 where the triangle is left out
+  double angle = 0;  ///< the ratio of singular values; 0 where there is none
+};
+
+/// Of every face of the embedding (m).
+std::vector<FaceDistortion> measure_faces(const Mesh& mesh, const Embedding& embedding);
+
 /// Left out and not counted are triangles without area, and images that are not positively oriented or
 /// thinner than the rounding errors of positions, whose shape is noise.
 Distortion measure_distortion(const Mesh& mesh, const Embedding& embedding);
