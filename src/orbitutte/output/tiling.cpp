@@ -221,6 +221,12 @@ void place_faces(const Embedding& embedding, int g, const std::vector<int>& vert
 
 }  // namespace
 
+std::vector<TileCopy> tile_copies(const Embedding& embedding) {
+  check_embedding(embedding);
+  const SymmetryGroup group = symmetry_group(embedding);
+  return tile_copies(group, copies_across_seams(embedding, group));
+}
+
 Tiling tile_sphere(const Embedding& embedding) {
   check_embedding(embedding);
   const SymmetryGroup group = symmetry_group(embedding);

@@ -16,6 +16,10 @@ struct TileCopy {
   int colour = 0;         ///< a small number, another one for every neighbour across a seam
 };
 
+/// The |G| copies, the identity first, without any mesh. Throws as tile_sphere does where the seams do not
+/// generate the group.
+std::vector<TileCopy> tile_copies(const Embedding& embedding);
+
 struct Tiling {
   Mesh mesh;                     ///< closed, on the unit sphere, every triangle counterclockwise from outside
   std::vector<int> tile;         ///< m |G|: the copy of the tile that holds the face, an index into copies
