@@ -38,6 +38,11 @@ struct TileArguments {
 };
 int tile_command(const TileArguments& arguments);
 
+struct ReportArguments {
+  std::string embedding, report, mesh, output;
+};
+int report_command(const ReportArguments& arguments);
+
 struct SampleArguments {
   std::string output, shape = "figure";
   int faces = 20000;

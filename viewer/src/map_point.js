@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// A point of the mesh: a drawn face and barycentric coordinates, the same in the source and on the sphere.
+import {BufferAttribute, BufferGeometry, DoubleSide, Matrix4, Ray, Triangle, Vector3} from 'three';
+import {MeshBVH} from 'three-mesh-bvh';
+
+const corners = [new Vector3(), new Vector3(), new Vector3()];
+
+function loadCorners(indices, positions, face) {
+  for (let k = 0; k < 3; ++k) corners[k].fromArray(positions, 3 * indices[3 * face + k]);
+}
+
+/** Finds the points of the mesh under rays, in the source and on the tile; both share the faces. */
+export class MapPoints {
+  constructor(scene) {
+    this.scene = scene;
+    this.inverses = scene.copies.map(({matrix}) => matrix.clone().invert());
+    this.trees = {};
+  }
+
+  // Searched for the first time, a tree is built: a tenth of a second per 100,000 faces.
+  tree(name) {
+    if (!this.trees[name]) {
+      const geometry = new BufferGeometry();
+      geometry.setAttribute('position', new BufferAttribute(this.scene[name], 3));
+      geometry.setIndex(new BufferAttribute(this.scene.fine.indices, 1));
+      this.trees[name] = new MeshBVH(geometry, {indirect: true});
+    }
+    return this.trees[name];
+  }
+
+  firstHit(name, ray) {
+    const hit = this.tree(name).raycastFirst(ray, DoubleSide);
+    if (!hit) return null;
+    loadCorners(this.scene.fine.indices, this.scene[name], hit.faceIndex);
+    const weights = Triangle.getBarycoord(hit.point, ...corners, new Vector3());
+    return weights && {face: hit.faceIndex, weights, copy: 0, distance: hit.distance};
+  }
+
+  onSource(ray) {
+    return this.firstHit('source', ray);
+  }
+
+  /** Within the tile alone. */
+  onTile(ray) {
+    const at = ray.intersectSphere(unitSphere, new Vector3());
+    return at && this.firstHit('image', new Ray(new Vector3(), at.normalize()));
+  }
+
+  /** In whichever copy covers the sphere where the ray meets it. */
+  onSphere(ray) {
+    const at = ray.intersectSphere(unitSphere, new Vector3());
+    if (!at) return null;
+    const inTile = new Ray();
+    for (let copy = 0; copy < this.inverses.length; ++copy) {
+      inTile.direction.copy(at).applyMatrix4(this.inverses[copy]).normalize();
+      const hit = this.firstHit('image', inTile);
+      if (hit) return {...hit, copy};
+    }
+    return null;
+  }
+
+  /** Where a point lies, in 'source' or 'image'. */
+  position(name, {face, weights}) {
+    loadCorners(this.scene.fine.indices, this.scene[name], face);
+    const at = new Vector3();
+    corners.forEach((corner, k) => at.addScaledVector(corner, weights.getComponent(k)));
+    return name === 'image' ? at.normalize() : at;
+  }
+
+  /** The mean of a quantity of the vertices at a point. */
+  value(quantity, {face, weights}) {
+    let sum = 0;
+    for (let k = 0; k < 3; ++k) sum += weights.getComponent(k) * quantity[this.scene.fine.indices[3 * face + k]];
+    return sum;
+  }
+
+  /** The drawn vertex nearest to a point, in its face. */
+  nearestVertex({face, weights}) {
+    const largest = [0, 1, 2].reduce((best, k) => (weights.getComponent(k) > weights.getComponent(best) ? k : best), 0);
+    return this.scene.fine.indices[3 * face + largest];
+  }
+}
+
+const unitSphere = {center: new Vector3(), radius: 1};
+
+/** A transform, given row by row, as three.js has it. */
+export function matrixOf([a, b, c, d, e, f, g, h, i]) {
+  return new Matrix4().set(a, b, c, 0, d, e, f, 0, g, h, i, 0, 0, 0, 0, 1);
+}
