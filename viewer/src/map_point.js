@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A point of the mesh: a drawn face and barycentric coordinates, the same in the source and on the sphere.
-import {BufferAttribute, BufferGeometry, DoubleSide, Matrix4, Ray, Triangle, Vector3} from 'three';
+import {BufferAttribute, BufferGeometry, DoubleSide, Ray, Sphere, Triangle, Vector3} from 'three';
 import {MeshBVH} from 'three-mesh-bvh';
 
+const unitSphere = new Sphere(new Vector3(), 1);
 const corners = [new Vector3(), new Vector3(), new Vector3()];
 
 function loadCorners(indices, positions, face) {
@@ -79,11 +80,4 @@ export class MapPoints {
     const largest = [0, 1, 2].reduce((best, k) => (weights.getComponent(k) > weights.getComponent(best) ? k : best), 0);
     return this.scene.fine.indices[3 * face + largest];
   }
-}
-
-const unitSphere = {center: new Vector3(), radius: 1};
-
-/** A transform, given row by row, as three.js has it. */
-export function matrixOf([a, b, c, d, e, f, g, h, i]) {
-  return new Matrix4().set(a, b, c, 0, d, e, f, 0, g, h, i, 0, 0, 0, 0, 1);
 }

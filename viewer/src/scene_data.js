@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Decodes what src/orbitutte/output/page_scene.h describes into typed arrays.
+import {Matrix4, Vector3} from 'three';
 
 function bytesOf(base64) {
   if (Uint8Array.fromBase64) return Uint8Array.fromBase64(base64);
@@ -36,6 +37,9 @@ const level = ({indices, outline}) => ({
   outline: numbers(Uint32Array, outline),
 });
 
+// A transform, given row by row.
+const matrixOf = ([a, b, c, d, e, f, g, h, i]) => new Matrix4().set(a, b, c, 0, d, e, f, 0, g, h, i, 0, 0, 0, 0, 1);
+
 /** The scene as typed arrays: three numbers a vertex for source, image and normal, one for the others. */
 export function readScene(json) {
   return {
@@ -50,7 +54,31 @@ export function readScene(json) {
     angle: between(...json.angle_range, json.angle),
     fine: level(json.fine),
     coarse: level(json.coarse),
-    copies: json.copies,
+    copies: json.copies.map(({transform, colour}) => ({matrix: matrixOf(transform), colour})),
     cones: json.cones,
   };
+}
+
+/** The drawn vertex's position in 'source' or 'image'. */
+export const vertexPosition = (scene, name, vertex) => new Vector3().fromArray(scene[name], 3 * vertex);
+
+/**
+ * The tile's frame: its middle (from its vector area, which cancels for no tile up to a hemisphere), two directions
+ * across, and how far its vertices lie from the middle of their chord.
+ */
+export function tileFrame({image, coarse: {indices}}) {
+  const sum = new Vector3(), [a, b, c] = [new Vector3(), new Vector3(), new Vector3()];
+  for (let f = 0; f < indices.length; f += 3) {
+    [a, b, c].forEach((corner, k) => corner.fromArray(image, 3 * indices[f + k]));
+    sum.add(b.sub(a).cross(c.sub(a)));
+  }
+  const centre = sum.normalize();
+  const up = Math.abs(centre.y) < 0.9 ? new Vector3(0, 1, 0) : new Vector3(0, 0, -1);
+  const east = up.clone().cross(centre).normalize(), north = centre.clone().cross(east);
+  let least = 1;
+  for (let i = 0; i < image.length; i += 3) least = Math.min(least, a.fromArray(image, i).dot(centre));
+  const middle = centre.clone().multiplyScalar((1 + Math.max(least, 0)) / 2);
+  let radius = 0;
+  for (let i = 0; i < image.length; i += 3) radius = Math.max(radius, a.fromArray(image, i).distanceTo(middle));
+  return {centre, east, north, middle, radius};
 }

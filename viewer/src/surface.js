@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The material of all surfaces: one shader, whose colouring the user chooses.
-import {DoubleSide, ShaderMaterial, Vector3} from 'three';
+import {DoubleSide, ShaderMaterial} from 'three';
 
 export const COLOURINGS = {tile: 0, checkerboard: 1, area: 2, angle: 3, normal: 4};
 
@@ -69,8 +69,8 @@ void main() {
   if (dot(n, toEye) < 0.0) n = -n;                                 // both sides of a disk are lit
   float light = 0.52 + 0.48 * max(dot(n, normalize(vec3(-0.35, 0.55, 0.8))), 0.0) + 0.08 * n.z;
   if (onSphere) {
-    float bumps = 0.5 + 0.6 * max(dot(normalize(vSourceNormal), sourceLight), 0.0);
-    light = mix(light, (0.45 + 0.55 * light) * bumps * 1.05, relief);
+    float bumps = 0.8 + 0.28 * dot(normalize(vSourceNormal), sourceLight);
+    light = mix(light, (0.4 + 0.6 * light) * bumps, relief);
   }
   gl_FragColor = vec4(min(colour() * light * 1.04, 1.0), opacity);
 }`;
@@ -88,7 +88,7 @@ export function sharedUniforms(frame, maps, bounds) {
     centre: {value: frame.centre},
     east: {value: frame.east},
     north: {value: frame.north},
-    sourceLight: {value: new Vector3(-0.35, 0.55, 0.8).normalize()},
+    sourceLight: {value: frame.sourceLight},
   };
 }
 

@@ -9,21 +9,20 @@ const CLICK_SLACK = 6;  // pixels that a pointer may move and still click
 
 const X = new Vector3(1, 0, 0), Y = new Vector3(0, 1, 0);
 
-/** A camera's place: an orientation, and a distance relative to the one at the start. */
+/**
+ * Places cameras: one orientation, and one zoom, for all of them. Each `{camera, target, distance}` looks at its
+ * target from its distance, times the zoom.
+ */
 export class Turntable {
-  constructor(camera, {distance, orientation = new Quaternion()}) {
-    this.camera = camera;
-    this.start = {distance, orientation: orientation.clone()};
-    this.listeners = [];
+  constructor(places, orientation = new Quaternion()) {
+    this.places = places;
+    this.start = orientation.clone();
+    this.onChange = () => {};
     this.reset();
   }
 
-  onChange(listener) {
-    this.listeners.push(listener);
-  }
-
   reset() {
-    this.orientation = this.start.orientation.clone();
+    this.orientation = this.start.clone();
     this.zoom = 1;
     this.apply();
   }
@@ -41,11 +40,12 @@ export class Turntable {
   }
 
   apply() {
-    const distance = this.start.distance * this.zoom;
-    this.camera.quaternion.copy(this.orientation);
-    this.camera.position.set(0, 0, distance).applyQuaternion(this.orientation);
-    this.camera.updateMatrixWorld();
-    for (const listener of this.listeners) listener();
+    for (const {camera, target, distance} of this.places) {
+      camera.quaternion.copy(this.orientation);
+      camera.position.set(0, 0, distance * this.zoom).applyQuaternion(this.orientation).add(target);
+      camera.updateMatrixWorld();
+    }
+    this.onChange();
   }
 }
 
@@ -60,7 +60,7 @@ const KEYS = {
   Home: (table) => table.reset(),
 };
 
-/** Lets an element turn a table. `point(x, y)` is called where the pointer rests or clicks, in CSS pixels within it. */
+/** Lets an element turn a table. `hover` and `click` are told where, in CSS pixels within the element. */
 export class StageInput {
   constructor(element, table, {hover, leave, click}) {
     this.element = element;

@@ -290,8 +290,9 @@ std::string timings(const Json& report) {
   if (stages.is_object())
     for (const auto& [stage, seconds] : stages.items())
       if (seconds.is_number())
-        rows += row({escape_html(stage), stage == "total" ? "" : bar_svg(seconds.get<double>() / total),
-                     fmt::format("{:.3f} s", seconds.get<double>())});
+        rows += fmt::format(
+            "<tr><th scope=\"row\">{}</th><td class=\"bar\">{}</td><td class=\"value\">{:.3f} s</td></tr>\n",
+            escape_html(stage), stage == "total" ? "" : bar_svg(seconds.get<double>() / total), seconds.get<double>());
   return table("", rows);
 }
 
