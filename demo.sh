@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Installs what is missing, builds, embeds a mesh, and tiles the sphere with it; the files go to out/.
+# Installs what is missing, builds, embeds a mesh, tiles the sphere with it, and writes a page about it; the files go to out/.
 # usage: ./demo.sh                            a mesh that the program makes itself
 #        ./demo.sh MESH [OPTION ...]          your mesh; the options are those of 'orbitutte embed'
 # The exit code is that of 'orbitutte embed': 0 when the result is certified.
@@ -14,7 +14,7 @@ case "${1-}" in -h | --help) sed -n '3,6s/^# //p' "$root/demo.sh"; exit 0 ;; esa
 orbitutte=$root/build/orbitutte
 out=$root/out
 mkdir -p "$out"
-rm -f "$out"/embedding.ply "$out"/report.json "$out"/tiling.{ply,glb}
+rm -f "$out"/embedding.ply "$out"/report.json "$out"/tiling.{ply,glb} "$out"/page.html
 
 if [ $# = 0 ]; then
   mesh=$out/sample.ply
@@ -66,6 +66,8 @@ for tiling in "$out/tiling.glb" "$out/tiling.ply"; do
   fi
 done
 rm -f "$out/tile.log"
+page=$out/page.html
+"$orbitutte" report "$embedding" "$report" "$mesh" -o "$page" || page=
 
 echo
 /usr/bin/python3 - "$report" "$mesh" <<'PYTHON'
@@ -88,4 +90,5 @@ echo "report     $report"
 for tiling in ${tilings[@]+"${tilings[@]}"}; do
   echo "tiling     $tiling"
 done
+[ -z "$page" ] || echo "page       $page    (open it in a browser)"
 exit "$code"

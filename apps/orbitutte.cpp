@@ -100,8 +100,8 @@ void add_tile(CLI::App& app, int& code) {
 }
 
 void add_report(CLI::App& app, int& code) {
-  auto* command =
-      app.add_subcommand("report", "One HTML page with everything about an embedding, and an interactive view");
+  auto* command = app.add_subcommand(
+      "report", "One HTML page with everything about an embedding, and an interactive view");
   auto arguments = std::make_shared<ReportArguments>();
   command->add_option("embedding", arguments->embedding, "The embedding (PLY)")->required();
   command->add_option("report", arguments->report, "Its report (JSON)")->required();

@@ -28,11 +28,12 @@ const css = (stops) => `linear-gradient(to right, ${stops.join(', ')})`;
 export const areaMap = {texture: () => texture(diverging), css: css(diverging)};
 export const angleMap = {texture: () => texture(sequential), css: css(sequential)};
 
-/** A bound that all but `share` of the values' sizes stay below, between `least` and `most`. */
-export function robustBound(values, {share, least, most}) {
+/** The first bound `among` some that all but `share` of the values' sizes stay below, or else the last. */
+export function robustBound(values, {share, among}) {
   const stride = Math.max(1, Math.floor(values.length / 20000));
   const sizes = [];
   for (let i = 0; i < values.length; i += stride) sizes.push(Math.abs(values[i]));
   sizes.sort((a, b) => a - b);
-  return Math.min(Math.max(sizes[Math.floor((1 - share) * (sizes.length - 1))], least), most);
+  const size = sizes[Math.floor((1 - share) * (sizes.length - 1))] ?? 0;
+  return among.find((bound) => bound >= size) ?? among[among.length - 1];
 }

@@ -58,7 +58,7 @@ vec3 colour() {
   if (colouring == 1) return mix(vTint * 0.45, mix(vTint, vec3(1.0), 0.72), checker(normalize(vImage)));
   if (colouring == 2) return texture2D(areaMap, vec2(0.5 + 0.5 * vArea / areaBound, 0.5)).rgb;
   if (colouring == 3) return texture2D(angleMap, vec2(vAngle / angleBound, 0.5)).rgb;
-  if (colouring == 4) return 0.5 + 0.48 * normalize(vSourceNormal);
+  if (colouring == 4) return 0.64 + 0.34 * normalize(vSourceNormal);
   return vTint;
 }
 
@@ -70,7 +70,8 @@ void main() {
   float light = 0.52 + 0.48 * max(dot(n, normalize(vec3(-0.35, 0.55, 0.8))), 0.0) + 0.08 * n.z;
   if (onSphere) {
     float bumps = 0.8 + 0.28 * dot(normalize(vSourceNormal), sourceLight);
-    light = mix(light, (0.4 + 0.6 * light) * bumps, relief);
+    bool measured = colouring == 2 || colouring == 3;   // colours that are read off a legend are shaded less
+    light = mix(light, (0.4 + 0.6 * light) * bumps, measured ? 0.35 * relief : relief);
   }
   gl_FragColor = vec4(min(colour() * light * 1.04, 1.0), opacity);
 }`;

@@ -125,8 +125,8 @@ export class View {
     this.renderer.autoClear = false;
     this.renderer.setClearColor(0x000000, 0);
     this.bounds = {
-      area: robustBound(scene.area, {share: 0.1, least: 1, most: 8}),
-      angle: robustBound(scene.angle, {share: 0.02, least: 0.25, most: 3}),
+      area: robustBound(scene.area, {share: 0.1, among: [1, 2, 3, 4, 5, 6, 8]}),
+      angle: robustBound(scene.angle, {share: 0.02, among: [1.2, 1.5, 2, 3, 4, 6, 8].map(Math.log2)}),
     };
     const maps = {area: areaMap.texture(), angle: angleMap.texture()};
     this.uniforms = sharedUniforms(this.frame, maps, this.bounds);
@@ -186,6 +186,7 @@ export class View {
     const others = this.scene.copies.slice(1).map(({matrix}) => matrix);
     const lines = thickLines(this.scene.image, this.scene.coarse.outline, others, 1);
     lines.material.color.set(FAINT);
+    lines.scale.setScalar(0.998);  // behind the tile's own outline
     const ball = new Mesh(new SphereGeometry(0.985, 96, 64), new MeshBasicMaterial({colorWrite: false}));
     ball.renderOrder = -1;
     this.panels.tile.scene.add(lines, ball);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Edge collapses follow M. Garland and P. Heckbert, Surface simplification using quadric error metrics (1997),
-// as meshoptimizer has them.
+// Edge collapses follow M. Garland and P. Heckbert, Surface simplification using quadric error metrics
+// (1997), as meshoptimizer has them.
 #include "orbitutte/output/display_mesh.h"
 
 #include <meshoptimizer.h>
@@ -17,8 +17,9 @@ using FloatPoints = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 /// No collapse is too coarse: only the number of triangles counts.
 constexpr float any_error = std::numeric_limits<float>::max();
 
-/// Where the collapses measure their error: the source in a unit box, plus half the image. Of the source alone
-/// flat parts would collapse that are round on the sphere; of the image alone, limbs that are tiny there.
+/// Where the collapses measure their error: the source in a unit box, plus half the image. Of the source
+/// alone flat parts would collapse that are round on the sphere; of the image alone, limbs that are tiny
+/// there.
 FloatPoints source_and_image(const Mesh& mesh, const Embedding& embedding) {
   const Eigen::RowVector3d low = mesh.V.colwise().minCoeff();
   const double size = std::max((mesh.V.colwise().maxCoeff() - low).maxCoeff(), 1e-300);

@@ -129,28 +129,33 @@ std::string failed_checks(const Certificate& certificate) {
 std::string verdict_sentence(const Judgement& judgement, const Embedding& embedding) {
   if (judgement.bijective())
     return fmt::format(
-        "The map is a bijection: {} the sphere exactly once, which the certificate below proves on the stored numbers.",
+        "The map is a bijection: {} the sphere exactly once, which the certificate below proves on the "
+        "stored numbers.",
         embedding.group_order == 1 ? "the tile covers"
                                    : fmt::format("its {} symmetric copies cover", embedding.group_order));
   if (judgement.certificate.bijective)
-    return "The optimiser stopped before it converged: the map passes every check, but it is not the minimiser.";
-  return "The map is not certified as a bijection; these checks fail: " + failed_checks(judgement.certificate) + ".";
+    return "The optimiser stopped before it converged: the map passes every check, but it is not the "
+           "minimiser.";
+  return "The map is not certified as a bijection; these checks fail: " +
+         failed_checks(judgement.certificate) + ".";
 }
 
 std::string summary(const Json& report, const Embedding& embedding, const Judgement& judgement) {
-  return fmt::format("A {} of {} vertices and {} triangles, mapped onto the orbifold <b>{}</b>, whose group has {}. {}",
-                     figure_html(report, "/mesh/topology"), figure_html(report, "/mesh/vertices"),
-                     figure_html(report, "/mesh/faces"), escape_html(embedding.signature),
-                     plural(embedding.group_order, "element"), verdict_sentence(judgement, embedding));
+  return fmt::format(
+      "A {} of {} vertices and {} triangles, mapped onto the orbifold <b>{}</b>, whose group has {}. {}",
+      figure_html(report, "/mesh/topology"), figure_html(report, "/mesh/vertices"),
+      figure_html(report, "/mesh/faces"), escape_html(embedding.signature),
+      plural(embedding.group_order, "element"), verdict_sentence(judgement, embedding));
 }
 
 std::string warnings(const Json& report, const Judgement& judgement) {
   std::string html;
   const Json& claim = at(report, "/certificate/bijective");
   if (claim.is_boolean() && claim.get<bool>() != judgement.bijective())
-    html += paragraph("warning", fmt::format("The report says &ldquo;bijective: {}&rdquo;, the certificate computed from "
-                                             "the files says otherwise. This page follows the files.",
-                                             claim.get<bool>()));
+    html += paragraph(
+        "warning", fmt::format("The report says &ldquo;bijective: {}&rdquo;, the certificate computed from "
+                               "the files says otherwise. This page follows the files.",
+                               claim.get<bool>()));
   for (const Json& warning : at(report, "/warnings"))
     if (warning.is_string()) html += paragraph("warning", escape_html(warning.get<std::string>()));
   return html;
@@ -176,8 +181,9 @@ std::string key_figures(const Json& report, const Embedding& embedding) {
 std::string certificate_table(const Certificate& certificate) {
   std::string rows;
   for (const Check& check : certificate.checks) {
-    const std::string state = check.passed ? "<span class=\"state good\">&#10003; passed</span>"
-                                           : "<span class=\"state bad\">&#10007; failed</span>";
+    const std::string state =
+        check.passed ? "<span class=\"state good\">&#10003; <span class=\"word\">passed</span></span>"
+                     : "<span class=\"state bad\">&#10007; <span class=\"word\">failed</span></span>";
     const std::string detail = check.detail.empty() ? "" : "<br><b>" + escape_html(check.detail) + "</b>";
     rows += fmt::format(
         "<tr><th scope=\"row\">{}{}<br><code class=\"fine\">{}</code></th><td class=\"value\">{:.4g}</td>"
@@ -189,12 +195,15 @@ std::string certificate_table(const Certificate& certificate) {
 
 std::string certificate_intro(const Certificate& certificate) {
   return fmt::format(
-      "Computed again from the mesh and the embedding when this page was written, by code that the solver does not "
+      "Computed again from the mesh and the embedding when this page was written, by code that the solver "
+      "does not "
       "share. {}; {} of {} checks passed. <code>orbitutte verify</code> repeats it.",
       certificate.nonpositive_faces.empty()
           ? "Every triangle is positively oriented"
-          : plural(static_cast<long long>(certificate.nonpositive_faces.size()), "triangle") + " not positively oriented",
-      std::count_if(certificate.checks.begin(), certificate.checks.end(), [](const Check& c) { return c.passed; }),
+          : plural(static_cast<long long>(certificate.nonpositive_faces.size()), "triangle") +
+                " not positively oriented",
+      std::count_if(certificate.checks.begin(), certificate.checks.end(),
+                    [](const Check& c) { return c.passed; }),
       certificate.checks.size());
 }
 
@@ -209,17 +218,21 @@ std::string histogram(const Json& report) {
   const std::string svg = histogram_svg({numbers(at(report, "/distortion/histogram/edges")),
                                          numbers(at(report, "/distortion/histogram/counts"))});
   if (svg.empty()) return {};
-  return svg + paragraph("fine", "Triangles by how much of the tile they take, relative to their share of the source. "
-                                 "The outermost bins hold all beyond.");
+  return svg +
+         paragraph("fine",
+                   "Triangles by how much of the tile they take, relative to their share of the source. "
+                   "The outermost bins hold all beyond.");
 }
 
 std::string distortion_table(const Json& report) {
-  return table(head({"", "mean", "median", "std", "max"}),
-               row({"area, max(A, 1/A)", figure_html(report, "/distortion/area/mean"),
-                    figure_html(report, "/distortion/area/median"), figure_html(report, "/distortion/area/std"),
-                    figure_html(report, "/distortion/area/max")}) +
-                   row({"angle, &sigma;<sub>1</sub>/&sigma;<sub>2</sub>", figure_html(report, "/distortion/angle/mean"),
-                        missing, missing, figure_html(report, "/distortion/angle/max")})) +
+  return table(
+             head({"", "mean", "median", "std", "max"}),
+             row({"area, max(A, 1/A)", figure_html(report, "/distortion/area/mean"),
+                  figure_html(report, "/distortion/area/median"), figure_html(report, "/distortion/area/std"),
+                  figure_html(report, "/distortion/area/max")}) +
+                 row({"angle, &sigma;<sub>1</sub>/&sigma;<sub>2</sub>",
+                      figure_html(report, "/distortion/angle/mean"), missing, missing,
+                      figure_html(report, "/distortion/angle/max")})) +
          paragraph("fine", figure_html(report, "/distortion/measured_faces") + " triangles measured.");
 }
 
@@ -242,14 +255,15 @@ std::string convergence(const Json& report) {
 
 std::string history_table(const Json& report) {
   const std::vector<double> energy = history_column(report, "energy"),
-                            gradient = history_column(report, "gradient_norm"), step = history_column(report, "step");
+                            gradient = history_column(report, "gradient_norm"),
+                            step = history_column(report, "step");
   std::string rows;
   for (std::size_t k = 0; k < energy.size(); ++k)
     rows += row({std::to_string(k), fmt::format("{:.12g}", energy[k]), fmt::format("{:.3e}", gradient[k]),
                  fmt::format("{:.3e}", step[k])});
-  return details("Every iteration", "<div class=\"wide\">" +
-                                        table(head({"Iteration", "Energy", "Gradient norm", "Largest move"}), rows) +
-                                        "</div>");
+  return details("Every iteration",
+                 "<div class=\"wide\">" +
+                     table(head({"Iteration", "Energy", "Gradient norm", "Largest move"}), rows) + "</div>");
 }
 
 std::string convergence_table(const Json& report) {
@@ -276,10 +290,12 @@ std::string cones_table(const Embedding& embedding) {
 std::string seams_table(const Embedding& embedding) {
   std::string rows;
   for (const Seam& seam : embedding.seams)
-    rows += row({name(seam.kind()), grouped_digits(static_cast<long long>(seam.left.size())),
-                 fmt::format("{:.4g}&deg;", std::acos(std::clamp((seam.transform.determinant() *
-                                                                      seam.transform.trace() - 1) / 2, -1.0, 1.0)) *
-                                                180 / std::numbers::pi)});
+    rows +=
+        row({name(seam.kind()), grouped_digits(static_cast<long long>(seam.left.size())),
+             fmt::format("{:.4g}&deg;",
+                         std::acos(std::clamp((seam.transform.determinant() * seam.transform.trace() - 1) / 2,
+                                              -1.0, 1.0)) *
+                             180 / std::numbers::pi)});
   return table(head({"Seam", "Vertices", "Angle"}), rows);
 }
 
@@ -292,7 +308,8 @@ std::string timings(const Json& report) {
       if (seconds.is_number())
         rows += fmt::format(
             "<tr><th scope=\"row\">{}</th><td class=\"bar\">{}</td><td class=\"value\">{:.3f} s</td></tr>\n",
-            escape_html(stage), stage == "total" ? "" : bar_svg(seconds.get<double>() / total), seconds.get<double>());
+            escape_html(stage), stage == "total" ? "" : bar_svg(seconds.get<double>() / total),
+            seconds.get<double>());
   return table("", rows);
 }
 
@@ -330,28 +347,31 @@ std::string pictures(const std::vector<PagePicture>& pictures) {
   if (pictures.empty()) return {};
   std::string html = "<div id=\"pictures\" class=\"pictures\">\n";
   for (const PagePicture& picture : pictures)
-    html += fmt::format("<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
-                        escape_html(picture.caption), base64(picture.png));
+    html += fmt::format(
+        "<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
+        escape_html(picture.caption), base64(picture.png));
   return html + "</div>\n";
 }
 
+bool is_interactive(const PageOptions& options) { return options.interactive && has_interactive_view(); }
+
 std::string view(const PageOptions& options) {
-  if (has_interactive_view()) return fill_slots(page_view, {{"pictures", pictures(options.pictures)}});
+  if (is_interactive(options)) return fill_slots(page_view, {{"pictures", pictures(options.pictures)}});
   return paragraph("notice",
-                   "The interactive 3D view was left out of this page: orbitutte was built without Node.js, which "
-                   "bundles its script. All figures are below.") +
+                   fmt::format("The interactive 3D view was left out of this page{}. All figures are below.",
+                               has_interactive_view() ? "" : ", since orbitutte was built without Node.js")) +
          pictures(options.pictures);
 }
 
 std::string scripts(const PageSubject& subject, const PageOptions& options) {
-  if (!has_interactive_view()) return {};
+  if (!is_interactive(options)) return {};
   return "<script type=\"application/json\" id=\"scene\">" +
          page_scene(subject.mesh, subject.embedding, options.limits) + "</script>\n<script>" +
          std::string(page_script) + "</script>";
 }
 
-std::string licences() {
-  if (!has_interactive_view()) return {};
+std::string licences(const PageOptions& options) {
+  if (!is_interactive(options)) return {};
   return details("Licences of the software in this page",
                  "<p>The interactive view contains three.js and three-mesh-bvh.</p><pre>" +
                      escape_html(page_licences) + "</pre>");
@@ -367,9 +387,10 @@ std::string policy_hash(std::string_view text) {
 }
 
 /// Nothing is loaded, sent or run but the page's own script and style.
-std::string policy() {
-  return fmt::format("default-src 'none'; script-src {}; style-src {}; img-src data:; base-uri 'none'; form-action 'none'",
-                     has_interactive_view() ? policy_hash(page_script) : "'none'", policy_hash(page_style));
+std::string policy(const PageOptions& options) {
+  return fmt::format(
+      "default-src 'none'; script-src {}; style-src {}; img-src data:; base-uri 'none'; form-action 'none'",
+      is_interactive(options) ? policy_hash(page_script) : "'none'", policy_hash(page_style));
 }
 
 Json parse(const std::string& report) {
@@ -386,8 +407,8 @@ void require_match(const Mesh& mesh, const Embedding& embedding) {
                                 embedding.faces.rows(), mesh.F.rows()));
   for (const int v : embedding.source_vertex)
     if (v < 0 || v >= mesh.V.rows())
-      throw MeshError(fmt::format("the embedding names vertex {}, but the mesh has {}: it is not of this mesh", v,
-                                  mesh.V.rows()));
+      throw MeshError(fmt::format(
+          "the embedding names vertex {}, but the mesh has {}: it is not of this mesh", v, mesh.V.rows()));
 }
 
 /// The last part of the path that the report gives.
@@ -403,7 +424,7 @@ Slots slots(const PageSubject& subject, const PageOptions& options) {
   const Embedding& embedding = subject.embedding;
   const Judgement judgement = {certify(subject.mesh, embedding), at(report, "/termination") == "converged"};
   const std::string name = escape_html(mesh_name(report)), signature = escape_html(embedding.signature);
-  return {{"policy", policy()},
+  return {{"policy", policy(options)},
           {"style", std::string(page_style)},
           {"title", name + " onto " + signature},
           {"mesh_name", name},
@@ -425,7 +446,7 @@ Slots slots(const PageSubject& subject, const PageOptions& options) {
           {"timings", timings(report)},
           {"environment", environment(report)},
           {"version", version},
-          {"licences", licences()},
+          {"licences", licences(options)},
           {"scripts", scripts(subject, options)}};
 }
 

@@ -16,6 +16,7 @@ struct PagePicture {
 };
 
 struct PageOptions {
+  bool interactive = true;  ///< with the view that needs JavaScript and WebGL, where this build has it
   std::vector<PagePicture> pictures;  ///< shown where the page has no interactive view, or it cannot run
   DisplayLimits limits;               ///< how much of the mesh the interactive view draws
 };

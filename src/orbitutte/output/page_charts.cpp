@@ -24,8 +24,8 @@ struct Scale {
 };
 
 std::string open_svg(const std::string& label) {
-  return fmt::format("<svg class=\"chart\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">\n", width, height,
-                     escape_html(label));
+  return fmt::format("<svg class=\"chart\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">\n", width,
+                     height, escape_html(label));
 }
 
 std::string text(double x, double y, const char* css_class, const std::string& words) {
@@ -45,7 +45,9 @@ std::string y_tick(double y, const std::string& label) {
   return line(left, y, right, y, "grid") + text(left - 8, y + 5, "end", label);
 }
 
-std::string x_title(const std::string& words) { return text((left + right) / 2, height - 8, "middle", words); }
+std::string x_title(const std::string& words) {
+  return text((left + right) / 2, height - 8, "middle", words);
+}
 
 /// 2^power as a ratio: 1/8, 1, 8.
 std::string power_of_two(int power) {
@@ -83,7 +85,8 @@ std::string curve(const ConvergenceSeries& series, const Scale& x, const Scale& 
     last_x = x(static_cast<double>(i)), last_y = y(std::log10(series.values[i]));
     path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", last_x, last_y);
     if (series.values.size() <= 60)
-      dots += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\" class=\"dot-{}\"/>\n", last_x, last_y, number);
+      dots += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\" class=\"dot-{}\"/>\n", last_x,
+                          last_y, number);
   }
   return fmt::format("<path d=\"{}\" class=\"curve-{}\"/>\n{}", path, number, dots);
 }
@@ -114,8 +117,8 @@ std::string histogram_svg(const HistogramChart& chart) {
   for (std::size_t k = 0; k < chart.counts.size(); ++k) {
     const double from = x(chart.edges[k]), to = x(chart.edges[k + 1]), share = 100 * chart.counts[k] / total;
     const bool open = k == 0 || k + 1 == chart.counts.size();
-    svg += fmt::format("<path d=\"M{:.2f} {:.1f}V{:.2f}H{:.2f}V{:.1f}Z\" class=\"{}\"/>\n", from + 0.4, bottom, y(share),
-                       to - 0.4, bottom, open ? "bar open" : "bar");
+    svg += fmt::format("<path d=\"M{:.2f} {:.1f}V{:.2f}H{:.2f}V{:.1f}Z\" class=\"{}\"/>\n", from + 0.4,
+                       bottom, y(share), to - 0.4, bottom, open ? "bar open" : "bar");
   }
   for (int power = -6; power <= 6; power += 2) svg += x_tick(x(power), power_of_two(power));
   svg += line(x(0), bottom, x(0), top, "mark") + line(left, bottom, right, bottom, "axis");
@@ -133,7 +136,8 @@ std::string convergence_svg(const std::vector<ConvergenceSeries>& series) {
 
   std::string svg = open_svg("Convergence of the optimiser, on a logarithmic axis");
   const int stride = std::max(1, (high - low + 4) / 5);
-  for (int decade = low; decade <= high; decade += stride) svg += y_tick(y(decade), fmt::format("1e{}", decade));
+  for (int decade = low; decade <= high; decade += stride)
+    svg += y_tick(y(decade), fmt::format("1e{}", decade));
   const int step = std::max(1, static_cast<int>(std::lround(tick_step(last))));
   for (int i = 0; i <= static_cast<int>(last); i += step) svg += x_tick(x(i), std::to_string(i));
   svg += line(left, bottom, right, bottom, "axis");

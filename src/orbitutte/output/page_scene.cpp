@@ -33,8 +33,7 @@ std::string packed(Eigen::Index count, const Number& number) {
 }
 
 std::uint16_t quantised(double value, double low, double size) {
-  return static_cast<std::uint16_t>(
-      std::lround(std::clamp((value - low) / size, 0.0, 1.0) * largest_uint16));
+  return static_cast<std::uint16_t>(std::lround(std::clamp((value - low) / size, 0.0, 1.0) * largest_uint16));
 }
 
 /// Numbers between bounds as 16 bits each.
@@ -52,7 +51,8 @@ Range range_of(const std::vector<double>& values) {
 
 Json to_json(const Range& range) { return {range.low, range.high}; }
 
-/// The means of a measure of the faces over the faces around every cut vertex, as log2; 0 where there are none.
+/// The means of a measure of the faces over the faces around every cut vertex, as log2; 0 where there are
+/// none.
 template <typename Measure>
 std::vector<double> vertex_means(const Embedding& embedding, const Measure& measure) {
   std::vector<double> sum(embedding.source_vertex.size(), 0.0);
@@ -82,8 +82,8 @@ Points normals_along_banks(const Mesh& mesh, const Embedding& embedding) {
   return normals;
 }
 
-/// The same, with the copies of every vertex taken together. The banks of a projective plane's cut face opposite
-/// ways: there every copy takes the sum with its own sign.
+/// The same, with the copies of every vertex taken together. The banks of a projective plane's cut face
+/// opposite ways: there every copy takes the sum with its own sign.
 Points source_normals(const Mesh& mesh, const Embedding& embedding) {
   Points normals = normals_along_banks(mesh, embedding);
   Points sum = Points::Zero(mesh.V.rows(), 3);
