@@ -192,7 +192,9 @@ TEST(PageScene, NormalsAreUnitVectorsAndAgreeAcrossSeamsUpToSign) {
     const test::SampleEmbedding& sample = test::sample_embedding(signature);
     const auto normal =
         numbers<std::int8_t>(Json::parse(page_scene(sample.mesh, sample.embedding()))["normal"]);
-    const auto at = [&](int v) { return Vector3(normal[3 * v], normal[3 * v + 1], normal[3 * v + 2]) / 127; };
+    const auto at = [&](int v) -> Vector3 {
+      return Vector3(normal[3 * v], normal[3 * v + 1], normal[3 * v + 2]) / 127;
+    };
     for (const Seam& seam : sample.embedding().seams) {
       for (std::size_t i = 0; i < seam.left.size(); ++i) {
         const Vector3 left = at(seam.left[i]), right = at(seam.right[i]);

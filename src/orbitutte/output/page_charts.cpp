@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "orbitutte/output/html_text.h"
@@ -63,17 +65,19 @@ double tick_step(double largest) {
   return 10 * power;
 }
 
-/// The decades that hold all positive values.
-std::pair<int, int> decades(const std::vector<ConvergenceSeries>& series) {
-  int low = 99, high = -999;
+/// The decades that hold all positive values; none where there are none.
+std::optional<std::pair<int, int>> decades(const std::vector<ConvergenceSeries>& series) {
+  double smallest = std::numeric_limits<double>::infinity(), largest = 0;
   for (const ConvergenceSeries& one : series) {
     for (const double value : one.values) {
       if (!(value > 0) || !std::isfinite(value)) continue;
-      low = std::min(low, static_cast<int>(std::floor(std::log10(value))));
-      high = std::max(high, static_cast<int>(std::ceil(std::log10(value))));
+      smallest = std::min(smallest, value);
+      largest = std::max(largest, value);
     }
   }
-  return {low, std::max(high, low + 1)};
+  if (!(largest > 0)) return std::nullopt;
+  const int low = static_cast<int>(std::floor(std::log10(smallest)));
+  return std::pair(low, std::max(static_cast<int>(std::ceil(std::log10(largest))), low + 1));
 }
 
 /// A line through the values, with a dot at each, and its label at the end.
@@ -126,8 +130,9 @@ std::string histogram_svg(const HistogramChart& chart) {
 }
 
 std::string convergence_svg(const std::vector<ConvergenceSeries>& series) {
-  const auto [low, high] = decades(series);
-  if (high < low || high == -999) return {};
+  const auto range = decades(series);
+  if (!range) return {};
+  const auto [low, high] = *range;
   std::size_t count = 2;
   for (const ConvergenceSeries& one : series) count = std::max(count, one.values.size());
   const double last = static_cast<double>(count - 1);
