@@ -4,6 +4,8 @@ import {BufferAttribute, BufferGeometry, DoubleSide, Ray, Sphere, Triangle, Vect
 import {MeshBVH} from 'three-mesh-bvh';
 
 const unitSphere = new Sphere(new Vector3(), 1);
+const OUTLINE_SLACK = 0.02;  // radians, nearly
+
 const corners = [new Vector3(), new Vector3(), new Vector3()];
 
 function loadCorners(indices, positions, face) {
@@ -31,20 +33,26 @@ export class MapPoints {
 
   firstHit(name, ray) {
     const hit = this.tree(name).raycastFirst(ray, DoubleSide);
-    if (!hit) return null;
-    loadCorners(this.scene.fine.indices, this.scene[name], hit.faceIndex);
-    const weights = Triangle.getBarycoord(hit.point, ...corners, new Vector3());
-    return weights && {face: hit.faceIndex, weights, copy: 0, distance: hit.distance};
+    return hit && this.pointOf(name, hit);
+  }
+
+  // A point of the tree's surface in barycentric coordinates.
+  pointOf(name, {faceIndex, point, distance}) {
+    loadCorners(this.scene.fine.indices, this.scene[name], faceIndex);
+    const weights = Triangle.getBarycoord(point, ...corners, new Vector3());
+    return weights && {face: faceIndex, weights, copy: 0, distance};
   }
 
   onSource(ray) {
     return this.firstHit('source', ray);
   }
 
-  /** Within the tile alone. */
+  /** Within the tile alone, or so close to it that its outline was meant. */
   onTile(ray) {
     const at = ray.intersectSphere(unitSphere, new Vector3());
-    return at && this.firstHit('image', new Ray(new Vector3(), at.normalize()));
+    if (!at) return null;
+    const hit = this.firstHit('image', new Ray(new Vector3(), at.clone().normalize()));
+    return hit ?? this.nearest(at, OUTLINE_SLACK);
   }
 
   /** In whichever copy covers the sphere where the ray meets it. */
@@ -57,7 +65,18 @@ export class MapPoints {
       const hit = this.firstHit('image', inTile);
       if (hit) return {...hit, copy};
     }
-    return null;
+    return this.onSeam(at);
+  }
+
+  // Exactly on a seam, rounding can leave a place to no copy: then the nearest has it.
+  onSeam(at) {
+    const candidates = this.inverses.map((inverse, copy) => ({...this.nearest(at.clone().applyMatrix4(inverse), Infinity), copy}));
+    return candidates.reduce((best, other) => (other.distance < best.distance ? other : best));
+  }
+
+  nearest(at, farthest) {
+    const hit = this.tree('image').closestPointToPoint(at, {}, 0, farthest);
+    return hit && this.pointOf('image', hit);
   }
 
   /** Where a point lies, in 'source' or 'image'. */

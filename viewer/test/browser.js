@@ -104,7 +104,9 @@ export async function pixels(page, id) {
 
 /** Where a panel shows an input vertex, in CSS pixels of the window; for vertices that are in front. */
 export const placeOf = (page, id, vertex) => page.evaluate(([panel, wanted]) => {
-  const view = window.orbitutteView, stage = document.getElementById(panel).getBoundingClientRect();
+  const view = window.orbitutteView, element = document.getElementById(panel);
+  element.scrollIntoView({block: 'center', behavior: 'instant'});
+  const stage = element.getBoundingClientRect();
   const positions = panel === 'source' ? view.scene.source : view.scene.image;
   const at = view.panels[panel].camera.position.clone().fromArray(positions, 3 * view.scene.sourceVertex.indexOf(wanted));
   const {x, y} = view.panels[panel].project(at);
