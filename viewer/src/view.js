@@ -142,7 +142,7 @@ export class View {
     let radius = 0;
     for (let i = 0; i < source.length; i += 3) radius = Math.max(radius, Math.hypot(source[i], source[i + 1], source[i + 2]));
     const frames = {
-      source: {target: new Vector3(), radius: radius * 0.97},
+      source: {target: new Vector3(), radius: radius * 1.03},
       tile: {target: this.frame.middle, radius: this.frame.radius * 1.08},
       tiling: {target: new Vector3(), radius: 1.04},
     };
