@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the page's script draws, as JSON; viewer/src/scene.js reads it.
+// What the page's script draws, as JSON; viewer/src/scene_data.js reads it.
 #pragma once
 
 #include <string>
