@@ -187,7 +187,7 @@ export class View {
     const lines = thickLines(this.scene.image, this.scene.coarse.outline, others, 1);
     lines.material.color.set(FAINT);
     lines.scale.setScalar(0.998);  // behind the tile's own outline
-    const ball = new Mesh(new SphereGeometry(0.985, 96, 64), new MeshBasicMaterial({colorWrite: false}));
+    const ball = new Mesh(new SphereGeometry(0.96, 96, 64), new MeshBasicMaterial({colorWrite: false}));
     ball.renderOrder = -1;
     this.panels.tile.scene.add(lines, ball);
   }
