@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Installs what is missing, builds, embeds a mesh, tiles the sphere with it and draws it; the files go to out/.
+# Installs what is missing, builds, embeds a mesh, tiles the sphere with it, draws it, and writes a page about it; the files go to out/.
 # usage: ./demo.sh                            a mesh that the program makes itself
 #        ./demo.sh MESH [OPTION ...]          your mesh; the options are those of 'orbitutte embed'
 # The exit code is that of 'orbitutte embed': 0 when the result is certified.
@@ -14,7 +14,7 @@ case "${1-}" in -h | --help) sed -n '3,6s/^# //p' "$root/demo.sh"; exit 0 ;; esa
 orbitutte=$root/build/orbitutte
 out=$root/out
 mkdir -p "$out"
-rm -f "$out"/embedding.ply "$out"/report.json "$out"/tiling.{ply,glb} "$out"/picture.png
+rm -f "$out"/embedding.ply "$out"/report.json "$out"/tiling.{ply,glb} "$out"/picture.png "$out"/page.html
 
 if [ $# = 0 ]; then
   mesh=$out/sample.ply
@@ -67,6 +67,8 @@ for tiling in "$out/tiling.glb" "$out/tiling.ply"; do
 done
 rm -f "$out/tile.log"
 "$orbitutte" render "$embedding" "$report" "$mesh" -o "$out/picture.png" || true
+page=$out/page.html
+"$orbitutte" report "$embedding" "$report" "$mesh" -o "$page" || page=
 
 echo
 /usr/bin/python3 - "$report" "$mesh" <<'PYTHON'
@@ -90,4 +92,5 @@ for tiling in ${tilings[@]+"${tilings[@]}"}; do
   echo "tiling     $tiling"
 done
 [ ! -e "$out/picture.png" ] || echo "picture    $out/picture.png"
+[ -z "$page" ] || echo "page       $page    (open it in a browser)"
 exit "$code"

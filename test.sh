@@ -6,7 +6,7 @@ set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd -P)
 build=$root/build
 
-"$root/setup"
+"$root/setup" --tests
 "$root/cmake/build.sh"
 
 failed=0

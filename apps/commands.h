@@ -50,6 +50,11 @@ struct RenderArguments {
 };
 int render_command(const RenderArguments& arguments);
 
+struct ReportArguments {
+  std::string embedding, report, mesh, output;
+};
+int report_command(const ReportArguments& arguments);
+
 struct SampleArguments {
   std::string output, shape = "figure";
   int faces = 20000;

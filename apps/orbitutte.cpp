@@ -147,6 +147,17 @@ void add_render(CLI::App& app, int& code) {
   command->callback([arguments, &code] { code = run([&] { return render_command(*arguments); }); });
 }
 
+void add_report(CLI::App& app, int& code) {
+  auto* command = app.add_subcommand(
+      "report", "One HTML page with everything about an embedding, and an interactive view");
+  auto arguments = std::make_shared<ReportArguments>();
+  command->add_option("embedding", arguments->embedding, "The embedding (PLY)")->required();
+  command->add_option("report", arguments->report, "Its report (JSON)")->required();
+  command->add_option("mesh", arguments->mesh, "The input mesh")->required();
+  command->add_option("-o,--output", arguments->output, "The page (HTML)")->required();
+  command->callback([arguments, &code] { code = run([&] { return report_command(*arguments); }); });
+}
+
 void add_sample(CLI::App& app, int& code) {
   auto* command = app.add_subcommand("sample", "Generate a mesh to try things on");
   auto arguments = std::make_shared<SampleArguments>();
@@ -175,6 +186,7 @@ int main(int argc, char** argv) {
   add_tile(app, code);
   add_export(app, code);
   add_render(app, code);
+  add_report(app, code);
   add_sample(app, code);
   try {
     app.parse(argc, argv);

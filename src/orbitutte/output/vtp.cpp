@@ -2,31 +2,16 @@
 // VTK's XML format for polygonal data (VTK file formats, "XML file formats"), arrays as base64 behind their
 // length.
 #include <fmt/format.h>
-#include <openssl/evp.h>
 
 #include <cstdint>
 #include <string_view>
 
 #include "orbitutte/mesh/bytes.h"
 #include "orbitutte/output/export_files.h"
+#include "orbitutte/output/html_text.h"
 
 namespace orbitutte {
 namespace {
-
-std::string base64(std::string_view bytes) {
-  std::string text(4 * ((bytes.size() + 2) / 3) + 1, '\0');  // and the zero that OpenSSL writes
-  // Its lengths are ints: in pieces whose lengths are multiples of three.
-  constexpr std::size_t piece = 3 << 20;
-  std::size_t out = 0;
-  for (std::size_t at = 0; at < bytes.size(); at += piece) {
-    const std::string_view part = bytes.substr(at, piece);
-    out +=
-        EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data() + out),
-                        reinterpret_cast<const unsigned char*>(part.data()), static_cast<int>(part.size()));
-  }
-  text.resize(out);
-  return text;
-}
 
 template <typename Number, typename Values>
 std::string data_array(std::string_view type, std::string_view name, int components, const Values& values) {

@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/output/page.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "orbitutte/mesh/bytes.h"
+#include "orbitutte/mesh/sample.h"
+#include "orbitutte/output/html_text.h"
+#include "orbitutte/output/page_charts.h"
+#include "orbitutte/output/page_scene.h"
+#include "orbitutte/output/report.h"
+#include "orbitutte/verify/distortion.h"
+#include "sample_embeddings.h"
+
+namespace orbitutte {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using Json = nlohmann::json;
+
+constexpr const char* hostile =
+    R"(a"'><img src=x onerror=alert(1)></script><script>alert(2)</script>{{style}})";
+
+const RunRecord run = {"folder/mesh.ply", std::string(64, 'a'), 0.25, 0.5, 2, 123456};
+
+std::string sample_report(const std::string& signature) {
+  return report_json(test::sample_embedding(signature).result, run);
+}
+
+std::string page_of(const std::string& signature, const std::string& report,
+                    const PageOptions& options = {}) {
+  const test::SampleEmbedding& sample = test::sample_embedding(signature);
+  return report_page({sample.mesh, sample.embedding(), report}, options);
+}
+
+// The bytes that RFC 4648 encodes so; independent of the encoder.
+std::string decoded(const std::string& text) {
+  const std::string alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  std::uint32_t bits = 0;
+  int count = 0;
+  for (const char c : text) {
+    if (c == '=') break;
+    bits = bits << 6 | static_cast<std::uint32_t>(alphabet.find(c));
+    if ((count += 6) < 8) continue;
+    bytes += static_cast<char>(bits >> (count -= 8) & 0xff);
+  }
+  return bytes;
+}
+
+template <typename Number>
+std::vector<Number> numbers(const Json& text) {
+  const std::string bytes = decoded(text.get<std::string>());
+  std::vector<Number> values;
+  for (std::size_t at = 0; at + sizeof(Number) <= bytes.size(); at += sizeof(Number))
+    values.push_back(load<Number>(bytes.data() + at, std::endian::little));
+  return values;
+}
+
+// Reads tags and checks that they nest; what stands in script and style is no markup.
+std::string nesting_fault(const std::string& html) {
+  static const std::set<std::string> empty = {"meta", "br", "input", "img", "path", "circle", "rect"};
+  std::vector<std::string> open;
+  for (std::size_t at = html.find('<'); at != std::string::npos; at = html.find('<', at + 1)) {
+    if (html.compare(at, 4, "<!--") == 0 || html.compare(at, 2, "<!") == 0) continue;
+    const bool closes = html[at + 1] == '/';
+    const std::size_t start = at + (closes ? 2 : 1);
+    const std::string tag = html.substr(start, html.find_first_of(" >/\n", start) - start);
+    if (empty.count(tag)) continue;
+    if (!closes) open.push_back(tag);
+    if (closes && (open.empty() || open.back() != tag)) return tag;
+    if (closes) open.pop_back();
+    if (!closes && (tag == "script" || tag == "style")) at = html.find("</" + tag, at) - 1;
+  }
+  return open.empty() ? "" : open.back();
+}
+
+TEST(HtmlText, EscapesWhatHtmlGivesAMeaning) {
+  EXPECT_EQ(escape_html(R"(a<b>&"c'd)"), "a&lt;b&gt;&amp;&quot;c&#39;d");
+}
+
+TEST(HtmlText, Base64DecodesToTheSameBytes) {
+  std::string bytes;
+  for (int length = 0; length < 300; ++length) {
+    EXPECT_EQ(decoded(base64(bytes)), bytes);
+    EXPECT_EQ(base64(bytes).size() % 4, 0u);
+    bytes += static_cast<char>(37 * length);
+  }
+  EXPECT_EQ(base64("light w"), "bGlnaHQgdw==");
+  const std::string large((3 << 20) + 1000, 'x');  // more than the encoder takes at once
+  EXPECT_EQ(decoded(base64(large)), large);
+}
+
+TEST(HtmlText, SlotsAreFilledOnceAndMustBeKnown) {
+  EXPECT_EQ(fill_slots("{{a}} and {{b}}", {{"a", "{{b}}"}, {"b", "2"}}), "{{b}} and 2");
+  EXPECT_EQ(fill_slots("no slot }} {{", {}), "no slot }} {{");
+  EXPECT_THROW(fill_slots("{{c}}", {}), ArgumentError);
+}
+
+TEST(HtmlText, DigitsAreGroupedByThree) {
+  EXPECT_EQ(grouped_digits(0), "0");
+  EXPECT_EQ(grouped_digits(999), "999");
+  EXPECT_EQ(grouped_digits(1234567), "1,234,567");
+  EXPECT_EQ(grouped_digits(-123456), "-123,456");
+}
+
+TEST(PageCharts, NothingToShowGivesNoChart) {
+  EXPECT_EQ(histogram_svg({}), "");
+  EXPECT_EQ(histogram_svg({{0, 1, 2}, {0, 0}}), "");
+  EXPECT_EQ(histogram_svg({{0, 1}, {3, 4}}), "");
+  EXPECT_EQ(convergence_svg({}), "");
+  EXPECT_EQ(convergence_svg({{"zeros", {0, 0}}}), "");
+  EXPECT_THAT(convergence_svg({{"one", {1e-3}}}), HasSubstr("</svg>"));
+  EXPECT_THAT(histogram_svg({{0, 1}, {3}}), HasSubstr("</svg>"));
+}
+
+TEST(DisplayMesh, AMeshWithinTheLimitIsWhole) {
+  const test::SampleEmbedding& sample = test::sample_embedding("432");
+  const DisplayMesh display = display_mesh(sample.mesh, sample.embedding());
+  EXPECT_EQ(display.fine.faces, sample.embedding().faces);
+  EXPECT_EQ(display.coarse.faces, sample.embedding().faces);
+  std::size_t banks = 0;
+  for (const Seam& seam : sample.embedding().seams) banks += 2 * (seam.left.size() - 1);
+  EXPECT_EQ(display.fine.outline.size(), banks);
+}
+
+TEST(DisplayMesh, ALargeMeshIsCoarsenedToItsLimitAndKeepsItsOutline) {
+  const Mesh mesh = sample_mesh({SampleShape::figure, 6000});
+  const EmbedResult result = embed(mesh, parse_orbifold("332"), sample_cones(SampleShape::figure, mesh));
+  const DisplayMesh display = display_mesh(mesh, result.embedding, {3000, 12 * 800});
+  EXPECT_LE(display.fine.faces.rows(), 3000);
+  EXPECT_LE(display.coarse.faces.rows(), 800);
+  EXPECT_GT(display.fine.faces.rows(), 2000);
+  const DisplayMesh whole = display_mesh(mesh, result.embedding);
+  EXPECT_EQ(display.fine.outline.size(), whole.fine.outline.size());
+  EXPECT_EQ(display.coarse.outline.size(), whole.fine.outline.size());
+}
+
+TEST(DisplayMesh, ACoarseTileStillCoversItsShareOfTheSphere) {
+  const Mesh mesh = sample_mesh({SampleShape::figure, 6000});
+  const EmbedResult result = embed(mesh, parse_orbifold("332"), sample_cones(SampleShape::figure, mesh));
+  const DisplayMesh display = display_mesh(mesh, result.embedding, {3000, 12 * 800});
+  for (const DisplayLevel& level : {display.fine, display.coarse}) {
+    double area = 0;
+    for (Eigen::Index f = 0; f < level.faces.rows(); ++f) {
+      const auto corner = [&](int k) -> Vector3 {
+        return result.embedding.positions.row(display.cut_vertex[level.faces(f, k)]);
+      };
+      area += signed_area(corner(0), corner(1), corner(2));
+    }
+    EXPECT_NEAR(area, result.certificate.expected_area, 1e-9);
+  }
+}
+
+TEST(PageScene, HoldsTheDrawnVerticesInSourceAndImage) {
+  for (const char* signature : {"532", "*223", "3*2", "2x"}) {
+    const test::SampleEmbedding& sample = test::sample_embedding(signature);
+    const Embedding& embedding = sample.embedding();
+    const Json scene = Json::parse(page_scene(sample.mesh, embedding));
+    const auto source = numbers<std::uint16_t>(scene["source"]);
+    const auto image = numbers<float>(scene["image"]);
+    const auto vertex = numbers<std::uint32_t>(scene["source_vertex"]);
+    const std::size_t count = scene["vertices"];
+    ASSERT_EQ(source.size(), 3 * count);
+    ASSERT_EQ(image.size(), 3 * count);
+    ASSERT_EQ(vertex.size(), count);
+    const double size = scene["source_box"][3];
+    for (std::size_t i = 0; i < 3 * count; ++i) {
+      const double low = scene["source_box"][i % 3];
+      const auto v = static_cast<Eigen::Index>(vertex[i / 3]), k = static_cast<Eigen::Index>(i % 3);
+      EXPECT_NEAR(low + size * source[i] / 65535, sample.mesh.V(v, k), size / 65535);
+      EXPECT_NEAR(image[i], embedding.positions(static_cast<Eigen::Index>(i / 3), k), 1e-6);
+    }
+    EXPECT_EQ(static_cast<int>(scene["copies"].size()), embedding.group_order);
+    EXPECT_EQ(scene["cones"].size(), embedding.cones.size());
+    EXPECT_EQ(numbers<std::uint32_t>(scene["fine"]["indices"]).size(),
+              static_cast<std::size_t>(embedding.faces.size()));
+  }
+}
+
+TEST(PageScene, NormalsAreUnitVectorsAndAgreeAcrossSeamsUpToSign) {
+  for (const char* signature : {"432", "3x"}) {
+    const test::SampleEmbedding& sample = test::sample_embedding(signature);
+    const auto normal =
+        numbers<std::int8_t>(Json::parse(page_scene(sample.mesh, sample.embedding()))["normal"]);
+    const auto at = [&](int v) -> Vector3 {
+      return Vector3(normal[3 * v], normal[3 * v + 1], normal[3 * v + 2]) / 127;
+    };
+    for (const Seam& seam : sample.embedding().seams) {
+      for (std::size_t i = 0; i < seam.left.size(); ++i) {
+        const Vector3 left = at(seam.left[i]), right = at(seam.right[i]);
+        EXPECT_NEAR(left.norm(), 1, 0.02);
+        EXPECT_NEAR(std::abs(left.dot(right)), 1, 0.03);
+      }
+    }
+  }
+}
+
+TEST(Page, IsWellNestedHtmlThatHoldsEveryCheck) {
+  for (const char* signature : {"532", "*432", "2*", "5x"}) {
+    const std::string page = page_of(signature, sample_report(signature));
+    EXPECT_EQ(nesting_fault(page), "") << signature;
+    EXPECT_THAT(page, HasSubstr("Certified bijective"));
+    EXPECT_THAT(page, HasSubstr("mesh.ply onto " + std::string(signature)));
+    for (const Check& check : test::sample_embedding(signature).result.certificate.checks)
+      EXPECT_THAT(page, HasSubstr(check.name));
+  }
+}
+
+TEST(Page, LoadsNothing) {
+  const std::string page = page_of("432", sample_report("432"));
+  EXPECT_THAT(page, HasSubstr("default-src 'none'"));
+  for (const char* outside : {"<link", "<script src", "<img", "<iframe", "@import", "url("})
+    EXPECT_THAT(page, Not(HasSubstr(outside)));
+}
+
+TEST(Page, TextFromTheReportStaysText) {
+  Json report = Json::parse(sample_report("432"));
+  report["mesh"]["path"] = hostile;
+  report["mesh"]["topology"] = hostile;
+  report["warnings"] = {hostile};
+  report["environment"]["blas"] = hostile;
+  report["timings"][hostile] = 1;
+  const std::string page = page_of("432", report.dump());
+  EXPECT_THAT(page, Not(HasSubstr("<img")));
+  EXPECT_THAT(page, Not(HasSubstr("<script>alert")));
+  EXPECT_THAT(page, HasSubstr("{{style}}"));
+  EXPECT_EQ(nesting_fault(page), "");
+}
+
+TEST(Page, FollowsTheFilesWhereTheReportClaimsOtherwise) {
+  Json report = Json::parse(sample_report("432"));
+  report["certificate"]["bijective"] = false;
+  EXPECT_THAT(page_of("432", report.dump()), HasSubstr("says otherwise"));
+
+  const test::SampleEmbedding& sample = test::sample_embedding("432");
+  Embedding folded = sample.embedding();
+  folded.positions.row(folded.faces(0, 0)) *= -1;
+  const std::string page = report_page({sample.mesh, folded, sample_report("432")});
+  EXPECT_THAT(page, HasSubstr("Not certified"));
+  EXPECT_THAT(page, HasSubstr("says otherwise"));
+}
+
+TEST(Page, SaysThatTheOptimiserDidNotConverge) {
+  Json report = Json::parse(sample_report("432"));
+  report["termination"] = "max_iterations";
+  report["certificate"]["bijective"] = false;
+  const std::string page = page_of("432", report.dump());
+  EXPECT_THAT(page, HasSubstr("Not converged"));
+  EXPECT_THAT(page, Not(HasSubstr("Certified bijective")));
+}
+
+TEST(Page, WithoutTheViewShowsCertificateAndPicturesAndSaysSo) {
+  PageOptions options;
+  options.interactive = false;
+  options.pictures = {{"The \"source\"", "\x89PNG"}};
+  const std::string page = page_of("432", sample_report("432"), options);
+  EXPECT_THAT(page, HasSubstr("interactive 3D view was left out"));
+  EXPECT_THAT(page, HasSubstr("Certified bijective"));
+  EXPECT_THAT(page, HasSubstr("src=\"data:image/png;base64,iVBORw==\""));
+  EXPECT_THAT(page, HasSubstr("The &quot;source&quot;"));
+  EXPECT_THAT(page, HasSubstr("script-src 'none'"));
+  EXPECT_THAT(page, Not(HasSubstr("<script")));
+  EXPECT_EQ(nesting_fault(page), "");
+}
+
+TEST(Page, FiguresThatAreMissingOrOfAnotherTypeAreADash) {
+  Json report = Json::parse(sample_report("432"));
+  for (const char* key : {"distortion", "history", "timings", "environment", "energy"}) report.erase(key);
+  report["mesh"] = 7;
+  report["iterations"] = "many";
+  EXPECT_EQ(nesting_fault(page_of("432", report.dump())), "");
+  EXPECT_EQ(nesting_fault(page_of("432", "[]")), "");
+}
+
+TEST(Page, RefusesAMeshThatWasNotEmbeddedAndAReportThatIsNone) {
+  const test::SampleEmbedding& sample = test::sample_embedding("432");
+  const std::string report = sample_report("432");
+  EXPECT_THROW(report_page({test::icosahedron(), sample.embedding(), report}), MeshError);
+  EXPECT_THROW(page_of("432", "{"), MeshError);
+}
+
+}  // namespace
+}  // namespace orbitutte

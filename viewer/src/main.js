@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// Brings the page's view to life: reads the scene, and connects controls, legend and readout with the view.
+import {angleMap, areaMap} from './colour_maps.js';
+import {Marks} from './marks.js';
+import {readScene} from './scene_data.js';
+import {View} from './view.js';
+
+const element = (id) => document.getElementById(id);
+const grouped = (count) => count.toLocaleString('en');
+
+// A ratio, to about three digits: 0.52, 1.07, 312.
+const ratio = (log2) => Number((2 ** log2).toPrecision(3)).toString();
+
+// A power of two as a ratio of small numbers: 1/16, 16.
+const power = (log2) => (log2 < 0 ? `1/${ratio(-log2)}` : ratio(log2));
+
+function showLegend(view, colouring) {
+  const legends = {
+    area: {css: areaMap.css, low: power(-view.bounds.area), high: power(view.bounds.area), title: 'share of the tile over share of the source, mean around a vertex'},
+    angle: {css: angleMap.css, low: '1', high: ratio(view.bounds.angle), title: 'ratio of singular values, mean around a vertex'},
+  };
+  const legend = legends[colouring];
+  element('legend').hidden = !legend;
+  if (!legend) return;
+  element('legend-low').textContent = legend.low;
+  element('legend-high').textContent = legend.high;
+  element('legend-title').textContent = legend.title;
+  element('legend-bar').style.backgroundImage = legend.css;
+}
+
+function showReadout(view, point) {
+  if (!point) return;
+  const {scene, points} = view;
+  const vertex = scene.sourceVertex[points.nearestVertex(point)];
+  const copy = scene.copies.length > 1 ? `, copy ${point.copy + 1} of ${scene.copies.length}` : '';
+  element('readout').textContent = `Vertex ${vertex}: area ratio ${ratio(points.value(scene.area, point))}, ` +
+    `angle distortion ${ratio(points.value(scene.angle, point))}${copy}`;
+}
+
+function connectControls(view) {
+  const control = (id, event, action) => {
+    element(id).addEventListener(event, action);
+    action();
+  };
+  control('colouring', 'change', () => {
+    const colouring = element('colouring').value;
+    element('squares-label').hidden = colouring !== 'checkerboard';
+    showLegend(view, colouring);
+    view.setColouring(colouring);
+  });
+  control('squares', 'input', () => view.setSquares(Number(element('squares').value)));
+  control('opacity', 'input', () => view.setOpacity(Number(element('opacity').value) / 100));
+  control('relief', 'change', () => view.setRelief(element('relief').checked ? 1 : 0));
+  control('edges', 'change', () => view.showEdges(element('edges').checked));
+  element('reset').addEventListener('click', () => view.reset());
+}
+
+// What is not drawn is said.
+function sayHowMuchIsDrawn({faces, shownFaces, copyFaces}) {
+  const sentences = [];
+  if (shownFaces < faces) sentences.push(`Source and tile are drawn with ${grouped(shownFaces)} of ${grouped(faces)} triangles; their vertices are exact, and only these can be marked by clicking.`);
+  if (copyFaces < faces) sentences.push(`On the tiled sphere every copy is drawn with ${grouped(copyFaces)} of ${grouped(faces)} triangles.`);
+  element('decimated').textContent = sentences.join(' ');
+  element('decimated').hidden = sentences.length === 0;
+}
+
+function start() {
+  const scene = readScene(JSON.parse(element('scene').textContent));
+  let marks = null;
+  element('view-body').hidden = false;
+  const view = new View(scene, {
+    canvas: element('canvas'),
+    stages: {source: element('source'), tile: element('tile'), tiling: element('tiling')},
+    onHover: (point) => showReadout(view, point),
+    onPick: (vertex) => marks.toggle(vertex),
+  });
+  marks = new Marks(scene, {
+    form: element('add-form'), number: element('add-vertex'), line: element('cones'),
+    copy: element('copy'), clear: element('clear'), message: element('copied'),
+  }, (vertices) => view.showMarks(vertices));
+  connectControls(view);
+  sayHowMuchIsDrawn(scene);
+  element('view-notice').hidden = true;
+  if (element('pictures')) element('pictures').hidden = true;
+  window.orbitutteView = view;  // for the console, and for the tests
+}
+
+function isSupported() {
+  return Boolean(document.createElement('canvas').getContext('webgl2'));
+}
+
+if (isSupported()) start();

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// The material of all surfaces: one shader, whose colouring the user chooses.
+import {DoubleSide, ShaderMaterial} from 'three';
+
+export const COLOURINGS = {tile: 0, checkerboard: 1, area: 2, angle: 3, normal: 4};
+
+const vertexShader = /* glsl */ `
+attribute vec3 image;         // on the unit sphere, in the tile itself
+attribute vec3 sourceNormal;
+attribute float area;
+attribute float angle;
+varying vec3 vView, vNormal, vImage, vSourceNormal, vTint;
+varying float vArea, vAngle;
+uniform bool onSphere;
+uniform vec3 tint;
+
+void main() {
+  vec4 at = vec4(position, 1.0);
+  vec3 n = onSphere ? position : sourceNormal;
+  vTint = tint;
+#ifdef USE_INSTANCING
+  at = instanceMatrix * at;
+  n = mat3(instanceMatrix) * n;
+#endif
+#ifdef USE_INSTANCING_COLOR
+  vTint = instanceColor;
+#endif
+  at = modelViewMatrix * at;
+  vView = at.xyz;
+  vNormal = normalMatrix * n;
+  vImage = image;
+  vSourceNormal = sourceNormal;
+  vArea = area;
+  vAngle = angle;
+  gl_Position = projectionMatrix * at;
+}`;
+
+const fragmentShader = /* glsl */ `
+varying vec3 vView, vNormal, vImage, vSourceNormal, vTint;
+varying float vArea, vAngle;
+uniform int colouring;
+uniform bool onSphere;
+uniform float squares, areaBound, angleBound, opacity, relief;
+uniform sampler2D areaMap, angleMap;
+uniform vec3 centre, east, north;   // the tile's frame: its middle, and two directions across
+uniform vec3 sourceLight;
+
+// Stereographic from the antipode of the tile's middle, so that a conformal map shows squares.
+float checker(vec3 p) {
+  vec2 plane = vec2(dot(p, east), dot(p, north)) / (1.0 + dot(p, centre)) * squares;
+  vec2 width = max(fwidth(plane), 1e-6);
+  vec2 ramp = clamp((abs(fract(plane * 0.5) - 0.5) - 0.25) / width, -0.5, 0.5) * 2.0;
+  float fade = clamp(1.5 - max(width.x, width.y), 0.0, 1.0);
+  return 0.5 + 0.5 * ramp.x * ramp.y * fade;
+}
+
+vec3 colour() {
+  if (colouring == 1) return mix(vTint * 0.45, mix(vTint, vec3(1.0), 0.72), checker(normalize(vImage)));
+  if (colouring == 2) return texture2D(areaMap, vec2(0.5 + 0.5 * vArea / areaBound, 0.5)).rgb;
+  if (colouring == 3) return texture2D(angleMap, vec2(vAngle / angleBound, 0.5)).rgb;
+  if (colouring == 4) return 0.64 + 0.34 * normalize(vSourceNormal);
+  return vTint;
+}
+
+void main() {
+  vec3 toEye = normalize(-vView);
+  vec3 n = normalize(vNormal);
+  if (onSphere && opacity < 1.0 && dot(n, toEye) < 0.0) discard;   // translucent copies hide nothing behind
+  if (dot(n, toEye) < 0.0) n = -n;                                 // both sides of a disk are lit
+  float light = 0.52 + 0.48 * max(dot(n, normalize(vec3(-0.35, 0.55, 0.8))), 0.0) + 0.08 * n.z;
+  if (onSphere) {
+    float bumps = 0.8 + 0.28 * dot(normalize(vSourceNormal), sourceLight);
+    bool measured = colouring == 2 || colouring == 3;   // colours that are read off a legend are shaded less
+    light = mix(light, (0.4 + 0.6 * light) * bumps, measured ? 0.35 * relief : relief);
+  }
+  gl_FragColor = vec4(min(colour() * light * 1.04, 1.0), opacity);
+}`;
+
+/** Uniforms that all surfaces share, so that one assignment changes all. */
+export function sharedUniforms(frame, maps, bounds) {
+  return {
+    colouring: {value: COLOURINGS.tile},
+    squares: {value: 14},
+    relief: {value: 1},
+    areaBound: {value: bounds.area},
+    angleBound: {value: bounds.angle},
+    areaMap: {value: maps.area},
+    angleMap: {value: maps.angle},
+    centre: {value: frame.centre},
+    east: {value: frame.east},
+    north: {value: frame.north},
+    sourceLight: {value: frame.sourceLight},
+  };
+}
+
+/** A material on shared uniforms, with its own opacity and colour. */
+export function surfaceMaterial(shared, {onSphere, tint}) {
+  return new ShaderMaterial({
+    vertexShader,
+    fragmentShader,
+    uniforms: {...shared, onSphere: {value: onSphere}, tint: {value: tint}, opacity: {value: 1}},
+    side: DoubleSide,
+    polygonOffset: true,  // lines on the surface stay in front of it
+    polygonOffsetFactor: 1.5,
+    polygonOffsetUnits: 2,
+  });
+}
