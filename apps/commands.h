@@ -55,6 +55,12 @@ struct ReportArguments {
 };
 int report_command(const ReportArguments& arguments);
 
+struct CompareArguments {
+  std::string mesh, cones = "auto", orbifold, flat, weights = "standard", output;
+  bool json = false;
+};
+int compare_command(const CompareArguments& arguments);
+
 struct SampleArguments {
   std::string output, shape = "figure";
   int faces = 20000;

@@ -57,7 +57,10 @@ void add_embed(CLI::App& app, int& code) {
       ->needs(polygon);
   command->add_option("-o,--output", arguments->output, "Write the embedding (binary PLY) here");
   command->add_option("--report", arguments->report, "Write the report (JSON) here");
-  command->add_option("--weights", arguments->weights, "cotan, delaunay, mean-value, uniform, or standard: delaunay, and cotan where faces are no triangles")
+  command
+      ->add_option("--weights", arguments->weights,
+                   "cotan, delaunay, mean-value, uniform, or standard: delaunay, and cotan where faces are "
+                   "no triangles")
       ->capture_default_str();
   command->add_option("--clamp", arguments->clamp, "What cotangent weights that are not positive become")
       ->capture_default_str();
@@ -158,6 +161,27 @@ void add_report(CLI::App& app, int& code) {
   command->callback([arguments, &code] { code = run([&] { return report_command(*arguments); }); });
 }
 
+void add_compare(CLI::App& app, int& code) {
+  auto* command = app.add_subcommand(
+      "compare",
+      "Spherical and Euclidean orbifold Tutte embeddings of one mesh: their distortion side by side");
+  auto arguments = std::make_shared<CompareArguments>();
+  command->add_option("mesh", arguments->mesh, "The mesh: OBJ, OFF, PLY or STL")->required();
+  command
+      ->add_option("--cones", arguments->cones,
+                   "The marked vertices, in the order of both symbols, or 'auto'")
+      ->capture_default_str();
+  command->add_option("--orbifold", arguments->orbifold,
+                      "The spherical symbol; 432, of disks *432, unless given");
+  command->add_option(
+      "--flat", arguments->flat,
+      "The Euclidean symbol: 333, 442, 632, 2222, or with a star; 442, of disks *442, unless given");
+  command->add_option("--weights", arguments->weights, "As of embed")->capture_default_str();
+  command->add_option("-o,--output", arguments->output, "Draw both histograms here: .png or .svg");
+  command->add_flag("--json", arguments->json, "As JSON");
+  command->callback([arguments, &code] { code = run([&] { return compare_command(*arguments); }); });
+}
+
 void add_sample(CLI::App& app, int& code) {
   auto* command = app.add_subcommand("sample", "Generate a mesh to try things on");
   auto arguments = std::make_shared<SampleArguments>();
@@ -187,6 +211,7 @@ int main(int argc, char** argv) {
   add_export(app, code);
   add_render(app, code);
   add_report(app, code);
+  add_compare(app, code);
   add_sample(app, code);
   try {
     app.parse(argc, argv);

@@ -8,6 +8,8 @@ is no part of it: where it is missing, everything is skipped. Needs numpy.
   embed         every family on every mesh: verify_embedding.py and 'orbitutte verify' accept; exit 0 exactly when certified
   tile          the tiling of one embedding of each family is a closed surface of Euler characteristic 2, counterclockwise
   render        a picture is a PNG of the size asked for, the same bytes twice; a plot is SVG; what makes no sense is refused
+  export        OBJ, GLB and VTP read back: every corner has texture coordinates of its vertex, arrays are whole
+  compare       both certified, and the area distortion is lower on the sphere
   golden        the reference's energies to 1e-9 (relative) and edge lengths to 1e-7, with the reference's weights
   weights       Delaunay and mean value weights on every mesh: as embed, and Delaunay is nearer to conformal than the clamp
   polygon       the tile of *222 as a fixed polygon: certified, and the map is more sheared than that into the orbifold
@@ -19,6 +21,7 @@ is no part of it: where it is missing, everything is skipped. Needs numpy.
   theorem2      'orbitutte verify --theorem2' finds both of its conditions to hold, and never changes the exit code
 """
 import argparse
+import base64
 import collections
 import concurrent.futures
 import json
@@ -431,6 +434,44 @@ class Suite:
         for options in (['--panel', 'nonsense'], ['--view', 'nowhere'], ['--size', '1x1'], ['--panel', 'histogram', '--up', 'w']):
             expect(not render('refused.png', *options, codes=(2,)), f"{' '.join(options)}: a file was written")
 
+    def test_export(self, name, commands, folder, mesh, signature):
+        _, ply, report = self.embed(commands, folder, mesh, signature, self.marked(mesh, signature))
+        source_vertex = Ply(ply).vertex['source_vertex']
+
+        def export(file, chart):
+            self.run(commands, self.orbitutte, 'export', ply, report_path(ply), self.path(mesh), '-o', folder / file, '--chart', chart)
+            return (folder / file).read_bytes()
+
+        for chart in ('stereographic', 'equirectangular', 'octahedral'):
+            lines = [line.split() for line in export('m.obj', chart).decode().splitlines()]
+            corners = np.array([[[int(k) for k in corner.split('/')] for corner in line[1:]] for line in lines if line[0] == 'f']) - 1
+            pairs = [line for line in lines if line[0] == 'vt']
+            expect(corners.shape == (report['mesh']['faces'], 3, 2), 'faces are missing')
+            expect(corners[:, :, 1].max() < len(pairs), 'a texture coordinate is missing')
+            own = corners[:, :, 1] < len(source_vertex)  # others are further copies across the date line
+            expect((source_vertex[corners[:, :, 1][own]] == corners[:, :, 0][own]).all(), 'a corner has the texture of another vertex')
+        root = xml.etree.ElementTree.fromstring(export('m.vtp', 'stereographic'))
+        arrays = {array.get('Name'): base64.b64decode(array.text) for array in root.iter('DataArray')}
+        expect(all(len(data) == 8 + struct.unpack('<Q', data[:8])[0] for data in arrays.values()), 'an array of another length than it says')
+        sphere = np.frombuffer(arrays['sphere'][8:]).reshape(-1, 3)
+        expect(np.array_equal(sphere, Ply(ply).positions), 'the positions on the sphere are others')
+        glb = export('m.glb', 'octahedral')
+        length = struct.unpack('<I', glb[12:16])[0]
+        model = json.loads(glb[20:20 + length])
+        expect(struct.unpack('<I', glb[8:12])[0] == len(glb), 'a GLB of another length than it says')
+        expect(set(model['meshes'][0]['primitives'][0]['attributes']) == {'POSITION', 'NORMAL', 'TEXCOORD_0', 'COLOR_0'}, 'attributes')
+        self.run(commands, self.orbitutte, 'info', folder / 'm.obj')
+
+    def test_compare(self, name, commands, folder, mesh):
+        signature = '432' if self.meshes[mesh][0] == 'sphere' else '*432'
+        cones = ','.join(map(str, self.marked(mesh, signature)))
+        found = json.loads(self.run(commands, self.orbitutte, 'compare', self.path(mesh), '--cones', cones, '--json', '-o',
+                                    folder / 'histograms.svg').stdout)
+        expect(found['spherical']['bijective'] and found['euclidean']['bijective'], 'not both certified')
+        spherical, euclidean = found['spherical']['area']['mean'], found['euclidean']['area']['mean']
+        expect(spherical < euclidean, f'mean area distortion {spherical:.4g} on the sphere, {euclidean:.4g} in the plane')
+        xml.etree.ElementTree.parse(folder / 'histograms.svg')
+
     def test_golden(self, name, commands, folder, golden_folder):
         golden = json.loads((golden_folder / 'golden.json').read_text())
         mesh, signature, cones = golden['mesh'], golden['signature'], golden['cones']
@@ -570,6 +611,10 @@ class Suite:
             mesh = 'camelhead.off' if '*' in signature else 'boy.ply' if 'x' in signature else 'my_man_maxp.off'
             add(f'theorem2/{signature}', self.test_theorem2, mesh, signature)
         add('render/camelhead/*432', self.test_render, 'camelhead.off', '*432')
+        for mesh, signature in [('my_man_maxp.off', '532'), ('camelhead.off', '3*2'), ('boy.ply', '2x')]:
+            add(f'export/{stem(mesh)}/{signature}', self.test_export, mesh, signature)
+        for mesh in ['my_man_maxp.off', 'camelhead.off'] if quick else sorted(set(self.meshes) - KNOWN_HARD - {f'{s}.ply' for s in SAMPLES}):
+            add(f'compare/{stem(mesh)}', self.test_compare, mesh)
         for mesh, signature in [('my_man_maxp.off', '532'), ('my_man_maxp.off', '33'), ('camelhead.off', '*432'),
                                 ('camelhead.off', '3*2'), ('camelhead.off', '5*'), ('boy.ply', '3x')]:
             add(f'repeat/{stem(mesh)}/{signature}', self.test_repeat, mesh, signature)

@@ -203,14 +203,15 @@ struct Marked {
   std::vector<int> corners;
 };
 
-/// A triangle of n^2 triangles, and its corners.
-Marked flat_triangle(const std::array<Vector3, 3>& at, int n) {
+/// An equilateral triangle of n^2 triangles, and its corners.
+Marked flat_triangle(int n) {
+  const Vector3 right(1, 0, 0), up(0.5, std::sqrt(0.75), 0);
   std::vector<Vector3> points;
   std::vector<std::vector<int>> triangles;
   const auto vertex = [n](int i, int j) { return i * (n + 1) - i * (i - 1) / 2 + j; };  // row by row
   for (int i = 0; i <= n; ++i)
     for (int j = 0; i + j <= n; ++j)
-      points.push_back(at[0] + (at[1] - at[0]) * (double(i) / n) + (at[2] - at[0]) * (double(j) / n));
+      points.push_back(std::sqrt(0.75) / n * (i * right + j * up));  // as large as the tile
   for (int i = 0; i < n; ++i) {
     for (int j = 0; i + j < n; ++j) {
       triangles.push_back({vertex(i, j), vertex(i + 1, j), vertex(i, j + 1)});
@@ -220,20 +221,15 @@ Marked flat_triangle(const std::array<Vector3, 3>& at, int n) {
   return {test::mesh(points, triangles), {vertex(0, 0), vertex(n, 0), vertex(0, n)}};
 }
 
-TEST(Plane, TrianglesAreLaidOutAsTheyAre) {
-  for (const auto& [symbol, n] : {std::pair("*333", std::array{3, 3, 3}), std::pair("*442", std::array{4, 4, 2}),
-                                  std::pair("*632", std::array{6, 3, 2})}) {
-    const double a1 = pi / n[0], a2 = pi / n[1], a3 = pi / n[2];
-    const Marked flat = flat_triangle({Vector3::Zero(), Vector3(std::sin(a3), 0, 0),
-                                       std::sin(a2) * Vector3(std::cos(a1), std::sin(a1), 0)},
-                                      6);
-    const Orbifold orbifold = parse_euclidean_orbifold(symbol);
-    expect_laid_out_as_it_is(flat.mesh, embed(flat.mesh, orbifold, flat.corners, with(WeightKind::cotan)), symbol);
-  }
+TEST(Plane, TheEquilateralTriangleIsLaidOutAsItIs) {
+  const Marked flat = flat_triangle(6);
+  const Orbifold orbifold = parse_euclidean_orbifold("*333");
+  expect_laid_out_as_it_is(flat.mesh, embed(flat.mesh, orbifold, flat.corners, with(WeightKind::cotan)),
+                           "*333");
 }
 
-/// The unit square in 2 n^2 triangles, their diagonals towards the corners, or with `sides` = 2 two of them glued along
-/// their boundary.
+/// The unit square in 2 n^2 triangles, their diagonals towards the corners, or with `sides` = 2 two of them
+/// glued along their boundary.
 Marked flat_square(int n, int sides) {
   std::map<std::array<int, 3>, int> index;  // by row, column and side; side 0 for the boundary
   std::vector<Vector3> points;
@@ -263,13 +259,37 @@ Marked flat_square(int n, int sides) {
           {index.at({0, 0, 0}), index.at({n, 0, 0}), index.at({n, n, 0}), index.at({0, n, 0})}};
 }
 
+/// The half of it below the diagonal.
+Marked half_square(int n) {
+  Marked result = flat_square(n, 1);
+  std::vector<int> above;
+  for (int f = 0; f < test::face_count(result.mesh); ++f) {
+    const auto v = result.mesh.F.row(f);
+    const Eigen::RowVector3d sum =
+        result.mesh.V.row(v[0]) + result.mesh.V.row(v[1]) + result.mesh.V.row(v[2]);
+    if (sum.y() > sum.x()) above.push_back(f);
+  }
+  result.mesh = test::without_faces(result.mesh, above);
+  result.corners.pop_back();
+  result.mesh.V *= std::sqrt(0.5);  // as large as the tile
+  return result;
+}
+
+TEST(Plane, TheHalfSquareIsLaidOutAsItIs) {
+  const Marked flat = half_square(6);
+  const Orbifold orbifold = parse_euclidean_orbifold("*424");
+  expect_laid_out_as_it_is(flat.mesh, embed(flat.mesh, orbifold, flat.corners, with(WeightKind::cotan)),
+                           "*424");
+}
+
 // The doubled square is the quotient of a flat torus.
 TEST(Plane, TheSquareAndItsDoubleAreLaidOutAsTheyAre) {
   for (const int sides : {1, 2}) {
     const Marked flat = flat_square(6, sides);
     const std::string symbol = sides == 1 ? "*2222" : "2222";
     const Orbifold orbifold = parse_euclidean_orbifold(symbol);
-    expect_laid_out_as_it_is(flat.mesh, embed(flat.mesh, orbifold, flat.corners, with(WeightKind::cotan)), symbol);
+    expect_laid_out_as_it_is(flat.mesh, embed(flat.mesh, orbifold, flat.corners, with(WeightKind::cotan)),
+                             symbol);
   }
 }
 

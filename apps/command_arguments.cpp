@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#include "command_arguments.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+namespace orbitutte::cli {
+
+std::vector<int> parse_cones(const std::string& text) {
+  std::vector<int> cones;
+  for (std::size_t from = 0; from <= text.size();) {
+    const std::size_t end = std::min(text.find(',', from), text.size());
+    int vertex = 0;
+    const auto [stop, error] = std::from_chars(text.data() + from, text.data() + end, vertex);
+    if (error != std::errc() || stop != text.data() + end)
+      throw ArgumentError(
+          fmt::format("--cones is '{}'; give vertices separated by commas, as in 12,40,7, or 'auto'", text));
+    cones.push_back(vertex);
+    from = end + 1;
+  }
+  return cones;
+}
+
+WeightKind parse_weights(const std::string& text) {
+  for (const WeightKind kind : {WeightKind::standard, WeightKind::cotan, WeightKind::delaunay,
+                                WeightKind::mean_value, WeightKind::uniform})
+    if (text == name(kind)) return kind;
+  throw ArgumentError(
+      fmt::format("--weights is '{}'; it may be standard, cotan, delaunay, mean-value or uniform", text));
+}
+
+}  // namespace orbitutte::cli

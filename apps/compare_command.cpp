@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// Spherical and Euclidean orbifold Tutte embeddings of one mesh side by side (section 6.3).
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "command_arguments.h"
+#include "commands.h"
+#include "orbitutte/embed.h"
+#include "orbitutte/mesh/inspection.h"
+#include "orbitutte/mesh/mesh_io.h"
+#include "orbitutte/output/comparison.h"
+
+namespace orbitutte::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int both_certified = 0, not_certified = 5;
+
+struct Compared {
+  Orbifold orbifold;
+  EmbedResult result;
+};
+
+Orbifold orbifold_or(const std::string& given, const std::string& otherwise) {
+  return parse_orbifold(given.empty() ? otherwise : given);
+}
+
+Orbifold flat_or(const std::string& given, const std::string& otherwise) {
+  return parse_euclidean_orbifold(given.empty() ? otherwise : given);
+}
+
+void print_row(const Compared& compared) {
+  const Distortion& d = compared.result.distortion;
+  fmt::print("{:<10} {:<10} {:>9.4g} {:>9.4g} {:>9.4g} {:>10.4g} {:>9.4g} {:>9.4g}  {}\n",
+             compared.orbifold.geometry == Geometry::spherical ? "spherical" : "Euclidean",
+             compared.orbifold.signature, d.area.mean, d.area.std, d.area.median, d.area.max, d.angle.mean,
+             d.angle.max, compared.result.certificate.bijective ? "yes" : "no");
+}
+
+Json to_json(const Compared& compared) {
+  const Distortion& d = compared.result.distortion;
+  return {
+      {"orbifold", compared.orbifold.signature},
+      {"energy", compared.result.minimum.energy},
+      {"bijective", compared.result.certificate.bijective},
+      {"area", {{"mean", d.area.mean}, {"std", d.area.std}, {"median", d.area.median}, {"max", d.area.max}}},
+      {"angle", {{"mean", d.angle.mean}, {"max", d.angle.max}}}};
+}
+
+}  // namespace
+
+int compare_command(const CompareArguments& arguments) {
+  PolygonMesh polygons = read_mesh(arguments.mesh);
+  const Inspection inspection = inspect(polygons);
+  require_embeddable(inspection);
+  const Mesh mesh = to_triangle_mesh(std::move(polygons));
+  const std::string star = inspection.topology == Topology::disk ? "*" : "";
+  const std::array orbifolds = {orbifold_or(arguments.orbifold, star + "432"),
+                                flat_or(arguments.flat, star + "442")};
+  EmbedOptions options;
+  options.weights.kind = parse_weights(arguments.weights);
+
+  std::vector<Compared> maps;
+  std::vector<ComparedMap> pictures;
+  std::vector<int> cones;
+  if (arguments.cones != "auto") cones = parse_cones(arguments.cones);
+  for (const Orbifold& orbifold : orbifolds) {
+    if (cones.empty()) cones = choose_marked_vertices(mesh, orbifold);
+    maps.push_back({orbifold, embed(mesh, orbifold, cones, options)});
+    pictures.push_back({orbifold.geometry == Geometry::spherical ? "spherical " + orbifold.signature
+                                                                 : "Euclidean " + orbifold.signature,
+                        measure_faces(mesh, maps.back().result.embedding)});
+  }
+  if (arguments.json) {
+    fmt::print("{}\n", Json({{"mesh", arguments.mesh},
+                             {"cones", cones},
+                             {"spherical", to_json(maps[0])},
+                             {"euclidean", to_json(maps[1])}})
+                           .dump(1));
+  } else {
+    fmt::print("{}: {} triangles, cones {}\n", arguments.mesh, mesh.F.rows(), fmt::join(cones, ","));
+    fmt::print("{:<10} {:<10} {:>9} {:>9} {:>9} {:>10} {:>9} {:>9}  {}\n", "", "orbifold", "area mean", "std",
+               "median", "max", "angle", "max", "certified");
+    for (const Compared& compared : maps) print_row(compared);
+  }
+  if (!arguments.output.empty()) write_comparison(arguments.output, pictures);
+  const bool certified = maps[0].result.certificate.bijective && maps[1].result.certificate.bijective;
+  return certified ? both_certified : not_certified;
+}
+
+}  // namespace orbitutte::cli
