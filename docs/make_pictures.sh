@@ -30,3 +30,5 @@ embed mask mask 3000 '*532'
 render sheet figure --size 1600x1228
 render mask mask --panel source --size 480
 render mask-sphere mask --panel sphere --size 480
+embed boy boy 20000 1x
+render boy boy --size 1200x920
