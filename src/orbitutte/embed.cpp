@@ -490,9 +490,8 @@ EmbedResult embed_prepared(const Mesh& mesh, Preparation& prepared, const Orbifo
   EmbedOptions chosen = options;
   if (chosen.weights.kind == WeightKind::standard)
     chosen.weights.kind = prepared.polygons ? WeightKind::cotan : WeightKind::delaunay;
-  return with_threads(options.threads, [&] {
-    return embed_or_keep_faces(mesh, prepared, orbifold, marked_vertices, chosen);
-  });
+  return with_threads(options.threads,
+                      [&] { return embed_or_keep_faces(mesh, prepared, orbifold, marked_vertices, chosen); });
 }
 
 }  // namespace

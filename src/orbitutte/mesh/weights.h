@@ -45,7 +45,8 @@ struct EdgeWeights {
 /// nothing to `cotan`; `delaunay` and `mean_value` go by mollified_lengths. Mean value weights are made
 /// symmetric, since a minimiser of an energy knows no others: they are positive, but no longer reproduce
 /// linear maps (M. Floater, "Mean value coordinates", CAGD 20 (2003)). Throws ArgumentError for a clamp that
-/// is not positive and finite, and for WeightKind::file. The faces are all there are, so `standard` is `delaunay`.
+/// is not positive and finite, and for WeightKind::file. The faces are all there are, so `standard` is
+/// `delaunay`.
 EdgeWeights edge_weights(const Mesh& mesh, const Connectivity& connectivity, const WeightOptions& options);
 
 /// Cotangent weights of an intrinsic triangulation, as WeightKind::delaunay says.

@@ -42,8 +42,9 @@ struct ConeCopies {
 struct Embedding {
   std::string signature;  ///< Conway's symbol
   int group_order = 1;    ///< |G|; 0 in the plane, where it is infinite
-  Points positions;  ///< n_cut x 3, on the unit sphere (or z = 1); vertices that no face uses sit at (0, 0, 1)
-  Faces faces;  ///< m x 3, the faces of the input in their order, on cut vertices; polygons in triangles
+  Points
+      positions;  ///< n_cut x 3, on the unit sphere (or z = 1); vertices that no face uses sit at (0, 0, 1)
+  Faces faces;    ///< m x 3, the faces of the input in their order, on cut vertices; polygons in triangles
   std::vector<int>
       source_vertex;  ///< n_cut: the input vertex; the first n cut vertices are the input vertices
   std::vector<Seam> seams;

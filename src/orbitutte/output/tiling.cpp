@@ -38,7 +38,8 @@ void check_embedding(const Embedding& embedding) {
   }
   if (embedding.seams.empty())
     throw ArgumentError(
-        "the embedding has no seams, as one into a fixed polygon has none: there are no symmetric copies that would "
+        "the embedding has no seams, as one into a fixed polygon has none: there are no symmetric copies "
+        "that would "
         "tile the sphere");
   const auto corners = static_cast<long long>(embedding.polygons.corners.size());
   const long long largest = std::max<long long>({vertices, embedding.faces.rows(), corners});

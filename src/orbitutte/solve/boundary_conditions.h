@@ -27,8 +27,8 @@ struct BoundaryConditions {
   std::vector<ConeCopies> cones;
   std::vector<Matrix3> transforms;  ///< distinct; the first is the identity
   std::vector<int> transform_of;    ///< n_cut: an index into transforms
-  std::vector<Basis> bases;  ///< distinct; 0: all of space (3 x 3) or of the plane (3 x 2), 1: held in place
-                             ///< (3 x 0), others: mirror planes (3 x 2) or lines (3 x 1)
+  std::vector<Basis> bases;   ///< distinct; 0: all of space (3 x 3) or of the plane (3 x 2), 1: held in place
+                              ///< (3 x 0), others: mirror planes (3 x 2) or lines (3 x 1)
   std::vector<int> basis_of;  ///< n: an index into bases
   Points held;                ///< n x 3: where the vertices of basis 1 are held; zero elsewhere
 

@@ -4,7 +4,6 @@
 #include "orbitutte/mesh/cone_weights.h"
 #include "orbitutte/orbifold/signature.h"
 #include "orbitutte/verify/edge_images.h"
-#include "orbitutte/verify/edge_images.h"
 #include "orbitutte/verify/laid_out.h"
 #include "orbitutte/verify/spherical_triangle.h"
 
