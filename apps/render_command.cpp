@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <filesystem>
 
+#include "command_arguments.h"
 #include "commands.h"
-#include "orbitutte/mesh/mesh_io.h"
 #include "orbitutte/output/render.h"
+#include "page_pictures.h"
 
 namespace orbitutte::cli {
 namespace {
@@ -24,13 +25,27 @@ RenderOptions options_from(const RenderArguments& arguments) {
 int render_command(const RenderArguments& arguments) {
   RenderOptions options = options_from(arguments);
   const Report report = read_report(arguments.report);
-  const Embedding embedding = read_embedding(arguments.embedding, report);
-  const Mesh mesh = to_triangle_mesh(read_mesh(arguments.mesh));
+  Embedding embedding = read_embedding(arguments.embedding, report);
+  const Mesh mesh = read_in_triangles(arguments.mesh, embedding);
   if (!arguments.view.empty())
     options.view = parse_view(arguments.view, options.up ? *options.up : default_up(mesh));
   const std::string title = std::filesystem::path(arguments.mesh).filename().string();
   write_picture(arguments.output, {mesh, embedding, report, title}, options);
   return drawn;
+}
+
+std::vector<PagePicture> page_pictures(const Mesh& mesh, const Embedding& embedding, const Report& report) {
+  std::vector<PagePicture> pictures;
+  for (const auto& [panel, caption] : {std::pair(Panel::source, "The mesh, its marked vertices and seams"),
+                                       std::pair(Panel::sphere, "Its tile on the sphere, and the copies"),
+                                       std::pair(Panel::checkerboard, "A checkerboard through the map"),
+                                       std::pair(Panel::area, "Area distortion")}) {
+    RenderOptions options;
+    options.panel = panel;
+    options.width = options.height = 800;
+    pictures.push_back({caption, render_png({mesh, embedding, report, ""}, options)});
+  }
+  return pictures;
 }
 
 }  // namespace orbitutte::cli

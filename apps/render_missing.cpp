@@ -2,11 +2,14 @@
 // Stands in for render_command.cpp where the library was built without Embree and Cairo.
 #include "commands.h"
 #include "orbitutte/types.h"
+#include "page_pictures.h"
 
 namespace orbitutte::cli {
 
 int render_command(const RenderArguments&) {
   throw ArgumentError("this binary was built without pictures; build it with -D ORBITUTTE_RENDER=ON");
 }
+
+std::vector<PagePicture> page_pictures(const Mesh&, const Embedding&, const Report&) { return {}; }
 
 }  // namespace orbitutte::cli

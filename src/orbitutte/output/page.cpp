@@ -101,8 +101,10 @@ std::string check_meaning(const std::string& name) {
       {"seam_residual", "Paired positions match: largest difference"},
       {"positive_faces", "Triangles not positively oriented, by exact signs"},
       {"edge_lengths", "Longest edge, below &pi;"},
+      {"convex_faces", "Polygons are convex: faces that are not"},
+      {"held_sides", "Boundary vertices lie on the polygon's sides, in order: largest error"},
       {"cone_angles", "Angles at cones and corners: largest error"},
-      {"signed_area", "Total area is 4&pi;/|G|: error"}};
+      {"signed_area", "Total area is the tile's, 4&pi;/|G|, or the polygon's: error"}};
   const auto found = meanings.find(name);
   return found == meanings.end() ? escape_html(name) : found->second;
 }
@@ -419,10 +421,19 @@ std::string mesh_name(const Json& report) {
   return file.empty() ? "mesh" : file;
 }
 
+/// The certificate of the embedding's own faces: of its polygons, where it has them.
+Certificate certificate_of(const PageSubject& subject) {
+  const Embedding& embedding = subject.embedding;
+  if (embedding.polygons.count() == 0) return certify(subject.mesh, embedding);
+  Polygons source = embedding.polygons;
+  for (int& v : source.corners) v = embedding.source_vertex[v];
+  return certify(static_cast<int>(subject.mesh.V.rows()), FaceView(source), embedding);
+}
+
 Slots slots(const PageSubject& subject, const PageOptions& options) {
   const Json report = parse(subject.report);
   const Embedding& embedding = subject.embedding;
-  const Judgement judgement = {certify(subject.mesh, embedding), at(report, "/termination") == "converged"};
+  const Judgement judgement = {certificate_of(subject), at(report, "/termination") == "converged"};
   const std::string name = escape_html(mesh_name(report)), signature = escape_html(embedding.signature);
   return {{"policy", policy(options)},
           {"style", std::string(page_style)},

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// The pictures that stand in for the interactive view of a page.
+#pragma once
+
+#include <vector>
+
+#include "orbitutte/output/page.h"
+#include "orbitutte/output/report.h"
+
+namespace orbitutte::cli {
+
+/// None in builds without pictures.
+std::vector<PagePicture> page_pictures(const Mesh& mesh, const Embedding& embedding, const Report& report);
+
+}  // namespace orbitutte::cli
