@@ -78,12 +78,12 @@ int GltfModel::add_vectors(const Points& N) {
   return state_->last_accessor();
 }
 
-int GltfModel::add_texture_coordinates(const Eigen::MatrixX2d& UV) {
+int GltfModel::add_texture_coordinates(const Eigen::MatrixX2d& coordinates) {
   const std::size_t start = state_->bytes.size();
-  for (const auto& p : UV.rowwise())
+  for (const auto& p : coordinates.rowwise())
     append_little_endian(state_->bytes, static_cast<float>(p[0]), static_cast<float>(1 - p[1]));
   const int view = state_->add_view(start, 2 * sizeof(float), TINYGLTF_TARGET_ARRAY_BUFFER);
-  state_->add_accessor(view, UV.rows(), TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC2);
+  state_->add_accessor(view, coordinates.rows(), TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC2);
   return state_->last_accessor();
 }
 

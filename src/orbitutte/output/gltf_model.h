@@ -26,9 +26,9 @@ class GltfModel {
   /// NORMAL and other vectors. N: n x 3.
   int add_vectors(const Points& N);
 
-  /// TEXCOORD_0, from the lower left corner as everywhere else here; glTF counts from the upper left. UV: n
-  /// x 2.
-  int add_texture_coordinates(const Eigen::MatrixX2d& UV);
+  /// TEXCOORD_0, from the lower left corner as everywhere else here; glTF counts from the upper left.
+  /// coordinates: n x 2.
+  int add_texture_coordinates(const Eigen::MatrixX2d& coordinates);
 
   /// COLOR_0, of sRGB colours.
   int add_colours(const std::vector<Rgb>& colours);
