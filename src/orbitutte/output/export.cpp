@@ -14,17 +14,11 @@
 #include "orbitutte/mesh/file.h"
 #include "orbitutte/mesh/ply.h"
 #include "orbitutte/output/export_files.h"
+#include "orbitutte/output/file_ending.h"
 #include "orbitutte/output/gltf_model.h"
 
 namespace orbitutte {
 namespace {
-
-std::string lower_case_ending(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  return ending;
-}
 
 bool is_cut_from(const Mesh& mesh, const Embedding& embedding) {
   const auto vertices = static_cast<Eigen::Index>(embedding.source_vertex.size());

@@ -13,17 +13,11 @@
 #include "orbitutte/mesh/bytes.h"
 #include "orbitutte/mesh/file.h"
 #include "orbitutte/mesh/ply_triangles.h"
+#include "orbitutte/output/file_ending.h"
 #include "orbitutte/output/gltf_model.h"
 
 namespace orbitutte {
 namespace {
-
-std::string lower_case_ending(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  return ending;
-}
 
 /// Blue in the lowest 5 bits, green, red, and the bit that says that there is a colour (VisCAM's convention).
 std::uint16_t stl_attribute(const Rgb& colour) {

@@ -3,18 +3,15 @@
 
 #include <fmt/format.h>
 
-#include <cctype>
-#include <filesystem>
-
 #include "orbitutte/mesh/file.h"
+#include "orbitutte/output/file_ending.h"
 #include "orbitutte/output/render/plots.h"
 
 namespace orbitutte {
 namespace {
 
 PictureFormat format_of(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string ending = lower_case_ending(path);
   if (ending == ".png") return PictureFormat::png;
   if (ending == ".svg") return PictureFormat::svg;
   throw ArgumentError(fmt::format("{}: a comparison is written as .png or .svg", path));
