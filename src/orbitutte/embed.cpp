@@ -101,7 +101,8 @@ DividedMesh divide(const PolygonMesh& mesh) {
 void require_weights_of_polygons(const EmbedOptions& options) {
   using enum WeightKind;
   const WeightKind kind = options.weights.kind;
-  if (!options.weights_file.empty() || kind == standard || kind == cotan || kind == uniform) return;
+  if (!options.weights_file.empty() || kind == file || kind == standard || kind == cotan || kind == uniform)
+    return;
   throw ArgumentError(fmt::format(
       "{} weights are not there for faces of more than three corners; take cotan or uniform, or a "
       "file of weights",
