@@ -205,8 +205,10 @@ def read_mesh(path: str | os.PathLike) -> tuple[npt.NDArray[np.float64], _arrays
 
 
 def write_mesh(path: str | os.PathLike, V: npt.ArrayLike, F: Any) -> None:
-    """Write triangles as OBJ, OFF, PLY or STL, whichever the ending of the path names. Polygons are divided."""
-    _arrays.mesh(_arrays.finite_positions(V), F).write(_arrays.path(path))
+    """Write OBJ, OFF, PLY or, of triangles, STL, whichever the ending of the path names; the file appears whole or not at all."""
+    mesh = _arrays.mesh(_arrays.finite_positions(V), F)
+    _arrays.require_vertices(mesh)
+    mesh.write(_arrays.path(path))
 
 
 def _told(embedding: Embedding) -> Embedding:

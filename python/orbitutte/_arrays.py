@@ -69,6 +69,17 @@ def mesh(V: npt.ArrayLike, F: Any) -> _orbitutte.Mesh:
     return _orbitutte.Mesh(V, array.reshape(-1), start)
 
 
+def require_vertices(mesh: _orbitutte.Mesh) -> None:
+    """Raises MeshError naming the first face with a vertex that is not there."""
+    corners, start = mesh.faces
+    n, flat = len(mesh.positions), corners.reshape(-1)
+    bad = (flat < 0) | (flat >= n)
+    if bad.any():
+        k = int(np.argmax(bad))
+        f = k // 3 if start is None else int(np.searchsorted(start, k, side="right")) - 1
+        raise MeshError(f"F: face {f} names the vertex {flat[k]}; there are {n} vertices")
+
+
 def faces(corners: npt.NDArray[np.int32], start: npt.NDArray[np.int32] | None) -> Faces:
     """Faces as users see them: an array where all have as many corners, otherwise a list of tuples."""
     if start is None:

@@ -49,6 +49,14 @@ class EdgeWeights(NamedTuple):
         return coo_matrix((np.concatenate([self.w, self.w]), (rows, columns)), shape=(n, n))
 
 
+class Location(NamedTuple):
+    """Points of the copies of a surface. Of a single point, an int, three numbers and an int."""
+
+    face: Array  #: (k,) rows of Embedding.triangles; -1 where there is none
+    barycentric: Array  #: (k, 3) on the corners of that row; NaN where there is none
+    element: Array  #: (k,) the copies, indices into Embedding.group; -1 where there is none
+
+
 class Embedding:
     """A map of a mesh onto an orbifold of the sphere, with its certificate.
 
@@ -92,7 +100,7 @@ class Embedding:
         The JSON report, with the same keys and meanings as the command line's file.
     """
 
-    __slots__ = ("_core", "_report")
+    __slots__ = ("_core", "_report", "_locator")
 
     def __init__(self, *_: Any, **__: Any) -> None:
         raise TypeError("an Embedding is made by orbitutte.embed, Solver.embed or Embedding.load")
@@ -102,6 +110,7 @@ class Embedding:
         self = object.__new__(cls)
         object.__setattr__(self, "_core", core)
         object.__setattr__(self, "_report", json.loads(core.report))
+        object.__setattr__(self, "_locator", None)
         return self
 
     def __setattr__(self, name: str, value: Any) -> None:
@@ -220,6 +229,91 @@ class Embedding:
         """The same embedding, knowing its mesh."""
         return Embedding._of(self._core.with_mesh(_arrays.mesh(V, F)))
 
+    # Points
+
+    def map_points(self, face: npt.ArrayLike, barycentric: npt.ArrayLike, element: npt.ArrayLike | None = None) -> Array:
+        """Take points of the surface to the sphere.
+
+        Parameters
+        ----------
+        face : (k,) array_like of int, or int
+            Rows of `triangles`; -1 gives NaN.
+        barycentric : (k, 3) array_like, or (3,)
+            Coordinates on the corners of those rows, with the sum 1. The corners are the input's, in its order, but on projective
+            planes, some of whose faces are turned over (first, third, second): their input vertices are ``source_vertex[triangles[face]]``.
+        element : (k,) array_like of int, or int, optional
+            The copies, indices into `group`; without, the embedding itself.
+
+        Returns
+        -------
+        (k, 3) float64, or (3,)
+            The combination of the three positions, normalised: triangles agree on their edges, and copies on seams. For a Euclidean
+            orbifold the combination itself.
+
+        Raises
+        ------
+        ArgumentError
+            Names the point whose face or copy does not exist, or whose coordinates are none.
+        """
+        single = np.ndim(face) == 0
+        faces, points = _arrays.indices(_rows(face, 1), "face", "point"), _arrays.positions(_rows(barycentric, 2), "barycentric", "point")
+        copies = np.empty(0, dtype=np.int32) if element is None else _arrays.indices(_rows(element, 1), "element", "point")
+        if element is not None and len(copies) == 1 and len(faces) != 1:
+            copies = np.repeat(copies, len(faces))
+        if len(points) != len(faces) or (element is not None and len(copies) != len(faces)):
+            raise ArgumentError(f"there are {len(faces)} faces, {len(points)} rows of coordinates and {len(copies)} copies")
+        images = _orbitutte.map_points(self._core, faces, points, copies)
+        return images[0] if single else images
+
+    def locate(self, points: npt.ArrayLike) -> Location:
+        """Find points of the sphere on the surface, in any of the |G| copies: the inverse of `map_points`.
+
+        Parameters
+        ----------
+        points : (k, 3) array_like, or (3,)
+            Directions; their lengths do not matter.
+
+        Returns
+        -------
+        Location
+            ``face``, ``barycentric`` and ``element``; ``map_points(*location)`` is the direction again. Where the embedding is certified,
+            every direction is found. -1 and NaN where nothing is: outside of a polygon, where no face of an embedding that is not
+            bijective lies, and for vectors that are zero or not finite. Of several copies or faces the first is taken.
+
+        Raises
+        ------
+        ArgumentError
+            For embeddings into the plane.
+
+        Notes
+        -----
+        The first call makes a search tree of the faces, which the embedding keeps.
+        """
+        single = np.ndim(points) == 1 and np.size(points) > 0
+        directions = _arrays.positions(_rows(points, 2), "points", "point")
+        if self._locator is None:
+            object.__setattr__(self, "_locator", _orbitutte.PointLocator(self._core))
+        face, barycentric, element = self._locator.locate(directions)
+        return Location(int(face[0]), barycentric[0], int(element[0])) if single else Location(face, barycentric, element)
+
+    def source_points(self, face: npt.ArrayLike, barycentric: npt.ArrayLike) -> Array:
+        """The same points on the surface in space: (k, 3), or (3,). Needs the mesh; NaN where the face is -1."""
+        known = self.mesh
+        if known is None:
+            raise ArgumentError("points in space need the mesh that was embedded; load the embedding with it, or use with_mesh(V, F)")
+        faces = np.asarray(_arrays.indices(_rows(face, 1), "face", "point"))
+        weights = _arrays.positions(_rows(barycentric, 2), "barycentric", "point")
+        if len(faces) != len(weights):
+            raise ArgumentError(f"there are {len(faces)} faces and {len(weights)} rows of coordinates")
+        wrong = (faces < -1) | (faces >= len(self.triangles))
+        if wrong.any():
+            k = int(np.argmax(wrong))
+            raise ArgumentError(f"point {k} names the face {faces[k]}; there are {len(self.triangles)}")
+        corners = known[0][self.source_vertex[self.triangles[faces]]]
+        points = np.einsum("ki,kij->kj", weights, corners)
+        points[faces == -1] = np.nan
+        return points[0] if np.ndim(face) == 0 else points
+
     # Files
 
     def save(self, ply: str | os.PathLike, json: str | os.PathLike | None = None) -> None:
@@ -302,6 +396,11 @@ class Embedding:
 
     def __deepcopy__(self, _: Any) -> Embedding:
         return self
+
+
+def _rows(values: Any, dimensions: int) -> Any:
+    """A single point as a row of one."""
+    return [values] if np.ndim(values) == dimensions - 1 and np.size(values) > 0 else values
 
 
 def _unpickled(ply: bytes, report: str, mesh: tuple | None) -> Embedding:

@@ -14,6 +14,7 @@ void bind_mesh(py::module_& module);
 void bind_orbifold(py::module_& module);
 void bind_embedding(py::module_& module);
 void bind_solver(py::module_& module);
+void bind_point_map(py::module_& module);
 void bind_render(py::module_& module);
 
 }  // namespace orbitutte::python

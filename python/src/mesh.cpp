@@ -44,7 +44,9 @@ py::tuple faces_of(const std::shared_ptr<SourceMesh>& mesh) {
   return py::make_tuple(view(polygons.corners, owner), view(polygons.face_start, owner));
 }
 
-void write(const SourceMesh& mesh, const std::string& path) { write_mesh(path, mesh.triangles()); }
+void write(const SourceMesh& mesh, const std::string& path) {
+  std::visit([&](const auto& known) { write_mesh(path, known); }, mesh.input());
+}
 
 std::vector<int> choose_cones(const SourceMesh& mesh, const Orbifold& orbifold) {
   return std::visit([&](const auto& known) { return choose_marked_vertices(known, orbifold); }, mesh.input());

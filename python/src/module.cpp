@@ -28,5 +28,6 @@ PYBIND11_MODULE(_orbitutte, module) {
   python::bind_orbifold(module);
   python::bind_embedding(module);
   python::bind_solver(module);
+  python::bind_point_map(module);
   python::bind_render(module);
 }
