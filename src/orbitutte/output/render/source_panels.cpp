@@ -2,6 +2,7 @@
 // The panels that show the source mesh.
 #include <algorithm>
 
+#include "orbitutte/output/render/area_histogram.h"
 #include "orbitutte/output/render/ball_labels.h"
 #include "orbitutte/output/render/checkerboard.h"
 #include "orbitutte/output/render/mesh_lines.h"
@@ -48,6 +49,13 @@ Ornaments source_ornaments(PictureParts& parts, double half_side) {
   return ornaments;
 }
 
+// In ems, above the scale: the sheet has a histogram of its own, and on small pictures the figure needs the
+// room.
+double histogram_height(const Box& box, const PictureParts& parts) {
+  constexpr double smallest = 350;  // pixels, of the box
+  return parts.options().panel == Panel::area && std::min(box.width, box.height) >= smallest ? 5 : 0;
+}
+
 // One colour, and the triangulation where it is coarse enough.
 SurfaceColour plain_colour(const SourceFigure& figure, double pixel) {
   const float lines = line_strength(mean_edge_length(figure.positions(), figure.faces()) / pixel);
@@ -81,11 +89,16 @@ void draw_source_panel(Canvas& canvas, const Box& box, PictureParts& parts) {
 
 void draw_area_panel(Canvas& canvas, const Box& box, PictureParts& parts) {
   const std::vector<FaceDistortion>& faces = parts.distortion();
-  const AreaScale scale = area_scale(faces);
-  const double below = scale_height * canvas.em();
+  const std::vector<double> areas = log_areas(faces);
+  const AreaScale scale = area_scale(areas);
+  const double em = canvas.em(), bars = histogram_height(box, parts) * em,
+               below = scale_height * em + bars + (bars > 0 ? em : 0);
   draw_surface(canvas, box.inset(0, 0, 0, below), parts,
                [&](const Hit& hit) { return scale.colour(faces[hit.primitive]); });
-  draw_scale(canvas, {box.x, box.bottom() - below, box.width, below}, scale);
+  const Box legend = {box.x, box.bottom() - scale_height * em, box.width, scale_height * em};
+  draw_scale(canvas, legend, scale);
+  const Box bar = scale_bar(canvas, legend);
+  if (bars > 0) draw_bars_on_scale(canvas, {bar.x, bar.y - bars, bar.width, bars}, areas, scale);
 }
 
 void draw_angle_panel(Canvas& canvas, const Box& box, PictureParts& parts) {
