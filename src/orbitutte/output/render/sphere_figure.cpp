@@ -16,6 +16,11 @@ namespace {
 
 constexpr double camera_distance = 3;
 
+// Balls and tubes darken the sphere around them.
+constexpr float surface_offset = 1.0002F;
+constexpr float reach_of_shade = 0.1F;
+constexpr float contact = 0.55F;  // the share of the light that they can take away
+
 RayScene copies_of_tile(const Points& positions, const Faces& faces, const std::vector<TileCopy>& copies) {
   RayScene tile;
   tile.add_triangles(positions, faces);
@@ -62,6 +67,7 @@ Colour SphereFigure::surface_colour(const Vector3f& point, double pixel) const {
 }
 
 Image SphereFigure::draw(const Camera& camera, const Ornaments& ornaments) const {
+  const Blocker is_blocked = [&](const Ray& ray) { return ornaments.is_blocked(ray); };
   return supersample(camera.size, [&](const Sample& sample) -> Rgba {
     const Ray ray = camera.ray(sample.x, sample.y, camera_distance);
     const auto distance = distance_to_sphere(ray);
@@ -71,7 +77,9 @@ Image SphereFigure::draw(const Camera& camera, const Ornaments& ornaments) const
     if (!distance) return Rgba::Zero();  // copies' seams do not stand out: the outline stays round
     const Vector3f point = (ray.origin + *distance * ray.direction).normalized();
     const Vector3f normal = camera.axes.cast<float>() * point;
-    return opaque((0.40F + 0.62F * brightness(normal, 1)) * surface_colour(point, camera.pixel) +
+    const float open = openness(is_blocked, {surface_offset * point, point, reach_of_shade}, 1, sample);
+    const float shade = 1 - contact + contact * open;
+    return opaque((0.40F + 0.62F * brightness(normal, {})) * shade * surface_colour(point, camera.pixel) +
                   0.6F * gloss(normal));
   });
 }
