@@ -17,7 +17,7 @@ constexpr double scale_height = 4;       // ems
 constexpr double median_square = 0.045;  // side on the source, whose half diagonal is 1
 
 // Sizes of ornaments, as shares of half the picture's shorter side.
-constexpr double ball_share = 0.042, tube_share = 0.0085;
+constexpr double ball_share = 0.042, largest_ball_share = 0.08, tube_share = 0.0085;
 
 Camera source_camera(const Box& box, PictureParts& parts) {
   return fit_camera(parts.source_view(), parts.figure().positions(), size_of(box), figure_fill);
@@ -35,8 +35,14 @@ std::vector<int> source_of(const Embedding& embedding, const std::vector<int>& c
   return vertices;
 }
 
-// half_side: of the picture, in the world's unit.
-Ornaments source_ornaments(PictureParts& parts, double half_side) {
+// In the world's unit: larger than usual in small pictures, so that the number can be read.
+double source_ball_radius(const Camera& camera) {
+  const double half_side = 0.5 * std::min(camera.size.width, camera.size.height) * camera.pixel;
+  return std::clamp(readable_radius * camera.pixel, ball_share * half_side, largest_ball_share * half_side);
+}
+
+Ornaments source_ornaments(PictureParts& parts, const Camera& camera) {
+  const double half_side = 0.5 * std::min(camera.size.width, camera.size.height) * camera.pixel;
   const Embedding& embedding = parts.embedding();
   Ornaments ornaments;
   for (std::size_t s = 0; s < embedding.seams.size(); ++s)
@@ -44,7 +50,7 @@ Ornaments source_ornaments(PictureParts& parts, double half_side) {
                        tube_share * half_side, seam_colour(static_cast<int>(s)));
   const Points marked = parts.marked_positions();
   for (Eigen::Index c = 0; c < marked.rows(); ++c)
-    ornaments.add_ball(marked.row(c), ball_share * half_side, cone_colour(static_cast<int>(c)));
+    ornaments.add_ball(marked.row(c), source_ball_radius(camera), cone_colour(static_cast<int>(c)));
   ornaments.commit();
   return ornaments;
 }
@@ -70,18 +76,17 @@ SurfaceColour plain_colour(const SourceFigure& figure, double pixel) {
 
 void draw_source_panel(Canvas& canvas, const Box& box, PictureParts& parts) {
   const Camera camera = source_camera(box, parts);
-  const double half_side = 0.5 * std::min(camera.size.width, camera.size.height) * camera.pixel;
   const SourceFigure& figure = parts.figure();
   canvas.image({box.x, box.y},
-               figure.draw(camera, plain_colour(figure, camera.pixel), source_ornaments(parts, half_side)));
-  const double radius = ball_share * half_side;
+               figure.draw(camera, plain_colour(figure, camera.pixel), source_ornaments(parts, camera)));
+  const double radius = source_ball_radius(camera);
   const Vector3 viewer = camera.axes.row(2);
   const Points marked = parts.marked_positions();
   for (Eigen::Index c = 0; c < marked.rows(); ++c) {
     const Vector3 at = camera.project(marked.row(c));
     draw_label(canvas, {.at = {box.x + at[0], box.y + at[1]},
                         .radius = radius / camera.pixel,
-                        .order = parts.embedding().cones[c].order,
+                        .order = order_to_show(parts.embedding(), c),
                         .colour = cone_colour(static_cast<int>(c)),
                         .is_visible = figure.is_visible(marked.row(c), viewer, radius)});
   }
