@@ -53,7 +53,8 @@ Json to_json(const Compared& compared) {
 
 ComparedMap compared_map(const Mesh& mesh, const Compared& compared) {
   const bool is_spherical = compared.orbifold.geometry == Geometry::spherical;
-  return {(is_spherical ? "sphere: " : "plane: ") + compared.orbifold.signature,
+  const std::string verdict = compared.result.certificate.bijective ? "" : " (not certified)";
+  return {(is_spherical ? "sphere: " : "plane: ") + compared.orbifold.signature + verdict,
           compared.result.distortion.area, measure_faces(mesh, compared.result.embedding)};
 }
 

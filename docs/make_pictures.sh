@@ -28,6 +28,8 @@ mkdir -p "$out"
 embed figure figure 20000 432
 embed mask mask 3000 '*532'
 render sheet figure --size 1600x1228
+"$orbitutte" compare figure.ply -o full.png >/dev/null
+pngquant --force --speed 1 --output "$out/comparison.png" 128 full.png
 render mask mask --panel source --size 480
 render mask-sphere mask --panel sphere --size 480
 embed boy boy 20000 1x
