@@ -20,7 +20,7 @@ constexpr std::array ranges = {1.0, 2.0, 3.0, 4.0, 6.0, 9.0, 12.0, 15.0};
 constexpr double longest_fractions = 9;
 
 // The smallest range that holds nearly all values, with some room.
-double range_of(const std::vector<double>& log_areas) {
+double reach_of_bins(const std::vector<double>& log_areas) {
   std::vector<double> magnitudes = log_areas;
   for (double& value : magnitudes) value = std::abs(value);
   const double wanted = 1.05 * quantile(std::move(magnitudes), 0.97);
@@ -104,7 +104,7 @@ HistogramAxes histogram_axes(const std::vector<std::vector<double>>& maps) {
   HistogramAxes axes;
   axes.highest = 1e-9;
   for (const std::vector<double>& map : maps) {
-    axes.range = std::max(axes.range, range_of(map));
+    axes.range = std::max(axes.range, reach_of_bins(map));
     axes.scale.range = std::max(axes.scale.range, area_scale(map).range);
     for (const double value : map)
       axes.lowest = std::min(axes.lowest, value), axes.largest = std::max(axes.largest, value);

@@ -13,8 +13,8 @@ namespace orbitutte {
 namespace {
 
 // In pixels: a column for each map, and its rows from the top.
-constexpr double em = 24, column = 900, title_row = 4.4 * em, figure_row = 640, scale_row = 4.5 * em,
-                 histogram_row = 500;
+constexpr double picture_em = 24, column = 900, title_row = 4.4 * picture_em, figure_row = 640,
+                 scale_row = 4.5 * picture_em, histogram_row = 500;
 
 // What the maps have in common.
 struct Common {
@@ -43,8 +43,9 @@ Box cell(std::size_t k, double top, double height) {
 
 void draw_title(Canvas& canvas, const Box& box, const ComparedMap& map) {
   const double middle = box.x + 0.5 * box.width;
-  canvas.text({middle, box.y + 2.2 * em}, map.title, {.size = 1.3, .align = Align::centre, .bold = true});
-  canvas.text({middle, box.y + 3.9 * em},
+  canvas.text({middle, box.y + 2.2 * picture_em}, map.title,
+              {.size = 1.3, .align = Align::centre, .bold = true});
+  canvas.text({middle, box.y + 3.9 * picture_em},
               fmt::format("max(A, 1/A):   mean {:.4g},   median {:.4g},   max {:.4g}", map.area.mean,
                           map.area.median, map.area.max),
               {.size = 0.9, .colour = ink::quiet, .align = Align::centre});
@@ -55,7 +56,7 @@ void draw_figures(Canvas& canvas, double top, const Comparison& comparison, cons
   const SourceFigure figure(comparison.mesh.V, comparison.mesh.F);
   const View view =
       default_view(figure, polyline(figure.positions(), comparison.cones), default_up(comparison.mesh));
-  const Box box = cell(0, top, figure_row).inset(2 * em, 0, 2 * em, 0);
+  const Box box = cell(0, top, figure_row).inset(2 * picture_em, 0, 2 * picture_em, 0);
   const Camera camera =
       fit_camera(view, figure.positions(), {static_cast<int>(box.width), static_cast<int>(box.height)}, 0.95);
   Ornaments none;
@@ -77,12 +78,12 @@ void write_comparison(const std::string& path, const Comparison& comparison) {
   Canvas canvas(format,
                 {static_cast<int>(column * static_cast<double>(comparison.maps.size())),
                  static_cast<int>(plots_top + histogram_row)},
-                em);
+                picture_em);
   if (format == PictureFormat::png) draw_figures(canvas, title_row, comparison, common.axes.scale);
   for (std::size_t k = 0; k < comparison.maps.size(); ++k) {
     draw_title(canvas, cell(k, 0, title_row), comparison.maps[k]);
-    draw_histogram(canvas, cell(k, plots_top, histogram_row).inset(em, 0, em, em), common.areas[k],
-                   common.axes);
+    draw_histogram(canvas, cell(k, plots_top, histogram_row).inset(picture_em, 0, picture_em, picture_em),
+                   common.areas[k], common.axes);
   }
   write_file(path, canvas.finish());
 }

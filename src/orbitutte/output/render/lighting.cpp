@@ -60,8 +60,8 @@ Vector3f unit(float x, float y, float z) { return Vector3f(x, y, z).normalized()
 
 // In the camera's frame.
 const Vector3f& main_light() {
-  static const Vector3f light = unit(-0.45F, 0.65F, 0.75F);
-  return light;
+  static const Vector3f direction = unit(-0.45F, 0.65F, 0.75F);
+  return direction;
 }
 
 constexpr float lamp_radius = 0.35F;  // at distance 1

@@ -11,8 +11,8 @@ namespace orbitutte {
 namespace {
 
 constexpr double crease = 40 * std::numbers::pi / 180;
-constexpr double distance_to_source = 4;    // the figure lies in the unit ball
-constexpr float surface_offset = 2e-4F;  // how far above the surface rays begin that leave it
+constexpr double distance_to_source = 4;  // the figure lies in the unit ball
+constexpr float surface_offset = 2e-4F;   // how far above the surface rays begin that leave it
 constexpr float reach_of_shade = 0.6F;
 constexpr int rays_to_surroundings = 3;  // for each sample
 

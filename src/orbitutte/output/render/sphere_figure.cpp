@@ -19,8 +19,8 @@ namespace {
 constexpr double camera_distance = 3;
 
 // Balls and tubes darken the sphere around them.
-constexpr float surface_offset = 1.0002F;
-constexpr float reach_of_shade = 0.1F;
+constexpr float above_sphere = 1.0002F;
+constexpr float reach_of_contact = 0.1F;
 constexpr float contact = 0.55F;  // the share of the light that they can take away
 
 // A tile that is held on a polygon stands alone.
@@ -126,7 +126,7 @@ Image SphereFigure::draw(const Camera& camera, const Ornaments& ornaments) const
     if (!distance) return Rgba::Zero();  // copies' seams do not stand out: the outline stays round
     const Vector3f point = (ray.origin + *distance * ray.direction).normalized();
     const Vector3f normal = camera.axes.cast<float>() * point;
-    const float open = openness(is_blocked, {surface_offset * point, point, reach_of_shade}, 1, sample);
+    const float open = openness(is_blocked, {above_sphere * point, point, reach_of_contact}, 1, sample);
     const float shade = 1 - contact + contact * open;
     return opaque((0.40F + 0.62F * brightness(normal, {})) * shade * surface_colour(point, camera.pixel) +
                   0.6F * gloss(normal));
