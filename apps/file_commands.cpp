@@ -14,8 +14,6 @@
 namespace orbitutte::cli {
 namespace {
 
-constexpr int accepted = 0, not_converged = 4, rejected = 5;
-
 void print_rows(const std::vector<Check>& checks) {
   for (const Check& check : checks)
     fmt::print("{} {:<26} {}\n", check.passed ? "ok    " : "FAILED", check.name,
@@ -53,8 +51,8 @@ int verify_command(const VerifyArguments& arguments) {
   } else {
     print_text(verdict);
   }
-  if (!verdict.sound) return rejected;
-  return verdict.converged ? accepted : not_converged;
+  if (!verdict.sound) return not_certified;
+  return verdict.converged ? succeeded : not_converged;
 }
 
 int tile_command(const TileArguments& arguments) {
@@ -62,7 +60,7 @@ int tile_command(const TileArguments& arguments) {
   write_tiling(arguments.output, tiling);
   fmt::print(stderr, "{}: {} tiles, {} vertices, {} faces\n", arguments.output, tiling.tiles,
              tiling.mesh.V.rows(), tiling.faces().count());
-  return accepted;
+  return succeeded;
 }
 
 int sample_command(const SampleArguments& arguments) {
@@ -77,7 +75,7 @@ int sample_command(const SampleArguments& arguments) {
   const Mesh mesh = sample_mesh(options);
   write_mesh(arguments.output, mesh);
   fmt::print(stderr, "{}: {} vertices, {} triangles\n", arguments.output, mesh.V.rows(), mesh.F.rows());
-  return accepted;
+  return succeeded;
 }
 
 std::string version_text() {
