@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the page's tests need: pages to look at, a browser without network, and pixels.
-import {execFileSync} from 'node:child_process';
-import {mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
+// What the page's tests need: a browser without network, and pixels.
+import {mkdtempSync, rmSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {pathToFileURL} from 'node:url';
@@ -13,37 +12,6 @@ const FLAGS = ['--no-sandbox', '--disable-gpu', '--enable-unsafe-swiftshader', '
 
 // Small, since it is drawn without a graphics card.
 const VIEWPORT = {width: 800, height: 700};
-
-/** A folder with an embedded sample mesh and its page, made by the program under test. */
-export class Workshop {
-  constructor(program) {
-    this.program = program;
-    this.folder = mkdtempSync(join(tmpdir(), 'orbitutte-page-'));
-  }
-
-  path(name) {
-    return join(this.folder, name);
-  }
-
-  run(...words) {
-    execFileSync(this.program, words, {stdio: 'pipe', cwd: this.folder});
-  }
-
-  /** Embeds a sample and writes its page; `editReport` may change the report in between. */
-  makePage(name, {shape = 'figure', faces = 2000, orbifold = '432', editReport = (report) => report} = {}) {
-    const [mesh, map, json, page] = ['ply', 'map.ply', 'json', 'html'].map((ending) => this.path(`${name}.${ending}`));
-    this.run('sample', '--shape', shape, '--faces', String(faces), '-o', mesh);
-    this.run('embed', mesh, '--orbifold', orbifold, '--cones', 'auto', '-o', map, '--report', json, '--quiet');
-    const report = editReport(JSON.parse(readFileSync(json, 'utf8')));
-    writeFileSync(json, JSON.stringify(report));
-    this.run('report', map, json, mesh, '-o', page);
-    return {page, report};
-  }
-
-  close() {
-    rmSync(this.folder, {recursive: true, force: true});
-  }
-}
 
 /** One browser with a fresh profile. */
 export class Browser {

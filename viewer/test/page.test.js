@@ -3,7 +3,8 @@
 import assert from 'node:assert/strict';
 import {readFileSync, writeFileSync} from 'node:fs';
 import {after, before, test} from 'node:test';
-import {Browser, Workshop, drawn, pixels, placeOf} from './browser.js';
+import {Browser, drawn, pixels, placeOf} from './browser.js';
+import {Workshop} from './workshop.js';
 
 const PANELS = ['source', 'tile', 'tiling'];
 const HOSTILE = `x'"><img src=x onerror=alert(1)></script><script>alert(2)</script>`;
