@@ -56,14 +56,15 @@ WeightKind parse_weights(const std::string& text) {
       fmt::format("--weights is '{}'; it may be standard, cotan, delaunay, mean-value or uniform", text));
 }
 
-Mesh read_in_triangles(const std::string& path, Embedding& embedding) {
+SourceMesh read_source(const std::string& path, Embedding& embedding) {
   PolygonMesh mesh = read_mesh(path);
   require_embeddable(inspect(mesh));
-  if (is_triangle_mesh(mesh)) return to_triangle_mesh(std::move(mesh));
+  Points colours = std::move(mesh.colours);
+  if (is_triangle_mesh(mesh)) return {to_triangle_mesh(std::move(mesh)), std::move(colours)};
   const Triangulation triangulation = triangulate(mesh);
   if (embedding.polygons.start == mesh.face_start)
     embedding.faces = cut_triangles(triangulation, mesh, embedding);
-  return {std::move(mesh.V), on_vertices(triangulation, mesh.corners)};
+  return {{std::move(mesh.V), on_vertices(triangulation, mesh.corners)}, std::move(colours)};
 }
 
 }  // namespace orbitutte::cli

@@ -9,7 +9,7 @@ namespace orbitutte::cli {
 int export_command(const ExportArguments& arguments) {
   const TextureChart chart = parse_texture_chart(arguments.chart);
   Embedding embedding = read_embedding(arguments.embedding, read_report(arguments.report));
-  const Mesh triangles = read_in_triangles(arguments.mesh, embedding);
+  const Mesh triangles = read_source(arguments.mesh, embedding).triangles;
   const ExportedModel model = exported_model(triangles, embedding, chart);
   write_model(arguments.output, model);
   fmt::print(stderr,

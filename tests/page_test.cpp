@@ -165,7 +165,7 @@ TEST(PageScene, HoldsTheDrawnVerticesInSourceAndImage) {
   for (const char* signature : {"532", "*223", "3*2", "2x"}) {
     const test::SampleEmbedding& sample = test::sample_embedding(signature);
     const Embedding& embedding = sample.embedding();
-    const Json scene = Json::parse(page_scene(sample.mesh, embedding));
+    const Json scene = Json::parse(page_scene(sample.mesh, embedding, {}));
     const auto source = numbers<std::uint16_t>(scene["source"]);
     const auto image = numbers<float>(scene["image"]);
     const auto vertex = numbers<std::uint32_t>(scene["source_vertex"]);
@@ -187,11 +187,25 @@ TEST(PageScene, HoldsTheDrawnVerticesInSourceAndImage) {
   }
 }
 
+TEST(PageScene, HoldsTheColoursOfTheVerticesWhereTheMeshHasThem) {
+  for (const char* signature : {"432", "*223", "2x"}) {
+    const test::SampleEmbedding& sample = test::sample_embedding(signature);
+    const Points colours = (sample.mesh.V.array() * 0.4 + 0.5).cwiseMax(0).cwiseMin(1);
+    const Json scene = Json::parse(page_scene(sample.mesh, sample.embedding(), colours));
+    const auto colour = numbers<std::uint8_t>(scene["colour"]);
+    const auto vertex = numbers<std::uint32_t>(scene["source_vertex"]);
+    ASSERT_EQ(colour.size(), 3 * vertex.size());
+    for (std::size_t i = 0; i < colour.size(); ++i)
+      EXPECT_NEAR(colour[i] / 255.0, colours(vertex[i / 3], static_cast<Eigen::Index>(i % 3)), 0.5 / 255);
+    EXPECT_FALSE(Json::parse(page_scene(sample.mesh, sample.embedding(), {})).contains("colour"));
+  }
+}
+
 TEST(PageScene, NormalsAreUnitVectorsAndAgreeAcrossSeamsUpToSign) {
   for (const char* signature : {"432", "3x"}) {
     const test::SampleEmbedding& sample = test::sample_embedding(signature);
     const auto normal =
-        numbers<std::int8_t>(Json::parse(page_scene(sample.mesh, sample.embedding()))["normal"]);
+        numbers<std::int8_t>(Json::parse(page_scene(sample.mesh, sample.embedding(), {}))["normal"]);
     const auto at = [&](int v) -> Vector3 {
       return Vector3(normal[3 * v], normal[3 * v + 1], normal[3 * v + 2]) / 127;
     };
@@ -287,6 +301,7 @@ TEST(Page, RefusesAMeshThatWasNotEmbeddedAndAReportThatIsNone) {
   const std::string report = sample_report("432");
   EXPECT_THROW(report_page({test::icosahedron(), sample.embedding(), report}), MeshError);
   EXPECT_THROW(page_of("432", "{"), MeshError);
+  EXPECT_THROW(report_page({sample.mesh, sample.embedding(), report, Points::Zero(3, 3)}), MeshError);
 }
 
 }  // namespace

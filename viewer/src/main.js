@@ -68,6 +68,7 @@ function start() {
   const scene = readScene(JSON.parse(element('scene').textContent));
   let marks = null;
   element('view-body').hidden = false;
+  if (scene.colour) element('colouring').append(new Option('Vertex colours', 'vertex'));
   const view = new View(scene, {
     canvas: element('canvas'),
     stages: {source: element('source'), tile: element('tile'), tiling: element('tiling')},

@@ -2,114 +2,22 @@
 // The three panels, drawn by one renderer into one canvas that lies behind them.
 import {
   BufferAttribute, BufferGeometry, Color, ColorManagement, InstancedMesh, LineBasicMaterial, LineSegments, LinearSRGBColorSpace,
-  Matrix4, Mesh, MeshBasicMaterial, PerspectiveCamera, Quaternion, Ray, Raycaster, Scene, SphereGeometry, Vector2, Vector3, WebGLRenderer,
+  Matrix4, Mesh, MeshBasicMaterial, Quaternion, Ray, SphereGeometry, Vector2, Vector3, WebGLRenderer,
 } from 'three';
-import {LineMaterial} from 'three/examples/jsm/lines/LineMaterial.js';
-import {LineSegments2} from 'three/examples/jsm/lines/LineSegments2.js';
-import {LineSegmentsGeometry} from 'three/examples/jsm/lines/LineSegmentsGeometry.js';
 import {angleMap, areaMap, robustBound} from './colour_maps.js';
-import {Dots} from './dots.js';
 import {firstView} from './first_view.js';
+import {attributes, edgeIndices, surfaceGeometry, thickLines} from './geometry.js';
 import {MapPoints} from './map_point.js';
+import {Panel} from './panel.js';
 import {tileFrame, vertexPosition} from './scene_data.js';
 import {COLOURINGS, sharedUniforms, surfaceMaterial} from './surface.js';
 import {StageInput, Turntable} from './turntable.js';
 
-const FIELD_OF_VIEW = 24;
 const INK = '#20262d', MARK = '#d6006c', POINT = '#ffffff', FAINT = '#9aa4af';
 const CONE_COLOURS = {2: '#0072b2', 3: '#d55e00', 4: '#009e73', 5: '#7b2d8b'};
 const coneColour = (order) => CONE_COLOURS[order] ?? '#5b4636';
 
 ColorManagement.enabled = false;
-
-const distanceFor = (radius) => radius / Math.sin((FIELD_OF_VIEW * Math.PI) / 360);
-
-function attributes(scene) {
-  return {
-    source: new BufferAttribute(scene.source, 3),
-    image: new BufferAttribute(scene.image, 3),
-    sourceNormal: new BufferAttribute(scene.normal, 3, true),
-    area: new BufferAttribute(scene.area, 1),
-    angle: new BufferAttribute(scene.angle, 1),
-  };
-}
-
-function geometry(shared, position, indices) {
-  const result = new BufferGeometry();
-  result.setAttribute('position', shared[position]);
-  for (const name of ['image', 'sourceNormal', 'area', 'angle']) result.setAttribute(name, shared[name]);
-  result.setIndex(new BufferAttribute(indices, 1));
-  return result;
-}
-
-// The edges of triangles: each once, but for those of the outline, which are drawn anyway.
-function edgeIndices(triangles) {
-  const ends = [];
-  for (let f = 0; f < triangles.length; f += 3) {
-    for (let k = 0; k < 3; ++k) {
-      const a = triangles[f + k], b = triangles[f + ((k + 1) % 3)];
-      if (a < b) ends.push(a, b);
-    }
-  }
-  return Uint32Array.from(ends);
-}
-
-// Thick lines along pairs of positions, repeated by every transform.
-function thickLines(positions, ends, matrices, width) {
-  const points = new Float32Array(3 * ends.length * matrices.length), at = new Vector3();
-  matrices.forEach((matrix, g) => {
-    ends.forEach((vertex, i) => at.fromArray(positions, 3 * vertex).applyMatrix4(matrix).toArray(points, 3 * (g * ends.length + i)));
-  });
-  const lines = new LineSegmentsGeometry();
-  lines.setPositions(points);
-  return new LineSegments2(lines, new LineMaterial({color: new Color(INK), linewidth: width}));
-}
-
-/** A panel: what it shows, its camera, and the dots on it. */
-class Panel {
-  constructor(name, stage, {capacity, frame}) {
-    this.name = name;
-    this.stage = stage;
-    this.scene = new Scene();
-    this.frame = frame;
-    this.camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.01, 100);
-    this.cones = new Dots({capacity: capacity.cones, size: 0.014});
-    this.marks = new Dots({capacity: capacity.marks, size: 0.014});
-    this.point = new Dots({capacity: capacity.copies, size: 0.014});
-    this.rim = new Dots({capacity: capacity.copies, size: 0.02, rim: true});
-    for (const dots of this.dots()) this.scene.add(dots.mesh);
-    this.labels = [];
-  }
-
-  dots() {
-    return [this.cones, this.marks, this.rim, this.point];
-  }
-
-  place() {
-    return {camera: this.camera, target: this.frame.target, distance: distanceFor(this.frame.radius)};
-  }
-
-  /** Fits the field of view: what fits a square fits the shorter side of the panel. */
-  resize(aspect) {
-    const half = Math.tan((FIELD_OF_VIEW * Math.PI) / 360) / Math.min(aspect, 1);
-    this.camera.fov = (2 * Math.atan(half) * 180) / Math.PI;
-    this.camera.aspect = aspect;
-    this.camera.updateProjectionMatrix();
-  }
-
-  ray(x, y) {
-    const ndc = new Vector2((2 * x) / this.stage.clientWidth - 1, 1 - (2 * y) / this.stage.clientHeight);
-    const caster = new Raycaster();
-    caster.setFromCamera(ndc, this.camera);
-    return caster.ray;
-  }
-
-  /** Where a position appears, in CSS pixels within the panel. */
-  project(at) {
-    const ndc = at.clone().project(this.camera);
-    return {x: ((ndc.x + 1) / 2) * this.stage.clientWidth, y: ((1 - ndc.y) / 2) * this.stage.clientHeight};
-  }
-}
 
 /** Shows a scene in the stages `{source, tile, tiling}`. Tells `onHover(point or null)` and `onPick(drawn vertex)`. */
 export class View {
@@ -167,11 +75,10 @@ export class View {
   fillPanels() {
     const {scene, uniforms} = this, shared = attributes(scene);
     const tint = new Color(scene.copies[0].colour);
-    const identity = [new Matrix4()];
     const surface = (panel, position, level) => {
       const material = surfaceMaterial(uniforms, {onSphere: position === 'image', tint});
-      panel.scene.add(new Mesh(geometry(shared, position, level.indices), material));
-      panel.scene.add(thickLines(scene[position], level.outline, identity, panel.name === 'tiling' ? 3 : 2));
+      panel.scene.add(new Mesh(surfaceGeometry(shared, position, level.indices), material));
+      panel.scene.add(thickLines(scene[position], level.outline, {matrices: [new Matrix4()], width: panel.name === 'tiling' ? 3 : 2, colour: INK}));
     };
     surface(this.panels.source, 'source', scene.fine);
     surface(this.panels.tile, 'image', scene.fine);
@@ -184,8 +91,7 @@ export class View {
   // Around the tile, the outlines of the other copies; a ball without colour hides those behind it.
   addNeighbours() {
     const others = this.scene.copies.slice(1).map(({matrix}) => matrix);
-    const lines = thickLines(this.scene.image, this.scene.coarse.outline, others, 1);
-    lines.material.color.set(FAINT);
+    const lines = thickLines(this.scene.image, this.scene.coarse.outline, {matrices: others, width: 1, colour: FAINT});
     lines.scale.setScalar(0.998);  // behind the tile's own outline
     const ball = new Mesh(new SphereGeometry(0.96, 96, 64), new MeshBasicMaterial({colorWrite: false}));
     ball.renderOrder = -1;
@@ -196,13 +102,14 @@ export class View {
     const others = this.scene.copies.slice(1);
     if (others.length === 0) return;
     this.copyMaterial = surfaceMaterial(this.uniforms, {onSphere: true, tint: new Color()});
-    const copies = new InstancedMesh(geometry(this.shared, 'image', this.scene.coarse.indices), this.copyMaterial, others.length);
+    const copies = new InstancedMesh(surfaceGeometry(this.shared, 'image', this.scene.coarse.indices), this.copyMaterial, others.length);
     others.forEach(({matrix, colour}, i) => {
       copies.setMatrixAt(i, matrix);
       copies.setColorAt(i, new Color(colour));
     });
     copies.frustumCulled = false;
-    this.copyLines = thickLines(this.scene.image, this.scene.coarse.outline, others.map(({matrix}) => matrix), 1);
+    const matrices = others.map(({matrix}) => matrix);
+    this.copyLines = thickLines(this.scene.image, this.scene.coarse.outline, {matrices, width: 1, colour: INK});
     this.panels.tiling.scene.add(copies, this.copyLines);
   }
 

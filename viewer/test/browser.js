@@ -70,6 +70,19 @@ export async function pixels(page, id) {
   }, id);
 }
 
+/** Red, green and blue at a place in a panel, in CSS pixels. */
+export async function pixelAt(page, id, place) {
+  await drawn(page);
+  return page.evaluate(([panel, {x, y}]) => {
+    const view = window.orbitutteView;
+    view.drawNow();
+    const [stage, canvas] = [document.getElementById(panel).getBoundingClientRect(), view.canvas.getBoundingClientRect()];
+    const ratio = view.renderer.getPixelRatio(), copy = new OffscreenCanvas(1, 1).getContext('2d');
+    copy.drawImage(view.canvas, (stage.left - canvas.left + x) * ratio, (stage.top - canvas.top + y) * ratio, 1, 1, 0, 0, 1, 1);
+    return [...copy.getImageData(0, 0, 1, 1).data.slice(0, 3)];
+  }, [id, place]);
+}
+
 /** Where a panel shows an input vertex, in CSS pixels of the window; for vertices that are in front. */
 export const placeOf = (page, id, vertex) => page.evaluate(([panel, wanted]) => {
   const view = window.orbitutteView, element = document.getElementById(panel);

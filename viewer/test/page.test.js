@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import {readFileSync, writeFileSync} from 'node:fs';
 import {after, before, test} from 'node:test';
-import {Browser, drawn, pixels, placeOf} from './browser.js';
+import {Browser, drawn, pixelAt, pixels, placeOf} from './browser.js';
 import {Workshop} from './workshop.js';
 
 const PANELS = ['source', 'tile', 'tiling'];
@@ -58,6 +58,27 @@ test('every panel draws, with every colouring, and no two colourings alike', () 
   }
   for (const panel of PANELS) assert.equal(seen[panel].size, colourings.length, panel);
 }));
+
+test('vertex colours are offered where the mesh has them, and shown as they are in all panels', async () => {
+  const {page: file} = workshop.makePage('coloured', {faces: 500, coloured: true});
+  await withPage(file, async (page) => {
+    await page.selectOption('#colouring', 'vertex');
+    const vertex = await visibleVertex(page);
+    const [expected, places] = await page.evaluate((wanted) => {
+      const {scene, panels} = window.orbitutteView, drawn = scene.sourceVertex.indexOf(wanted);
+      const project = (name, numbers) => panels[name].project(panels[name].camera.position.clone().fromArray(numbers, 3 * drawn));
+      return [[...scene.colour.slice(3 * drawn, 3 * drawn + 3)], {source: project('source', scene.source), tile: project('tile', scene.image)}];
+    }, vertex);
+    const line = readFileSync(workshop.path('coloured.obj'), 'utf8').split('\n').filter((row) => row.startsWith('v '))[vertex];
+    assert.deepEqual(expected, line.split(' ').slice(4).map((channel) => Math.round(255 * channel)));
+    for (const [panel, place] of Object.entries(places)) {
+      const seen = await pixelAt(page, panel, place), light = Math.max(...seen) / Math.max(...expected);
+      seen.forEach((channel, k) => assert.ok(Math.abs(channel - light * expected[k]) < 24, `${panel}: ${seen}, not as ${expected}`));
+    }
+    assert.ok((await pixels(page, 'tiling')).colours > 200);
+  });
+  await withPage(figure.page, async (page) => assert.equal(await page.locator('#colouring option[value=vertex]').count(), 0));
+});
 
 test('a click on a vertex marks it in all panels and names it in the --cones line', () => withPage(figure.page, async (page) => {
   const vertex = await visibleVertex(page), place = await placeOf(page, 'source', vertex);

@@ -368,8 +368,8 @@ std::string view(const PageOptions& options) {
 std::string scripts(const PageSubject& subject, const PageOptions& options) {
   if (!is_interactive(options)) return {};
   return "<script type=\"application/json\" id=\"scene\">" +
-         page_scene(subject.mesh, subject.embedding, options.limits) + "</script>\n<script>" +
-         std::string(page_script) + "</script>";
+         page_scene(subject.mesh, subject.embedding, subject.colours, options.limits) +
+         "</script>\n<script>" + std::string(page_script) + "</script>";
 }
 
 std::string licences(const PageOptions& options) {
@@ -403,7 +403,9 @@ Json parse(const std::string& report) {
   }
 }
 
-void require_match(const Mesh& mesh, const Embedding& embedding) {
+void require_match(const PageSubject& subject) {
+  const Mesh& mesh = subject.mesh;
+  const Embedding& embedding = subject.embedding;
   if (embedding.faces.rows() != mesh.F.rows())
     throw MeshError(fmt::format("the embedding has {} faces, the mesh {}: it is not of this mesh",
                                 embedding.faces.rows(), mesh.F.rows()));
@@ -411,6 +413,9 @@ void require_match(const Mesh& mesh, const Embedding& embedding) {
     if (v < 0 || v >= mesh.V.rows())
       throw MeshError(fmt::format(
           "the embedding names vertex {}, but the mesh has {}: it is not of this mesh", v, mesh.V.rows()));
+  if (subject.colours.rows() != 0 && subject.colours.rows() != mesh.V.rows())
+    throw MeshError(fmt::format("there are colours of {} vertices, but the mesh has {}",
+                                subject.colours.rows(), mesh.V.rows()));
 }
 
 /// The last part of the path that the report gives.
@@ -466,7 +471,7 @@ Slots slots(const PageSubject& subject, const PageOptions& options) {
 bool has_interactive_view() { return !page_script.empty(); }
 
 std::string report_page(const PageSubject& subject, const PageOptions& options) {
-  require_match(subject.mesh, subject.embedding);
+  require_match(subject);
   return fill_slots(page_template, slots(subject, options));
 }
 
