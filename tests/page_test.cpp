@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "base64_text.h"
 #include "orbitutte/mesh/bytes.h"
 #include "orbitutte/mesh/sample.h"
 #include "orbitutte/output/html_text.h"
@@ -42,24 +43,9 @@ std::string page_of(const std::string& signature, const std::string& report,
   return report_page({sample.mesh, sample.embedding(), report}, options);
 }
 
-// The bytes that RFC 4648 encodes so; independent of the encoder.
-std::string decoded(const std::string& text) {
-  const std::string alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string bytes;
-  std::uint32_t bits = 0;
-  int count = 0;
-  for (const char c : text) {
-    if (c == '=') break;
-    bits = bits << 6 | static_cast<std::uint32_t>(alphabet.find(c));
-    if ((count += 6) < 8) continue;
-    bytes += static_cast<char>(bits >> (count -= 8) & 0xff);
-  }
-  return bytes;
-}
-
 template <typename Number>
 std::vector<Number> numbers(const Json& text) {
-  const std::string bytes = decoded(text.get<std::string>());
+  const std::string bytes = test::from_base64(text.get<std::string>());
   std::vector<Number> values;
   for (std::size_t at = 0; at + sizeof(Number) <= bytes.size(); at += sizeof(Number))
     values.push_back(load<Number>(bytes.data() + at, std::endian::little));
@@ -91,13 +77,13 @@ TEST(HtmlText, EscapesWhatHtmlGivesAMeaning) {
 TEST(HtmlText, Base64DecodesToTheSameBytes) {
   std::string bytes;
   for (int length = 0; length < 300; ++length) {
-    EXPECT_EQ(decoded(base64(bytes)), bytes);
+    EXPECT_EQ(test::from_base64(base64(bytes)), bytes);
     EXPECT_EQ(base64(bytes).size() % 4, 0u);
     bytes += static_cast<char>(37 * length);
   }
   EXPECT_EQ(base64("light w"), "bGlnaHQgdw==");
   const std::string large((3 << 20) + 1000, 'x');  // more than the encoder takes at once
-  EXPECT_EQ(decoded(base64(large)), large);
+  EXPECT_EQ(test::from_base64(base64(large)), large);
 }
 
 TEST(HtmlText, SlotsAreFilledOnceAndMustBeKnown) {
