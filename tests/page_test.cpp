@@ -14,11 +14,13 @@
 #include "base64_text.h"
 #include "orbitutte/mesh/bytes.h"
 #include "orbitutte/mesh/sample.h"
+#include "orbitutte/mesh/triangulation.h"
 #include "orbitutte/output/html_text.h"
 #include "orbitutte/output/page_charts.h"
 #include "orbitutte/output/page_scene.h"
 #include "orbitutte/output/report.h"
 #include "orbitutte/verify/distortion.h"
+#include "polygon_meshes.h"
 #include "sample_embeddings.h"
 
 namespace orbitutte {
@@ -214,6 +216,18 @@ TEST(Page, IsWellNestedHtmlThatHoldsEveryCheck) {
     for (const Check& check : test::sample_embedding(signature).result.certificate.checks)
       EXPECT_THAT(page, HasSubstr(check.name));
   }
+}
+
+TEST(Page, SpeaksOfFacesWhereTheyAreNotAllTriangles) {
+  const PolygonMesh mesh = test::dual(test::icosphere(1));
+  const Mesh triangles = {mesh.V, on_vertices(triangulate(mesh), mesh.corners)};
+  const Orbifold orbifold = parse_orbifold("432");
+  const EmbedResult result = embed(mesh, orbifold, choose_marked_vertices(mesh, orbifold));
+  const std::string report = report_json(result, run);
+  const std::string page = report_page({triangles, result.embedding, report});
+  EXPECT_THAT(page, HasSubstr("80 vertices and 42 faces"));
+  EXPECT_THAT(page, HasSubstr("Every face is positively oriented"));
+  EXPECT_THAT(page_of("432", sample_report("432")), HasSubstr("162 vertices and 320 triangles"));
 }
 
 TEST(Page, LoadsNothing) {

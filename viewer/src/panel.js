@@ -31,8 +31,14 @@ export class Panel {
     return {camera: this.camera, target: this.frame.target, distance: distanceFor(this.frame.radius)};
   }
 
-  /** Fits the field of view: what fits a square fits the shorter side of the panel. */
-  resize(aspect) {
+  /** Called before every picture. */
+  prepare() {
+    this.fitCamera(this.stage.clientWidth / this.stage.clientHeight);
+    for (const dots of this.dots()) dots.fit(this.camera);
+  }
+
+  // What fits a square fits the shorter side of the panel.
+  fitCamera(aspect) {
     const half = Math.tan((FIELD_OF_VIEW * Math.PI) / 360) / Math.min(aspect, 1);
     this.camera.fov = (2 * Math.atan(half) * 180) / Math.PI;
     this.camera.aspect = aspect;
@@ -50,5 +56,34 @@ export class Panel {
   project(at) {
     const ndc = at.clone().project(this.camera);
     return {x: ((ndc.x + 1) / 2) * this.stage.clientWidth, y: ((1 - ndc.y) / 2) * this.stage.clientHeight};
+  }
+
+  /** How many pixels a length takes in the middle of the panel. */
+  pixels(length) {
+    const {fov, zoom, position} = this.camera;
+    const seen = (2 * Math.tan((fov * Math.PI) / 360) * position.distanceTo(this.frame.target)) / zoom;
+    return (length / seen) * this.stage.clientHeight;
+  }
+
+  /** Writes `label` beside every dot. */
+  addLabels(dots) {
+    this.labels = dots.map(({at, label}) => {
+      const element = document.createElement('span');
+      element.className = 'cone-label';
+      element.textContent = label;
+      this.stage.append(element);
+      return {at, element, width: element.offsetWidth};
+    });
+  }
+
+  /** Moves the labels to where their dots are, as far as the panel reaches; `isHidden(at)` says which are not seen. */
+  placeLabels(isHidden) {
+    const {clientWidth, clientHeight} = this.stage;
+    for (const {at, element, width} of this.labels) {
+      const {x, y} = this.project(at);
+      const left = Math.min(x + 9, clientWidth - width), top = Math.max(y - 22, 0);
+      element.style.transform = `translate(${left}px, ${top}px)`;
+      element.hidden = x < 0 || y < 0 || x > clientWidth || y > clientHeight || isHidden(at);
+    }
   }
 }

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
-// The three panels, drawn by one renderer into one canvas that lies behind them.
+// The three panels: what they show, and what the user does to them.
 import {
-  BufferAttribute, BufferGeometry, Color, ColorManagement, InstancedMesh, LineBasicMaterial, LineSegments, LinearSRGBColorSpace,
-  Matrix4, Mesh, MeshBasicMaterial, Quaternion, Ray, SphereGeometry, Vector2, Vector3, WebGLRenderer,
+  BufferAttribute, BufferGeometry, Color, ColorManagement, InstancedMesh, LineBasicMaterial, LineSegments, Matrix4, Mesh,
+  MeshBasicMaterial, Quaternion, Ray, SphereGeometry, Vector3,
 } from 'three';
 import {angleMap, areaMap, robustBound} from './colour_maps.js';
 import {firstView} from './first_view.js';
-import {attributes, edgeIndices, surfaceGeometry, thickLines} from './geometry.js';
+import {attributes, edgeIndices, meanLength, surfaceGeometry, thickLines, thinnedChains} from './geometry.js';
 import {MapPoints} from './map_point.js';
+import {outlineCopies} from './outline_copies.js';
+import {Painter} from './painter.js';
 import {Panel} from './panel.js';
 import {tileFrame, vertexPosition} from './scene_data.js';
 import {COLOURINGS, sharedUniforms, surfaceMaterial} from './surface.js';
@@ -15,6 +17,7 @@ import {StageInput, Turntable} from './turntable.js';
 
 const INK = '#20262d', MARK = '#d6006c', POINT = '#ffffff', FAINT = '#9aa4af';
 const CONE_COLOURS = {2: '#0072b2', 3: '#d55e00', 4: '#009e73', 5: '#7b2d8b'};
+const OUTLINE_STEP = 0.004;  // of the sphere's radius: below a pixel
 const coneColour = (order) => CONE_COLOURS[order] ?? '#5b4636';
 
 ColorManagement.enabled = false;
@@ -23,15 +26,10 @@ ColorManagement.enabled = false;
 export class View {
   constructor(scene, {canvas, stages, onHover, onPick}) {
     this.scene = scene;
-    this.canvas = canvas;
     this.events = {onHover, onPick};
     this.points = new MapPoints(scene);
     this.front = firstView(scene);
     this.frame = {...tileFrame(scene), sourceLight: new Vector3(-0.35, 0.55, 0.8).normalize().applyQuaternion(this.front)};
-    this.renderer = new WebGLRenderer({canvas, antialias: true, alpha: true});
-    this.renderer.outputColorSpace = LinearSRGBColorSpace;
-    this.renderer.autoClear = false;
-    this.renderer.setClearColor(0x000000, 0);
     this.bounds = {
       area: robustBound(scene.area, {share: 0.1, among: [1, 2, 3, 4, 5, 6, 8]}),
       angle: robustBound(scene.angle, {share: 0.02, among: [1.2, 1.5, 2, 3, 4, 6, 8].map(Math.log2)}),
@@ -39,6 +37,8 @@ export class View {
     const maps = {area: areaMap.texture(), angle: angleMap.texture()};
     this.uniforms = sharedUniforms(this.frame, maps, this.bounds);
     this.makePanels(stages);
+    this.painter = new Painter(canvas, Object.values(this.panels), (panel) => panel.placeLabels((at) => this.isHidden(panel, at)));
+    this.makeTables();
     this.fillPanels();
     this.showCones();
     this.listen(stages);
@@ -58,8 +58,6 @@ export class View {
     const few = {cones: drawn, marks: 256, copies: 2};
     this.panels = Object.fromEntries(Object.entries(stages).map(([name, stage]) =>
       [name, new Panel(name, stage, {capacity: name === 'tiling' ? many : few, frame: frames[name]})]));
-    this.list = Object.values(this.panels);
-    this.makeTables();
   }
 
   // The source turns by itself; tile and tiled sphere turn together, at first with the tile in front.
@@ -69,7 +67,8 @@ export class View {
       new Matrix4().makeBasis(this.frame.east, this.frame.north, this.frame.centre));
     const sphere = new Turntable([tile.place(), tiling.place()], front);
     this.tables = {source: new Turntable([source.place()], this.front), tile: sphere, tiling: sphere};
-    for (const table of Object.values(this.tables)) table.onChange = () => this.draw();
+    this.tables.source.onChange = () => this.draw([source]);
+    sphere.onChange = () => this.draw([tile, tiling]);
   }
 
   fillPanels() {
@@ -78,20 +77,26 @@ export class View {
     const surface = (panel, position, level) => {
       const material = surfaceMaterial(uniforms, {onSphere: position === 'image', tint});
       panel.scene.add(new Mesh(surfaceGeometry(shared, position, level.indices), material));
-      panel.scene.add(thickLines(scene[position], level.outline, {matrices: [new Matrix4()], width: panel.name === 'tiling' ? 3 : 2, colour: INK}));
+      panel.scene.add(thickLines(scene[position], level.outline, {width: panel.name === 'tiling' ? 3 : 2, colour: INK}));
     };
     surface(this.panels.source, 'source', scene.fine);
     surface(this.panels.tile, 'image', scene.fine);
     surface(this.panels.tiling, 'image', scene.coarse);
     this.shared = shared;
+    this.copyOutline = thinnedChains(scene.image, scene.coarse.outline, OUTLINE_STEP);
     this.addCopies();
     this.addNeighbours();
   }
 
+  // Those of all copies but the tile itself.
+  outlines(panel, colour) {
+    const matrices = this.scene.copies.slice(1).map(({matrix}) => matrix);
+    return outlineCopies(panel, {positions: this.scene.image, ends: this.copyOutline, matrices, width: 1, colour});
+  }
+
   // Around the tile, the outlines of the other copies; a ball without colour hides those behind it.
   addNeighbours() {
-    const others = this.scene.copies.slice(1).map(({matrix}) => matrix);
-    const lines = thickLines(this.scene.image, this.scene.coarse.outline, {matrices: others, width: 1, colour: FAINT});
+    const lines = this.outlines(this.panels.tile, FAINT);
     lines.scale.setScalar(0.998);  // behind the tile's own outline
     const ball = new Mesh(new SphereGeometry(0.96, 96, 64), new MeshBasicMaterial({colorWrite: false}));
     ball.renderOrder = -1;
@@ -108,8 +113,7 @@ export class View {
       copies.setColorAt(i, new Color(colour));
     });
     copies.frustumCulled = false;
-    const matrices = others.map(({matrix}) => matrix);
-    this.copyLines = thickLines(this.scene.image, this.scene.coarse.outline, {matrices, width: 1, colour: INK});
+    this.copyLines = this.outlines(this.panels.tiling, INK);
     this.panels.tiling.scene.add(copies, this.copyLines);
   }
 
@@ -123,18 +127,8 @@ export class View {
     this.panels.source.cones.set(dots.source);
     this.panels.tile.cones.set(dots.tile);
     this.panels.tiling.cones.set(this.copied(dots.tile).map((dot) => ({...dot, scale: 0.8})));
-    this.addLabels(this.panels.source, dots.source);
-    this.addLabels(this.panels.tile, dots.tile);
-  }
-
-  addLabels(panel, dots) {
-    panel.labels = dots.map(({at, label}) => {
-      const element = document.createElement('span');
-      element.className = 'cone-label';
-      element.textContent = label;
-      panel.stage.append(element);
-      return {at, element};
-    });
+    this.panels.source.addLabels(dots.source);
+    this.panels.tile.addLabels(dots.tile);
   }
 
   /** Every dot in all copies of the tile. */
@@ -151,7 +145,6 @@ export class View {
         click: (x, y) => this.click(name, x, y),
       });
     }
-    new ResizeObserver(() => this.draw()).observe(this.canvas.parentElement);
   }
 
   pointAt(name, x, y) {
@@ -234,13 +227,17 @@ export class View {
   }
 
   makeEdges() {
-    const material = new LineBasicMaterial({color: new Color(INK), transparent: true, opacity: 0.35});
     const index = new BufferAttribute(edgeIndices(this.scene.fine.indices), 1);
     this.edges = [['source', 'source'], ['tile', 'image']].map(([panel, position]) => {
       const lines = new BufferGeometry();
       lines.setAttribute('position', this.shared[position]);
       lines.setIndex(index);
-      const segments = new LineSegments(lines, material);
+      const segments = new LineSegments(lines, new LineBasicMaterial({color: new Color(INK), transparent: true}));
+      const length = meanLength(this.scene[position], index.array);
+      // Where they are dense they would hide all colours.
+      segments.onBeforeRender = () => {
+        segments.material.opacity = 0.35 * Math.min(Math.max(this.panels[panel].pixels(length) / 5, 0.1), 1);
+      };
       this.panels[panel].scene.add(segments);
       return segments;
     });
@@ -250,47 +247,8 @@ export class View {
     for (const table of new Set(Object.values(this.tables))) table.reset();
   }
 
-  /** Draws before the next repaint. */
-  draw() {
-    if (this.waiting) return;
-    this.waiting = true;
-    requestAnimationFrame(() => {
-      this.waiting = false;
-      this.drawNow();
-    });
-  }
-
-  drawNow() {
-    const box = this.canvas.parentElement.getBoundingClientRect();
-    this.fitCanvas(box);
-    this.renderer.setScissorTest(false);
-    this.renderer.clear();
-    this.renderer.setScissorTest(true);
-    for (const panel of this.list) this.drawPanel(panel, box);
-  }
-
-  fitCanvas({width, height}) {
-    const ratio = Math.min(window.devicePixelRatio || 1, 2), size = this.renderer.getSize(new Vector2());
-    if (size.x === width && size.y === height && this.renderer.getPixelRatio() === ratio) return;
-    this.renderer.setPixelRatio(ratio);
-    this.renderer.setSize(width, height, false);
-  }
-
-  drawPanel(panel, box) {
-    const stage = panel.stage.getBoundingClientRect();
-    const place = [stage.left - box.left, box.bottom - stage.bottom, stage.width, stage.height];
-    panel.resize(stage.width / stage.height);
-    for (const dots of panel.dots()) dots.fit(panel.camera);
-    this.renderer.setViewport(...place);
-    this.renderer.setScissor(...place);
-    this.renderer.render(panel.scene, panel.camera);
-    for (const label of panel.labels) this.placeLabel(panel, label);
-  }
-
-  placeLabel(panel, {at, element}) {
-    const {x, y} = panel.project(at);
-    element.style.transform = `translate(${x + 9}px, ${y - 22}px)`;
-    element.hidden = this.isHidden(panel, at);
+  draw(panels) {
+    this.painter.draw(panels);
   }
 
   // On the sphere, behind the horizon; in the source, behind another part of it.

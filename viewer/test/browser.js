@@ -46,7 +46,7 @@ export class Browser {
 
 /** Waits until the view has drawn everything that it was asked to. */
 export const drawn = (page) => page.evaluate(() => new Promise((done) => {
-  const settle = () => (window.orbitutteView.waiting || window.orbitutteView.hovered ? requestAnimationFrame(settle) : done());
+  const settle = () => (window.orbitutteView.painter.waiting || window.orbitutteView.hovered ? requestAnimationFrame(settle) : done());
   requestAnimationFrame(settle);
 }));
 
@@ -55,13 +55,13 @@ export async function pixels(page, id) {
   await drawn(page);
   return page.evaluate((panel) => {
     const view = window.orbitutteView;
-    view.drawNow();  // the canvas keeps its pixels only until the frame ends
-    const [stage, canvas] = [document.getElementById(panel).getBoundingClientRect(), view.canvas.getBoundingClientRect()];
-    const ratio = view.renderer.getPixelRatio(), copy = document.createElement('canvas');
+    view.painter.drawNow();  // the canvas keeps its pixels only until the frame ends
+    const [stage, canvas] = [document.getElementById(panel).getBoundingClientRect(), view.painter.canvas.getBoundingClientRect()];
+    const ratio = view.painter.renderer.getPixelRatio(), copy = document.createElement('canvas');
     copy.width = 120;
     copy.height = 120;
     const paper = copy.getContext('2d');
-    paper.drawImage(view.canvas, (stage.left - canvas.left) * ratio, (stage.top - canvas.top) * ratio, stage.width * ratio,
+    paper.drawImage(view.painter.canvas, (stage.left - canvas.left) * ratio, (stage.top - canvas.top) * ratio, stage.width * ratio,
       stage.height * ratio, 0, 0, 120, 120);
     const values = new Uint32Array(paper.getImageData(0, 0, 120, 120).data.buffer);
     let sum = 0;
@@ -75,10 +75,10 @@ export async function pixelAt(page, id, place) {
   await drawn(page);
   return page.evaluate(([panel, {x, y}]) => {
     const view = window.orbitutteView;
-    view.drawNow();
-    const [stage, canvas] = [document.getElementById(panel).getBoundingClientRect(), view.canvas.getBoundingClientRect()];
-    const ratio = view.renderer.getPixelRatio(), copy = new OffscreenCanvas(1, 1).getContext('2d');
-    copy.drawImage(view.canvas, (stage.left - canvas.left + x) * ratio, (stage.top - canvas.top + y) * ratio, 1, 1, 0, 0, 1, 1);
+    view.painter.drawNow();
+    const [stage, canvas] = [document.getElementById(panel).getBoundingClientRect(), view.painter.canvas.getBoundingClientRect()];
+    const ratio = view.painter.renderer.getPixelRatio(), copy = new OffscreenCanvas(1, 1).getContext('2d');
+    copy.drawImage(view.painter.canvas, (stage.left - canvas.left + x) * ratio, (stage.top - canvas.top + y) * ratio, 1, 1, 0, 0, 1, 1);
     return [...copy.getImageData(0, 0, 1, 1).data.slice(0, 3)];
   }, [id, place]);
 }

@@ -162,6 +162,41 @@ test('Tab reaches every panel and control; keys turn, zoom, reset and mark', () 
   assert.match(await conesLine(page), /^--cones \d+$/);
 }));
 
+test('however near the zoom, the middle of a panel shows the same point, and labels stay within their panels', () => withPage(figure.page, async (page) => {
+  for (const panel of PANELS) {
+    const {points, outside, seen} = await page.evaluate((name) => {
+      const view = window.orbitutteView, stage = document.getElementById(name), box = stage.getBoundingClientRect();
+      const labels = () => [...stage.querySelectorAll('.cone-label:not([hidden])')].map((label) => label.getBoundingClientRect());
+      const found = {points: [], outside: 0, seen: 0};
+      for (let k = 0; k < 20; ++k) {
+        const at = view.pointAt(name, box.width / 2, box.height / 2);
+        found.points.push(at && `${at.face} ${at.copy}`);
+        view.painter.drawNow([view.panels[name]]);
+        found.seen += labels().length;
+        found.outside += labels().filter(({left, right, top}) => left < box.left - 1 || right > box.right + 1 || top < box.top - 1).length;
+        view.tables[name].zoomBy(1.12);
+      }
+      view.reset();
+      return found;
+    }, panel);
+    assert.notEqual(points[0], null, panel);
+    assert.equal(new Set(points).size, 1, `${panel}: ${points}`);
+    assert.equal(outside, 0, `${panel}: labels reach out`);
+    assert.ok(panel === 'tiling' || seen > 0, panel);
+  }
+}));
+
+test('turning the source draws the source alone again', () => withPage(figure.page, async (page) => {
+  await drawn(page);
+  const panels = await page.evaluate(() => new Promise((done) => {
+    const {painter, tables} = window.orbitutteView, seen = [], draw = painter.drawPanel.bind(painter);
+    painter.drawPanel = (panel, box) => { seen.push(panel.name); draw(panel, box); };
+    tables.source.turn(0.1, 0);
+    requestAnimationFrame(() => requestAnimationFrame(() => done(seen)));
+  }));
+  assert.deepEqual(panels, ['source']);
+}));
+
 test('dragging turns a panel and marks nothing', () => withPage(figure.page, async (page) => {
   const box = await page.locator('#tiling').boundingBox(), before = await pixels(page, 'tiling');
   const middle = {x: box.x + box.width / 2, y: box.y + box.height / 2};

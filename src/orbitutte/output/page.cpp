@@ -142,11 +142,15 @@ std::string verdict_sentence(const Judgement& judgement, const Embedding& embedd
          failed_checks(judgement.certificate) + ".";
 }
 
+std::string face_noun(const Embedding& embedding) {
+  return embedding.polygons.count() > 0 ? "face" : "triangle";
+}
+
 std::string summary(const Json& report, const Embedding& embedding, const Judgement& judgement) {
   return fmt::format(
-      "A {} of {} vertices and {} triangles, mapped onto the orbifold <b>{}</b>, whose group has {}. {}",
+      "A {} of {} vertices and {} {}, mapped onto the orbifold <b>{}</b>, whose group has {}. {}",
       figure_html(report, "/mesh/topology"), figure_html(report, "/mesh/vertices"),
-      figure_html(report, "/mesh/faces"), escape_html(embedding.signature),
+      figure_html(report, "/mesh/faces"), face_noun(embedding) + "s", escape_html(embedding.signature),
       plural(embedding.group_order, "element"), verdict_sentence(judgement, embedding));
 }
 
@@ -195,14 +199,14 @@ std::string certificate_table(const Certificate& certificate) {
   return table(head({"Check", "Value", "Bound", ""}), rows);
 }
 
-std::string certificate_intro(const Certificate& certificate) {
+std::string certificate_intro(const Certificate& certificate, const std::string& face) {
   return fmt::format(
       "Computed again from the mesh and the embedding when this page was written, by code that the solver "
       "does not "
       "share. {}; {} of {} checks passed. <code>orbitutte verify</code> repeats it.",
       certificate.nonpositive_faces.empty()
-          ? "Every triangle is positively oriented"
-          : plural(static_cast<long long>(certificate.nonpositive_faces.size()), "triangle") +
+          ? "Every " + face + " is positively oriented"
+          : plural(static_cast<long long>(certificate.nonpositive_faces.size()), face) +
                 " not positively oriented",
       std::count_if(certificate.checks.begin(), certificate.checks.end(),
                     [](const Check& c) { return c.passed; }),
@@ -451,7 +455,7 @@ Slots slots(const PageSubject& subject, const PageOptions& options) {
           {"warnings", warnings(report, judgement)},
           {"view", view(options)},
           {"figures", key_figures(report, embedding)},
-          {"certificate_intro", certificate_intro(judgement.certificate)},
+          {"certificate_intro", certificate_intro(judgement.certificate, face_noun(embedding))},
           {"certificate", certificate_table(judgement.certificate)},
           {"histogram", histogram(report)},
           {"distortion", distortion_table(report)},
