@@ -53,7 +53,7 @@ int to_count(const TextScanner& in, std::string_view word, std::string_view thin
   int count = 0;
   if (parse_number(word, count) == NumberError::none && count >= 0) return count;
   if (word.empty()) in.refuse(fmt::format("the header lacks the number of {}", things));
-  in.refuse(fmt::format("the header has {} where the number of {} belongs", quoted(word), things));
+  in.refuse(fmt::format("the header has {} where the number of {} belongs", in_quotes(word), things));
 }
 
 /// Throws MeshError where the rest of the text cannot hold as much, before memory is taken for it.
@@ -72,7 +72,7 @@ Header read_header(TextScanner& in) {
   in.find_word();
   std::string_view word = in.word();
   if (names_other_dimension(word)) {
-    in.refuse(fmt::format("{} announces points of another dimension than three", quoted(word)));
+    in.refuse(fmt::format("{} announces points of another dimension than three", in_quotes(word)));
   }
   const std::optional<Columns> columns = parse_keyword(word);
   if (columns) {
@@ -142,7 +142,7 @@ PolygonMesh read_off(std::string_view text) {
   read_faces(in, header.faces, mesh);
   if (in.find_word()) {
     in.refuse(fmt::format("{} follows behind the {} vertices and {} faces that the header promises",
-                          quoted(in.word()), header.vertices, header.faces));
+                          in_quotes(in.word()), header.vertices, header.faces));
   }
   return mesh;
 }

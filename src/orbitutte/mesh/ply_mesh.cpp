@@ -19,7 +19,7 @@ namespace {
 constexpr int strip_end = -1;
 
 // The coordinates are found first: without them nothing in the file bounds the count.
-Points to_points(const PlyElement& vertex) {
+Points positions(const PlyElement& vertex) {
   std::array<const PlyProperty*, 3> axes = {};
   for (int k = 0; k < 3; ++k) {
     const char* name = std::array{"x", "y", "z"}[k];
@@ -34,13 +34,13 @@ Points to_points(const PlyElement& vertex) {
   return V;
 }
 
-Points to_colours(const PlyElement& vertex) {
+Points colours(const PlyElement& vertex) {
   const std::optional<PlyChannels> channels = find_channels(vertex);
   if (!channels) return Points(0, 3);
-  Points colours(static_cast<Eigen::Index>(vertex.count), 3);
-  for (Eigen::Index v = 0; v < colours.rows(); ++v)
-    for (int k = 0; k < 3; ++k) colours(v, k) = channel_value(*(*channels)[k], (*channels)[k]->values[v], v);
-  return colours;
+  Points result(static_cast<Eigen::Index>(vertex.count), 3);
+  for (Eigen::Index v = 0; v < result.rows(); ++v)
+    for (int k = 0; k < 3; ++k) result(v, k) = channel_value(*(*channels)[k], (*channels)[k]->values[v], v);
+  return result;
 }
 
 const PlyProperty& index_lists(const PlyElement& element) {
@@ -99,8 +99,8 @@ PolygonMesh to_mesh(const PlyFile& file) {
   const PlyElement* vertex = file.find("vertex");
   if (vertex == nullptr) throw MeshError("there is no element 'vertex'; check that the file holds a mesh");
   PolygonMesh mesh;
-  mesh.V = to_points(*vertex);
-  mesh.colours = to_colours(*vertex);
+  mesh.V = positions(*vertex);
+  mesh.colours = colours(*vertex);
   const PlyElement* faces = file.find("face");
   const PlyElement* strips = file.find("tristrips");
   if (faces != nullptr && faces->count > 0) append_faces(*faces, mesh);

@@ -19,7 +19,7 @@ double read_channel(const TextScanner& in, const TextItem& vertex, std::string_v
   if (error != NumberError::none) in.refuse_number(error, false, word, vertex, channel);
   if (value >= 0 && value <= full_byte) return value;
   in.refuse(fmt::format("{} has the {} {}, which is neither within 0 .. 1 nor within 0 .. 255", shown(vertex),
-                        channel, quoted(word)));
+                        channel, in_quotes(word)));
 }
 
 void require_whole_numbers(const std::vector<double>& channels) {
