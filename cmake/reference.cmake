@@ -11,7 +11,7 @@ file(MAKE_DIRECTORY ${ORBITUTTE_REFERENCE_DIR})
 set(outputs ${ORBITUTTE_MAN_PAGE} ${ORBITUTTE_REFERENCE_DIR}/orbitutte.bash ${ORBITUTTE_REFERENCE_DIR}/_orbitutte
             ${ORBITUTTE_REFERENCE_DIR}/orbitutte.fish)
 add_custom_command(OUTPUT ${outputs} COMMAND orbitutte_reference ${ORBITUTTE_REFERENCE_PAGE} ${ORBITUTTE_REFERENCE_DIR}
-                   DEPENDS ${ORBITUTTE_REFERENCE_PAGE} VERBATIM)
+                   DEPENDS orbitutte_reference ${ORBITUTTE_REFERENCE_PAGE} VERBATIM)
 find_program(GZIP_EXECUTABLE gzip)
 if(GZIP_EXECUTABLE)
   add_custom_command(OUTPUT ${ORBITUTTE_MAN_PAGE}.gz COMMAND ${GZIP_EXECUTABLE} -9nkf ${ORBITUTTE_MAN_PAGE}
