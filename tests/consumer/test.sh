@@ -24,12 +24,14 @@ missing=$(cat "$source"/apps/*.{cpp,h} "$source"/examples/*.cpp | sed -n 's/^#in
           while read -r header; do [ -e "$prefix/include/$header" ] || echo "$header"; done)
 [ -z "$missing" ] || [ "$missing" = orbitutte/output/render.h ] || fail "not installed: $missing"
 (cd "$prefix/include" && find . -name '*.h' | sort -r | sed 's/.*/#include "&"/') >"$scratch/headers.cpp"
-"$cxx" -std=c++20 -fsyntax-only -I"$prefix/include" -isystem /usr/include/eigen3 "$scratch/headers.cpp"
+export PKG_CONFIG_PATH=$library/pkgconfig
+read -r -a flags < <(pkg-config --cflags orbitutte)
+"$cxx" -std=c++20 -fsyntax-only -Wall -Wextra "${flags[@]}" "$scratch/headers.cpp"
 echo "headers: $(wc -l <"$scratch/headers.cpp"), complete"
 
 # What a program depends on, and what it is linked with, lies in the moved prefix.
 uses_moved() {
-  grep -qF "$prefix/include/orbitutte/embed.h" "$1" || fail "$1 does not name the installed headers"
+  grep -q "$prefix/\(.*/\)\?include/orbitutte/embed[.]h" "$1" || fail "$1 does not name the installed headers"
   ! grep -F -e "$source/src" -e "$build" "$1" || fail "$1 names the source tree"
 }
 
@@ -49,7 +51,6 @@ printf 'cmake_minimum_required(VERSION 3.22)\nproject(wrong LANGUAGES NONE)\nfin
 grep -q 'version: 0[.]1[.]' "$scratch/log" || fail "version 0.2 was refused for another reason: $(cat "$scratch/log")"
 echo "find_package: refuses 0.2"
 
-export PKG_CONFIG_PATH=$library/pkgconfig
 static=--static
 [ -e "$library/liborbitutte.a" ] || static=
 read -r -a flags < <(pkg-config --cflags --libs $static orbitutte)
