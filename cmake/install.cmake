@@ -86,16 +86,18 @@ install(TARGETS orbitutte EXPORT orbitutteTargets
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime NAMELINK_COMPONENT development)
 install(EXPORT orbitutteTargets NAMESPACE orbitutte:: DESTINATION ${package_dir} COMPONENT development)
 
-set(zsh_folder site-functions)
-if(CMAKE_INSTALL_PREFIX STREQUAL "/usr" AND EXISTS /etc/debian_version)
-  set(zsh_folder vendor-completions)  # where Debian's zsh looks for what packages bring
+if(ORBITUTTE_BUILD_REFERENCE)
+  set(zsh_folder site-functions)
+  if(CMAKE_INSTALL_PREFIX STREQUAL "/usr" AND EXISTS /etc/debian_version)
+    set(zsh_folder vendor-completions)  # where Debian's zsh looks for what packages bring
+  endif()
+  install(FILES ${ORBITUTTE_MAN_PAGE} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT runtime)
+  install(FILES ${ORBITUTTE_REFERENCE_DIR}/orbitutte.bash RENAME orbitutte
+          DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/bash-completion/completions COMPONENT runtime)
+  install(FILES ${ORBITUTTE_REFERENCE_DIR}/_orbitutte DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/zsh/${zsh_folder} COMPONENT runtime)
+  install(FILES ${ORBITUTTE_REFERENCE_DIR}/orbitutte.fish DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/fish/vendor_completions.d
+          COMPONENT runtime)
 endif()
-install(FILES ${ORBITUTTE_MAN_PAGE} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT runtime)
-install(FILES ${ORBITUTTE_REFERENCE_DIR}/orbitutte.bash RENAME orbitutte
-        DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/bash-completion/completions COMPONENT runtime)
-install(FILES ${ORBITUTTE_REFERENCE_DIR}/_orbitutte DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/zsh/${zsh_folder} COMPONENT runtime)
-install(FILES ${ORBITUTTE_REFERENCE_DIR}/orbitutte.fish DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/fish/vendor_completions.d
-        COMPONENT runtime)
 
 # The package for CMake. Of a static library it also finds what that was linked with.
 set(ORBITUTTE_LINKED "")

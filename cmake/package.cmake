@@ -22,10 +22,11 @@ configure_file(packaging/copyright.in ${ORBITUTTE_GENERATED_DIR}/copyright @ONLY
 install(FILES ${ORBITUTTE_GENERATED_DIR}/copyright DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/orbitutte COMPONENT runtime)
 
 find_program(DPKG_SHLIBDEPS_EXECUTABLE dpkg-shlibdeps)
-if(NOT DPKG_SHLIBDEPS_EXECUTABLE OR NOT GZIP_EXECUTABLE OR BUILD_SHARED_LIBS)
-  message(STATUS "Debian packages: need dpkg-dev and gzip, and a static library (BUILD_SHARED_LIBS=OFF)")
+if(NOT DPKG_SHLIBDEPS_EXECUTABLE OR NOT GZIP_EXECUTABLE OR BUILD_SHARED_LIBS OR NOT ORBITUTTE_BUILD_REFERENCE)
+  message(STATUS "No Debian packages: they need dpkg-dev, gzip, a static library (BUILD_SHARED_LIBS=OFF) and ORBITUTTE_BUILD_REFERENCE")
   return()
 endif()
+set(ORBITUTTE_MAKES_DEB ON)
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME orbitutte)
@@ -36,15 +37,15 @@ set(CPACK_VERBATIM_VARIABLES ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
+set(description
+"Computes seamless, nearly conformal bijections from meshes of spheres, disks
+and projective planes onto spherical orbifolds, with a certificate for each.")
 set(CPACK_DEBIAN_COMMAND_PACKAGE_NAME orbitutte)
 set(CPACK_DEBIAN_COMMAND_PACKAGE_SECTION math)
 set(CPACK_DEBIAN_COMMAND_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_COMMAND_PACKAGE_RECOMMENDS fonts-dejavu-core)
-set(CPACK_COMPONENT_COMMAND_DESCRIPTION "spherical orbifold Tutte embeddings of meshes
- Computes seamless, nearly conformal bijections from meshes of spheres, disks
- and projective planes onto spherical orbifolds, with a certificate for each.
- .
- This package has the command orbitutte.")
+set(CPACK_COMPONENT_COMMAND_DESCRIPTION "${description}
+This package has the command orbitutte.")
 
 # What a program that is linked with the static library is linked with, too.
 set(libraries libeigen3-dev libfmt-dev libssl-dev libtbb-dev libmetis-dev libsuitesparse-dev libmeshoptimizer-dev
@@ -58,12 +59,9 @@ endif()
 list(JOIN libraries ", " CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME liborbitutte-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "spherical orbifold Tutte embeddings of meshes (development files)
- Computes seamless, nearly conformal bijections from meshes of spheres, disks
- and projective planes onto spherical orbifolds, with a certificate for each.
- .
- This package has the headers, the static library, and what find_package() of
- CMake and pkg-config need to find them.")
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "${description}
+This package has the headers, the static library, and what find_package()
+of CMake and pkg-config need to find them.")
 
 # What every Debian package brings; not part of `cmake --install`.
 configure_file(packaging/changelog.in ${ORBITUTTE_GENERATED_DIR}/changelog @ONLY)
