@@ -49,7 +49,7 @@ This package has the command orbitutte.")
 
 # What a program that is linked with the static library is linked with, too.
 set(libraries libeigen3-dev libfmt-dev libssl-dev libtbb-dev libmetis-dev libsuitesparse-dev libmeshoptimizer-dev
-              "liblapack-dev | liblapack.so")
+              "libopenblas-dev | liblapack-dev | liblapack.so")
 if(ORBITUTTE_RENDER)
   list(APPEND libraries libembree-dev libcairo2-dev "pkgconf | pkg-config")
 endif()
