@@ -9,6 +9,16 @@
 
 namespace orbitutte::cli {
 
+/// 4 and 5: the embedding has been written all the same.
+enum ExitCode {
+  succeeded = 0,
+  file_trouble = 1,
+  wrong_usage = 2,
+  unsuitable_mesh = 3,
+  not_converged = 4,
+  not_certified = 5
+};
+
 struct EmbedArguments {
   std::string mesh, orbifold, cones, output, report;
   std::string polygon, spread = "arc-length";

@@ -18,8 +18,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int both_certified = 0, not_certified = 5;
-
 struct Compared {
   Orbifold orbifold;
   EmbedResult result;
@@ -89,7 +87,7 @@ int compare_command(const CompareArguments& arguments) {
   }
   if (!arguments.output.empty()) write_comparison(arguments.output, pictures);
   const bool certified = maps[0].result.certificate.bijective && maps[1].result.certificate.bijective;
-  return certified ? both_certified : not_certified;
+  return certified ? succeeded : not_certified;
 }
 
 }  // namespace orbitutte::cli

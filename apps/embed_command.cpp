@@ -23,8 +23,6 @@
 namespace orbitutte::cli {
 namespace {
 
-enum ExitCode { certified = 0, not_converged = 4, not_certified = 5 };
-
 class Stopwatch {
  public:
   double seconds() const {
@@ -189,7 +187,7 @@ int embed_command(const EmbedArguments& arguments) {
   if (arguments.json) fmt::print("{}", report);
   if (!arguments.quiet) summarize(arguments, result);
   if (result.minimum.termination != Termination::converged) return not_converged;
-  return result.certificate.bijective ? certified : not_certified;
+  return result.certificate.bijective ? succeeded : not_certified;
 }
 
 }  // namespace orbitutte::cli

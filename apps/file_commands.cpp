@@ -24,8 +24,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int accepted = 0, not_converged = 4, rejected = 5;
-
 Check claim(std::string name, bool holds, std::string detail) {
   return {std::move(name), holds, holds ? 0.0 : 1.0, 0, holds ? std::string() : std::move(detail)};
 }
@@ -202,8 +200,8 @@ int verify_command(const VerifyArguments& arguments) {
   if (arguments.theorem2)
     verdict.theorem2 = theorem2_of(triangles, connectivity, weights, embedding, certificate);
   arguments.json ? print_json(verdict) : print_text(verdict);
-  if (!bijective) return rejected;
-  return report.converged ? accepted : not_converged;
+  if (!bijective) return not_certified;
+  return report.converged ? succeeded : not_converged;
 }
 
 int tile_command(const TileArguments& arguments) {
@@ -211,7 +209,7 @@ int tile_command(const TileArguments& arguments) {
   write_tiling(arguments.output, tiling);
   fmt::print(stderr, "{}: {} tiles, {} vertices, {} faces\n", arguments.output, tiling.tiles,
              tiling.mesh.V.rows(), tiling.faces().count());
-  return accepted;
+  return succeeded;
 }
 
 int sample_command(const SampleArguments& arguments) {
@@ -226,7 +224,7 @@ int sample_command(const SampleArguments& arguments) {
   const Mesh mesh = sample_mesh(options);
   write_mesh(arguments.output, mesh);
   fmt::print(stderr, "{}: {} vertices, {} triangles\n", arguments.output, mesh.V.rows(), mesh.F.rows());
-  return accepted;
+  return succeeded;
 }
 
 std::string version_text() {

@@ -13,8 +13,6 @@ namespace {
 
 using namespace orbitutte::cli;
 
-enum ExitCode { file_trouble = 1, wrong_usage = 2, unsuitable_mesh = 3 };
-
 int complain(const char* message, ExitCode code) {
   fmt::print(stderr, "orbitutte: {}\n", message);
   return code;

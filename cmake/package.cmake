@@ -18,7 +18,7 @@ endif()
 if(TARGET orbitutte::MUMPS AND TARGET orbitutte::CHOLMOD)
   string(APPEND ORBITUTTE_BINARY_LICENCE " Whether the GPL allows that\n is doubtful: this binary is not to be passed on.")
 endif()
-configure_file(packaging/copyright.in ${ORBITUTTE_GENERATED_DIR}/copyright @ONLY)
+configure_file(packaging/copyright ${ORBITUTTE_GENERATED_DIR}/copyright @ONLY)
 install(FILES ${ORBITUTTE_GENERATED_DIR}/copyright DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/orbitutte COMPONENT runtime)
 
 find_program(DPKG_SHLIBDEPS_EXECUTABLE dpkg-shlibdeps)
@@ -64,7 +64,7 @@ This package has the headers, the static library, and what find_package()
 of CMake and pkg-config need to find them.")
 
 # What every Debian package brings; not part of `cmake --install`.
-configure_file(packaging/changelog.in ${ORBITUTTE_GENERATED_DIR}/changelog @ONLY)
+configure_file(packaging/changelog ${ORBITUTTE_GENERATED_DIR}/changelog @ONLY)
 execute_process(COMMAND ${GZIP_EXECUTABLE} -9nkf ${ORBITUTTE_GENERATED_DIR}/changelog COMMAND_ERROR_IS_FATAL ANY)
 install(FILES ${ORBITUTTE_GENERATED_DIR}/changelog.gz DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/orbitutte
         COMPONENT debian_runtime EXCLUDE_FROM_ALL)

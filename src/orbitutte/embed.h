@@ -3,35 +3,22 @@
 // page.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "orbitutte/mesh/cut.h"
 #include "orbitutte/mesh/weights.h"
 #include "orbitutte/orbifold/embedding.h"
 #include "orbitutte/orbifold/signature.h"
+#include "orbitutte/progress.h"
 #include "orbitutte/solve/boundary_arcs.h"
 #include "orbitutte/solve/lbfgs.h"
 #include "orbitutte/verify/certificate.h"
 #include "orbitutte/verify/distortion.h"
 
 namespace orbitutte {
-
-/// Where the computation is. `iteration`, `energy` and `gradient_norm` mean something in the stage "optimize"
-/// only.
-struct Progress {
-  std::string stage;  ///< "validate", "weights", "cut", "factorize", "initialize", "optimize", "certify"
-  int iteration = 0;
-  double energy = 0;
-  double gradient_norm = 0;
-};
-
-/// Returning false cancels: embed throws Cancelled.
-using ProgressCallback = std::function<bool(const Progress&)>;
 
 struct EmbedOptions {
   WeightOptions weights;
@@ -44,9 +31,6 @@ struct EmbedOptions {
   int threads = 0;  ///< 0: as many as the machine has; results do not depend on it
   ProgressCallback progress;
 };
-
-/// Wall-clock seconds per stage, in the order in which they ran; a stage that ran again has further entries.
-using Timings = std::vector<std::pair<std::string, double>>;
 
 struct EmbedResult {
   Embedding embedding;

@@ -42,7 +42,7 @@ long long index_of_corner(const TextScanner& in, const TextItem& face, std::stri
   if (error != NumberError::none) in.refuse_number(error, true, corner, face, "index");
   if (slash != corner.npos && !is_texture_and_normal(corner.substr(slash + 1))) {
     in.refuse(fmt::format("face {} has the corner {}, which is none of v, v/vt, v//vn, v/vt/vn", face.number,
-                          quoted(corner)));
+                          in_quotes(corner)));
   }
   if (index > std::numeric_limits<int>::max() + 1LL) {
     in.refuse_number(NumberError::out_of_range, true, corner, face, "index");

@@ -35,7 +35,7 @@ int to_count(const TextScanner& in, std::string_view word, std::string_view thin
   int count = 0;
   if (parse_number(word, count) == NumberError::none && count >= 0) return count;
   if (word.empty()) in.refuse(fmt::format("the header lacks the number of {}", things));
-  in.refuse(fmt::format("the header has {} where the number of {} belongs", quoted(word), things));
+  in.refuse(fmt::format("the header has {} where the number of {} belongs", in_quotes(word), things));
 }
 
 /// Throws MeshError where the rest of the text cannot hold as much, before memory is taken for it.
@@ -54,7 +54,7 @@ Counts read_header(TextScanner& in) {
   in.find_word();
   std::string_view word = in.word();
   if (names_other_dimension(word)) {
-    in.refuse(fmt::format("{} announces points of another dimension than three", quoted(word)));
+    in.refuse(fmt::format("{} announces points of another dimension than three", in_quotes(word)));
   }
   const bool has_keyword = is_off_keyword(word);
   if (has_keyword) {
@@ -113,7 +113,7 @@ PolygonMesh read_off(std::string_view text) {
   read_faces(in, counts.faces, mesh);
   if (in.find_word()) {
     in.refuse(fmt::format("{} follows behind the {} vertices and {} faces that the header promises",
-                          quoted(in.word()), counts.vertices, counts.faces));
+                          in_quotes(in.word()), counts.vertices, counts.faces));
   }
   return mesh;
 }

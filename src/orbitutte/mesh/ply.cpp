@@ -45,13 +45,13 @@ class AsciiValues {
 
   void end(const TextItem& item) {
     if (!in_.find_word_in_line()) return;
-    in_.refuse(fmt::format("{} follows behind the last property of {}", quoted(in_.word()), shown(item)));
+    in_.refuse(fmt::format("{} follows behind the last property of {}", in_quotes(in_.word()), shown(item)));
   }
 
   void end_of_file() {
     if (!in_.find_word()) return;
     in_.refuse(
-        fmt::format("{} follows behind the last element that the header promises", quoted(in_.word())));
+        fmt::format("{} follows behind the last element that the header promises", in_quotes(in_.word())));
   }
 
   [[noreturn]] void refuse(std::string_view problem) const { in_.refuse(problem); }
@@ -99,7 +99,7 @@ class BinaryValues {
  private:
   const char* take(std::size_t size, const TextItem& item, std::string_view property) {
     if (bytes_.size() - at_ < size) {
-      refuse(fmt::format("the file ends within {}, property {}", shown(item), quoted(property)));
+      refuse(fmt::format("the file ends within {}, property {}", shown(item), in_quotes(property)));
     }
     at_ += size;
     return bytes_.data() + at_ - size;
@@ -114,7 +114,7 @@ template <class Values>
 void read_list(Values& in, const TextItem& item, PlyProperty& property) {
   const double length = in.next(property.count_type, item, "list length");
   if (length < 0) {
-    in.refuse(fmt::format("{} has a list {} of length {}", shown(item), quoted(property.name), length));
+    in.refuse(fmt::format("{} has a list {} of length {}", shown(item), in_quotes(property.name), length));
   }
   in.append_list(property.values, static_cast<std::size_t>(length), property.type, item, property.name);
   property.list_start.push_back(property.values.size());

@@ -48,7 +48,7 @@ PlyType to_type(const TextScanner& in, std::string_view word) {
   for (const TypeRow& row : types) {
     if (word == row.name || word == row.other_name) return row.type;
   }
-  in.refuse(fmt::format("{} is no type of a PLY property", quoted(word)));
+  in.refuse(fmt::format("{} is no type of a PLY property", in_quotes(word)));
 }
 
 std::string read_name(TextScanner& in, std::string_view owner) {
@@ -67,7 +67,7 @@ void read_format(TextScanner& in, PlyHeader& header) {
     header.byte_order = std::endian::big;
   } else {
     in.refuse(fmt::format("the format {} is none of ascii, binary_little_endian and binary_big_endian",
-                          quoted(word)));
+                          in_quotes(word)));
   }
 }
 
@@ -75,10 +75,10 @@ PlyElement read_element(TextScanner& in) {
   PlyElement element;
   element.name = read_name(in, "element");
   const std::string_view count = in.word();
-  if (count.empty()) in.refuse(fmt::format("the element {} has no count", quoted(element.name)));
+  if (count.empty()) in.refuse(fmt::format("the element {} has no count", in_quotes(element.name)));
   if (parse_number(count, element.count) != NumberError::none) {
-    in.refuse(
-        fmt::format("the element {} has the count {}, which is none", quoted(element.name), quoted(count)));
+    in.refuse(fmt::format("the element {} has the count {}, which is none", in_quotes(element.name),
+                          in_quotes(count)));
   }
   return element;
 }
@@ -110,7 +110,7 @@ void read_line(TextScanner& in, std::string_view keyword, PlyHeader& header) {
     if (file.elements.empty()) in.refuse("a property stands before the first element");
     file.elements.back().properties.push_back(read_property(in));
   } else if (keyword != "ply" && keyword != "obj_info" && keyword != "end_header") {
-    in.refuse(fmt::format("{} is no keyword of a PLY header", quoted(keyword)));
+    in.refuse(fmt::format("{} is no keyword of a PLY header", in_quotes(keyword)));
   }
   in.rest_of_line();
 }
@@ -136,7 +136,7 @@ void check_promises(const PlyHeader& header, std::size_t data_size) {
           fmt::format("the header promises {} elements {}, more than the rest of the file can hold, so that "
                       "the file is cut short "
                       "or its header wrong; export it again",
-                      element.count, quoted(element.name)));
+                      element.count, in_quotes(element.name)));
     }
     left -= element.count * least;
   }

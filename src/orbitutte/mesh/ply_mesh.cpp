@@ -18,7 +18,7 @@ namespace {
 constexpr int strip_end = -1;
 
 // The coordinates are found first: without them nothing in the file bounds the count.
-Points to_points(const PlyElement& vertex) {
+Points positions(const PlyElement& vertex) {
   std::array<const PlyProperty*, 3> axes = {};
   for (int k = 0; k < 3; ++k) {
     const char* name = std::array{"x", "y", "z"}[k];
@@ -89,7 +89,7 @@ PolygonMesh to_mesh(const PlyFile& file) {
   const PlyElement* vertex = file.find("vertex");
   if (vertex == nullptr) throw MeshError("there is no element 'vertex'; check that the file holds a mesh");
   PolygonMesh mesh;
-  mesh.V = to_points(*vertex);
+  mesh.V = positions(*vertex);
   const PlyElement* faces = file.find("face");
   const PlyElement* strips = file.find("tristrips");
   if (faces != nullptr && faces->count > 0) append_faces(*faces, mesh);

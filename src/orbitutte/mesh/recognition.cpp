@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <atomic>
 #include <limits>
+#include <stdexcept>
 
 #include "orbitutte/mesh/disjoint_sets.h"
+#include "orbitutte/mesh/inspection.h"
 #include "orbitutte/parallel.h"
 
 namespace orbitutte {
@@ -129,6 +131,27 @@ std::optional<SoundSurface> recognize(const Mesh& mesh) {
     return is_degenerate(mesh.V.row(mesh.F(f, 0)), mesh.V.row(mesh.F(f, 1)), mesh.V.row(mesh.F(f, 2))) ? 1.0
                                                                                                        : 0.0;
   }));
+  return result;
+}
+
+SoundSurface require_surface(const Mesh& mesh) {
+  if (std::optional<SoundSurface> surface = recognize(mesh)) return std::move(*surface);
+  const Inspection inspection = inspect(mesh);
+  require_embeddable(inspection);
+  if (inspection.topology != Topology::projective_plane)
+    throw std::logic_error("a mesh without defects was not recognised");
+  return {inspection.topology, connect(mesh.F, inspection.vertices), inspection.unreferenced_vertices,
+          inspection.zero_area_faces};
+}
+
+DividedMesh divide(const PolygonMesh& mesh) {
+  const Inspection inspection = inspect(mesh);
+  require_embeddable(inspection);
+  DividedMesh result;
+  result.triangulation = triangulate(mesh);
+  result.triangles = {mesh.V, on_vertices(result.triangulation, mesh.corners)};
+  result.surface = {inspection.topology, connect(mesh, result.triangulation),
+                    inspection.unreferenced_vertices, inspection.zero_area_faces};
   return result;
 }
 

@@ -107,7 +107,7 @@ void expect(TextScanner& in, std::string_view keyword, const TextItem& facet) {
   }
   const std::string_view word = in.word();
   if (equal_in_any_case(word, keyword)) return;
-  in.refuse(fmt::format("facet {} has {} where '{}' belongs", facet.number, quoted(word), keyword));
+  in.refuse(fmt::format("facet {} has {} where '{}' belongs", facet.number, in_quotes(word), keyword));
 }
 
 /// What follows behind the word `facet`.
@@ -136,7 +136,7 @@ void read_solid(TextScanner& in, Welder& welder, PolygonMesh& mesh) {
     const std::string_view word = in.word();
     if (equal_in_any_case(word, "endsolid")) break;
     if (!equal_in_any_case(word, "facet")) {
-      in.refuse(fmt::format("{} stands where 'facet' or 'endsolid' belongs", quoted(word)));
+      in.refuse(fmt::format("{} stands where 'facet' or 'endsolid' belongs", in_quotes(word)));
     }
     read_facet(in, welder, mesh);
   }
@@ -150,7 +150,7 @@ PolygonMesh read_ascii(std::string_view text) {
   while (in.find_word()) {
     const std::string_view word = in.word();
     if (!equal_in_any_case(word, "solid")) {
-      in.refuse(fmt::format("{} stands where 'solid' belongs", quoted(word)));
+      in.refuse(fmt::format("{} stands where 'solid' belongs", in_quotes(word)));
     }
     read_solid(in, welder, mesh);
   }

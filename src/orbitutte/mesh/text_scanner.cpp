@@ -42,7 +42,7 @@ std::string shown(std::string_view word) {
   return text;
 }
 
-std::string quoted(std::string_view word) { return fmt::format("'{}'", shown(word)); }
+std::string in_quotes(std::string_view word) { return fmt::format("'{}'", shown(word)); }
 
 std::string shown(const TextItem& item) { return fmt::format("{} {}", shown(item.element), item.number); }
 
@@ -122,7 +122,7 @@ void TextScanner::refuse_number(NumberError error, bool is_integer, std::string_
   const std::string_view why = error == NumberError::out_of_range ? "is out of range"
                                : is_integer                       ? "is no integer"
                                                                   : "is no number";
-  refuse(fmt::format("{} has the {} {}, which {}", shown(item), shown(what), quoted(text), why));
+  refuse(fmt::format("{} has the {} {}, which {}", shown(item), shown(what), in_quotes(text), why));
 }
 
 void TextScanner::refuse(std::string_view problem) const {

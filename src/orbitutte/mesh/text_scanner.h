@@ -33,7 +33,7 @@ NumberError parse_number(std::string_view word, T& value) {
 std::string shown(std::string_view word);
 
 /// The same in quotes.
-std::string quoted(std::string_view word);
+std::string in_quotes(std::string_view word);
 
 /// What a number of the text belongs to: {"face", 3}.
 struct TextItem {

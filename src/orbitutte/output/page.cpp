@@ -35,7 +35,7 @@ const Json& at(const Json& report, const char* path) {
   return report.contains(pointer) ? report.at(pointer) : nothing;
 }
 
-double number(const Json& report, const char* path) {
+double number_at(const Json& report, const char* path) {
   const Json& value = at(report, path);
   return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
 }
@@ -171,13 +171,14 @@ std::string figure(const std::string& name, const std::string& value) {
 
 std::string key_figures(const Json& report, const Embedding& embedding) {
   const double conformal = 8 * std::numbers::pi / embedding.group_order;
-  return figure("angle distortion, mean", measure_html(number(report, "/distortion/angle/mean"))) +
-         figure("area distortion, median", measure_html(number(report, "/distortion/area/median"))) +
-         figure("energy", measure_html(number(report, "/energy"))) +
-         figure("energy over that of a conformal map", measure_html(number(report, "/energy") / conformal)) +
+  return figure("angle distortion, mean", measure_html(number_at(report, "/distortion/angle/mean"))) +
+         figure("area distortion, median", measure_html(number_at(report, "/distortion/area/median"))) +
+         figure("energy", measure_html(number_at(report, "/energy"))) +
+         figure("energy over that of a conformal map",
+                measure_html(number_at(report, "/energy") / conformal)) +
          figure("iterations", figure_html(report, "/iterations")) +
-         figure("time in all", measure_html(number(report, "/timings/total"), " s")) +
-         figure("peak memory", measure_html(number(report, "/peak_memory_bytes") / 1e6, " MB"));
+         figure("time in all", measure_html(number_at(report, "/timings/total"), " s")) +
+         figure("peak memory", measure_html(number_at(report, "/peak_memory_bytes") / 1e6, " MB"));
 }
 
 std::string certificate_table(const Certificate& certificate) {
@@ -303,7 +304,7 @@ std::string seams_table(const Embedding& embedding) {
 
 std::string timings(const Json& report) {
   const Json& stages = at(report, "/timings");
-  const double total = number(report, "/timings/total");
+  const double total = number_at(report, "/timings/total");
   std::string rows;
   if (stages.is_object())
     for (const auto& [stage, seconds] : stages.items())
