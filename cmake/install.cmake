@@ -36,6 +36,7 @@ endfunction()
 orbitutte_close_over_includes(ORBITUTTE_HEADERS)
 
 foreach(header IN LISTS ORBITUTTE_HEADERS)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS src/${header})  # it may include further ones
   get_filename_component(folder ${header} DIRECTORY)
   install(FILES src/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${folder} COMPONENT development)
 endforeach()
