@@ -21,6 +21,9 @@ endif()
 configure_file(packaging/copyright ${ORBITUTTE_GENERATED_DIR}/copyright @ONLY)
 install(FILES ${ORBITUTTE_GENERATED_DIR}/copyright DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/orbitutte COMPONENT runtime)
 
+if(NOT PROJECT_IS_TOP_LEVEL)
+  return()  # packages are then the other project's
+endif()
 find_program(DPKG_SHLIBDEPS_EXECUTABLE dpkg-shlibdeps)
 find_program(FILE_EXECUTABLE file)
 if(NOT DPKG_SHLIBDEPS_EXECUTABLE OR NOT FILE_EXECUTABLE OR NOT GZIP_EXECUTABLE OR BUILD_SHARED_LIBS OR NOT ORBITUTTE_BUILD_REFERENCE)
