@@ -9,7 +9,7 @@ include(CheckLinkerFlag)
 set(ORBITUTTE_HEADERS embed memory types
     mesh/corner_file mesh/extremities mesh/file mesh/inspection mesh/mesh_io mesh/sample mesh/triangulation mesh/weak_places mesh/weights
     orbifold/families orbifold/polygon orbifold/signature orbifold/symmetry_group orbifold/tile
-    output/comparison output/embedding_file output/export output/page output/report output/tiling
+    output/comparison output/cut_triangles output/embedding_file output/export output/page output/report output/tiling
     solve/sparse_factor verify/certificate verify/distortion verify/energy verify/theorem2)
 if(ORBITUTTE_RENDER)
   list(APPEND ORBITUTTE_HEADERS output/render)
