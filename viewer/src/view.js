@@ -91,7 +91,7 @@ export class View {
   // Those of all copies but the tile itself.
   outlines(panel, colour) {
     const matrices = this.scene.copies.slice(1).map(({matrix}) => matrix);
-    return outlineCopies(panel, {positions: this.scene.image, ends: this.copyOutline, matrices, width: 1, colour});
+    return outlineCopies(panel, {positions: this.scene.image, ends: this.copyOutline, matrices, width: 1.4, colour});
   }
 
   // Around the tile, the outlines of the other copies; a ball without colour hides those behind it.
