@@ -442,7 +442,9 @@ TEST_F(TilingFiles, GlbHasOnePrimitivePerColourOnSharedVertices) {
     ASSERT_EQ(count % 3, 0u);
     const std::size_t start = view.value("byteOffset", std::size_t{0});
     for (std::size_t i = 0; i < count; i += 3) {
-      const auto index = [&](std::size_t k) { return number_at<int>(binary, start + 4 * (i + k)); };
+      const auto index = [start = start + 4 * i, &bytes = binary](std::size_t k) {
+        return number_at<int>(bytes, start + 4 * k);
+      };
       triangles.insert({index(0), index(1), index(2)});
     }
   }

@@ -43,7 +43,6 @@ class Lifting {
   Lifting(const Embedding& embedding, const SymmetryGroup& group)
       : stabilizers(group_vertices(embedding)),
         lift(embedding.source_vertex.size(), unknown),
-        embedding_(embedding),
         group_(group),
         passages_(passages(embedding)) {
     for (int v = 0; v < static_cast<int>(stabilizers.size()); ++v) follow_seams(v);
@@ -92,7 +91,6 @@ class Lifting {
     }
   }
 
-  const Embedding& embedding_;
   const SymmetryGroup& group_;
   std::vector<std::vector<Passage>> passages_;
 };
