@@ -161,6 +161,17 @@ void print_text(const Verdict& verdict) {
   if (verdict.theorem2) print_theorem2(*verdict.theorem2);
 }
 
+// What the binary may be passed on under: docs/licences.md.
+std::string licence_text(Backend backend, InertiaMethod inertia) {
+  const bool gpl = backend == Backend::cholmod, mumps = inertia == InertiaMethod::mumps;
+  std::string text = gpl ? "sources MIT; this binary GPL-3.0-or-later: CHOLMOD's supernodal module is "
+                           "GPL-2.0-or-later, and other libraries are Apache-2.0"
+                         : "MIT (with Eigen, MPL-2.0)";
+  if (mumps) text += "; MUMPS CeCILL-C";
+  if (gpl && mumps) text += ", doubtful beside the GPL: not to be passed on";
+  return text;
+}
+
 }  // namespace
 
 int verify_command(const VerifyArguments& arguments) {
@@ -218,13 +229,10 @@ int sample_command(const SampleArguments& arguments) {
 
 std::string version_text() {
   const Backend backend = available_backends().front();
-  const bool gpl = backend == Backend::cholmod;
   const InertiaMethod inertia = available_inertia_methods().front();
-  return fmt::format("orbitutte {} ({})\nlinear algebra: {}, BLAS: {}; inertia: {}\nlicence: {}{}", version,
+  return fmt::format("orbitutte {} ({})\nlinear algebra: {}, BLAS: {}; inertia: {}\nlicence: {}", version,
                      commit, name(backend), blas_description(), name(inertia),
-                     gpl ? "sources MIT; this binary GPL-2.0-or-later through CHOLMOD's supernodal module"
-                         : "MIT (with Eigen, MPL-2.0)",
-                     inertia == InertiaMethod::mumps ? "; MUMPS CeCILL-C" : "");
+                     licence_text(backend, inertia));
 }
 
 }  // namespace orbitutte::cli

@@ -4,6 +4,7 @@
 #include <exception>
 #include <new>
 
+#include "command_line.h"
 #include "commands.h"
 #include "orbitutte/memory.h"
 #include "orbitutte/types.h"
@@ -195,12 +196,11 @@ void add_sample(CLI::App& app, int& code) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  orbitutte::keep_freed_memory();
-  CLI::App app("orbitutte: spherical orbifold Tutte embeddings", "orbitutte");
+namespace orbitutte::cli {
+
+void add_commands(CLI::App& app, int& code) {
   app.set_version_flag("--version", version_text());
   app.require_subcommand(1);
-  int code = 0;
   add_embed(app, code);
   add_info(app, code);
   add_types(app, code);
@@ -211,6 +211,12 @@ int main(int argc, char** argv) {
   add_report(app, code);
   add_compare(app, code);
   add_sample(app, code);
+}
+
+int run_command_line(int argc, char** argv) {
+  CLI::App app("orbitutte: spherical orbifold Tutte embeddings", "orbitutte");
+  int code = 0;
+  add_commands(app, code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -220,3 +226,5 @@ int main(int argc, char** argv) {
   }
   return code;
 }
+
+}  // namespace orbitutte::cli

@@ -9,6 +9,13 @@
 #include <utility>
 #include <vector>
 
+// Matrices pass between the library and programs, and Eigen allocates them by the vector instructions that
+// each is compiled for. An installed library says what it has.
+#ifdef ORBITUTTE_EIGEN_ALIGNMENT
+static_assert(EIGEN_DEFAULT_ALIGN_BYTES == ORBITUTTE_EIGEN_ALIGNMENT,
+              "orbitutte was compiled for other vector instructions: build both with the same -march");
+#endif
+
 namespace orbitutte {
 
 using Vector3 = Eigen::Vector3d;

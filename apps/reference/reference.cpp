@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "reference.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <map>
+#include <stdexcept>
+
+namespace orbitutte::cli {
+namespace {
+
+// The words that shells offer after an option. The program itself judges values, and says in an option's
+// description what they may be.
+const std::map<std::string, std::vector<std::string>> words_of_options = {
+    {"--cones", {"auto"}},
+    {"--weights", {"standard", "cotan", "delaunay", "mean-value", "uniform"}},
+    {"--spread", {"arc-length", "equidistant"}},
+    {"--chart", {"stereographic", "equirectangular", "octahedral"}},
+    {"--panel", {"source", "sphere", "area", "angle", "checkerboard", "histogram", "convergence", "sheet"}},
+    {"--view", {"front", "back", "left", "right", "top", "bottom"}},
+    {"--up", {"x", "y", "z", "-x", "-y", "-z"}},
+    {"--shape", {"figure", "mask", "boy", "roman", "crosscap", "quotient"}}};
+
+std::vector<std::string> choices_of(const OptionReference& option) {
+  const auto found = words_of_options.find(option.names.back());
+  if (found == words_of_options.end()) return {};
+  if (option.description.starts_with("As of ")) return found->second;
+  for (const std::string& word : found->second)
+    if (option.description.find(word) == std::string::npos)
+      throw std::logic_error(fmt::format("{} is completed with '{}', but its description does not name that",
+                                         option.names.back(), word));
+  return found->second;
+}
+
+OptionReference reference_of(const CLI::Option& option) {
+  OptionReference reference;
+  for (const std::string& name : option.get_snames()) reference.names.push_back("-" + name);
+  for (const std::string& name : option.get_lnames()) reference.names.push_back("--" + name);
+  if (option.get_positional()) reference.names = {option.get_single_name()};
+  if (option.get_type_size() != 0) reference.value = option.get_type_name();
+  reference.standard = option.get_default_str();
+  reference.description = option.get_description();
+  reference.required = option.get_required();
+  reference.choices = choices_of(reference);
+  return reference;
+}
+
+}  // namespace
+
+std::vector<CommandReference> reference_of(const CLI::App& app) {
+  std::vector<CommandReference> commands;
+  for (const CLI::App* command : app.get_subcommands(std::function<bool(const CLI::App*)>())) {
+    commands.push_back({command->get_name(), command->get_description(), {}, {}});
+    for (const CLI::Option* option : command->get_options())
+      (option->get_positional() ? commands.back().positionals : commands.back().options)
+          .push_back(reference_of(*option));
+  }
+  return commands;
+}
+
+}  // namespace orbitutte::cli

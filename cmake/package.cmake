@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: MIT
+# Debian packages by `cpack` in the build folder: orbitutte, the command, and liborbitutte-dev, which is for programs that use it.
+# Such packages are passed on, so the preset `package` leaves out what may not be (docs/licences.md), and installs into /usr.
+set(ORBITUTTE_PACKAGE_CONTACT "The orbitutte authors <orbitutte@orbitutte.invalid>" CACHE STRING "Maintainer of the packages that cpack makes")
+
+# What copyright says of the binary; `orbitutte --version` says the same.
+set(ORBITUTTE_BINARY_LICENCE " MIT, with libraries under permissive licences and the LGPL.")
+if(TARGET orbitutte::CHOLMOD)
+  set(ORBITUTTE_BINARY_LICENCE
+" GPL-3.0-or-later. Its sources are under the MIT licence, but it is linked with CHOLMOD, whose
+ supernodal module is under the GPL, version 2 or later, and with libraries under the Apache
+ licence 2.0 (METIS, oneTBB, OpenSSL, Embree), which only version 3 of the GPL allows. On Debian
+ systems, the full text of the GPL is in /usr/share/common-licenses/GPL-3.")
+endif()
+if(TARGET orbitutte::MUMPS)
+  string(APPEND ORBITUTTE_BINARY_LICENCE "\n It is also linked with MUMPS, which is under CeCILL-C.")
+endif()
+if(TARGET orbitutte::MUMPS AND TARGET orbitutte::CHOLMOD)
+  string(APPEND ORBITUTTE_BINARY_LICENCE " Whether the GPL allows that\n is doubtful: this binary is not to be passed on.")
+endif()
+configure_file(packaging/copyright.in ${ORBITUTTE_GENERATED_DIR}/copyright @ONLY)
+install(FILES ${ORBITUTTE_GENERATED_DIR}/copyright DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/orbitutte COMPONENT runtime)
+
+find_program(DPKG_SHLIBDEPS_EXECUTABLE dpkg-shlibdeps)
+if(NOT DPKG_SHLIBDEPS_EXECUTABLE OR NOT GZIP_EXECUTABLE OR BUILD_SHARED_LIBS)
+  message(STATUS "Debian packages: need dpkg-dev and gzip, and a static library (BUILD_SHARED_LIBS=OFF)")
+  return()
+endif()
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME orbitutte)
+set(CPACK_PACKAGE_CONTACT "${ORBITUTTE_PACKAGE_CONTACT}")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_VERBATIM_VARIABLES ON)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
+set(CPACK_DEBIAN_COMMAND_PACKAGE_NAME orbitutte)
+set(CPACK_DEBIAN_COMMAND_PACKAGE_SECTION math)
+set(CPACK_DEBIAN_COMMAND_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_COMMAND_PACKAGE_RECOMMENDS fonts-dejavu-core)
+set(CPACK_COMPONENT_COMMAND_DESCRIPTION "spherical orbifold Tutte embeddings of meshes
+ Computes seamless, nearly conformal bijections from meshes of spheres, disks
+ and projective planes onto spherical orbifolds, with a certificate for each.
+ .
+ This package has the command orbitutte.")
+
+# What a program that is linked with the static library is linked with, too.
+set(libraries libeigen3-dev libfmt-dev libssl-dev libtbb-dev libmetis-dev libsuitesparse-dev libmeshoptimizer-dev
+              "liblapack-dev | liblapack.so")
+if(ORBITUTTE_RENDER)
+  list(APPEND libraries libembree-dev libcairo2-dev "pkgconf | pkg-config")
+endif()
+if(TARGET orbitutte::MUMPS)
+  list(APPEND libraries libmumps-seq-dev)
+endif()
+list(JOIN libraries ", " CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME liborbitutte-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "spherical orbifold Tutte embeddings of meshes (development files)
+ Computes seamless, nearly conformal bijections from meshes of spheres, disks
+ and projective planes onto spherical orbifolds, with a certificate for each.
+ .
+ This package has the headers, the static library, and what find_package() of
+ CMake and pkg-config need to find them.")
+
+# What every Debian package brings; not part of `cmake --install`.
+configure_file(packaging/changelog.in ${ORBITUTTE_GENERATED_DIR}/changelog @ONLY)
+execute_process(COMMAND ${GZIP_EXECUTABLE} -9nkf ${ORBITUTTE_GENERATED_DIR}/changelog COMMAND_ERROR_IS_FATAL ANY)
+install(FILES ${ORBITUTTE_GENERATED_DIR}/changelog.gz DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/orbitutte
+        COMPONENT debian_runtime EXCLUDE_FROM_ALL)
+install(FILES ${ORBITUTTE_GENERATED_DIR}/changelog.gz ${ORBITUTTE_GENERATED_DIR}/copyright
+        DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/liborbitutte-dev COMPONENT debian_development EXCLUDE_FROM_ALL)
+set(CPACK_COMPONENTS_ALL runtime debian_runtime development debian_development)
+set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)
+include(CPack)
+cpack_add_component_group(command)
+cpack_add_component_group(development)
+cpack_add_component(runtime GROUP command)
+cpack_add_component(debian_runtime GROUP command)
+cpack_add_component(development GROUP development)
+cpack_add_component(debian_development GROUP development)
