@@ -9,30 +9,9 @@
 #include "orbitutte/mesh/inspection.h"
 #include "orbitutte/mesh/mesh_io.h"
 #include "orbitutte/mesh/triangulation.h"
+#include "orbitutte/output/embedding_file.h"
 
 namespace orbitutte::cli {
-namespace {
-
-// The triangles of the cut mesh's polygons, as those of the input's were divided. Where a polygon was turned
-// over, its corners run the other way from the first on, and its triangles do, too.
-Faces cut_triangles(const Triangulation& triangulation, const PolygonMesh& mesh, const Embedding& embedding) {
-  std::vector<int> corners = embedding.polygons.corners;
-  std::vector<char> turned(mesh.face_count(), 0);
-  for (int f = 0; f < mesh.face_count(); ++f) {
-    const int first = mesh.face_start[f];
-    turned[f] = embedding.source_vertex[corners[first + 1]] != mesh.corners[first + 1];
-    if (turned[f]) std::reverse(corners.begin() + first + 1, corners.begin() + mesh.face_start[f + 1]);
-  }
-  Faces triangles = on_vertices(triangulation, corners);
-  int row = 0;
-  for (int f = 0; f < mesh.face_count(); ++f)
-    for (int k = 2; k < mesh.face_degree(f); ++k, ++row)
-      if (turned[f]) std::swap(triangles(row, 1), triangles(row, 2));
-  return triangles;
-}
-
-}  // namespace
-
 std::vector<int> parse_cones(const std::string& text) {
   std::vector<int> cones;
   for (std::size_t from = 0; from <= text.size();) {
@@ -62,7 +41,7 @@ Mesh read_in_triangles(const std::string& path, Embedding& embedding) {
   if (is_triangle_mesh(mesh)) return to_triangle_mesh(std::move(mesh));
   const Triangulation triangulation = triangulate(mesh);
   if (embedding.polygons.start == mesh.face_start)
-    embedding.faces = cut_triangles(triangulation, mesh, embedding);
+    embedding.faces = cut_triangles(mesh, triangulation, embedding);
   return {std::move(mesh.V), on_vertices(triangulation, mesh.corners)};
 }
 

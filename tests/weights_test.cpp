@@ -331,10 +331,9 @@ RC_GTEST_PROP(WeightFile, ReadsBackEveryDoubleThatWasWritten, (std::uint32_t see
 }
 
 TEST(WeightFile, LinesForNoEdgeAreRefused) {
-  EXPECT_EQ(refusal(six_lines + "0 4 1\n"), "line 7: (0, 4) is no edge of the mesh; remove the line");
-  EXPECT_EQ(refusal("# i j w\n2 2 1\n" + six_lines),
-            "line 2: (2, 2) is no edge of the mesh; remove the line");
-  EXPECT_EQ(refusal("0 -1 1\n"), "line 1: (0, -1) is no edge of the mesh; remove the line");
+  EXPECT_EQ(refusal(six_lines + "0 4 1\n"), "line 7: (0, 4) is no edge of the mesh; leave it out");
+  EXPECT_EQ(refusal("# i j w\n2 2 1\n" + six_lines), "line 2: (2, 2) is no edge of the mesh; leave it out");
+  EXPECT_EQ(refusal("0 -1 1\n"), "line 1: (0, -1) is no edge of the mesh; leave it out");
 }
 
 TEST(WeightFile, EdgesGivenTwiceAreRefused) {

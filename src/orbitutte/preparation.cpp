@@ -15,7 +15,8 @@ namespace {
 void require_weights_of_polygons(const EmbedOptions& options) {
   using enum WeightKind;
   const WeightKind kind = options.weights.kind;
-  if (!options.weights_file.empty() || kind == standard || kind == cotan || kind == uniform) return;
+  if (!options.weights_file.empty() || kind == file || kind == standard || kind == cotan || kind == uniform)
+    return;
   throw ArgumentError(fmt::format(
       "{} weights are not there for faces of more than three corners; take cotan or uniform, or a "
       "file of weights",

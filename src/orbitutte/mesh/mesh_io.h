@@ -36,8 +36,13 @@ PolygonMesh read_mesh(const std::string& path);
 /// precision). Throws MeshError where the format is STL and a face names a vertex that is not there.
 std::string serialize_mesh(const Mesh& mesh, MeshFormat format);
 
+/// The same with faces of any number of corners. Throws MeshError where the format is STL and a face is no
+/// triangle.
+std::string serialize_mesh(const PolygonMesh& mesh, MeshFormat format);
+
 /// serialize_mesh to a file in the format that the path's ending names. The file appears whole or not at all.
 /// Throws FileError, ArgumentError and MeshError.
 void write_mesh(const std::string& path, const Mesh& mesh);
+void write_mesh(const std::string& path, const PolygonMesh& mesh);
 
 }  // namespace orbitutte

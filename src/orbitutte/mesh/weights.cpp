@@ -149,6 +149,46 @@ EdgeWeights weights_of_kind(const Mesh& mesh, const Connectivity& connectivity,
   return uniform;
 }
 
+// Weights that are given edge by edge. `place()` tells where one stands, `where` all of them.
+class WeightCollector {
+ public:
+  explicit WeightCollector(const Connectivity& connectivity) : connectivity_(connectivity) {
+    result_.kind = WeightKind::file;
+    result_.w.setConstant(static_cast<Eigen::Index>(connectivity.edges.size()), missing);
+  }
+
+  template <typename Place>
+  void add(const Place& place, const WeightedEdge& given) {
+    const auto& [i, j, w] = given;
+    if (!(w >= 0) || !std::isfinite(w))
+      throw MeshError(fmt::format(
+          "{}: edge ({}, {}) has the weight {}; weights must be finite and not negative", place(), i, j, w));
+    const int edge = find_edge(connectivity_, i, j);
+    if (edge < 0)
+      throw MeshError(fmt::format("{}: ({}, {}) is no edge of the mesh; leave it out", place(), i, j));
+    if (result_.w[edge] != missing)
+      throw MeshError(fmt::format("{}: edge ({}, {}) is given twice; give every edge once", place(), i, j));
+    result_.w[edge] = w;
+  }
+
+  /// All of them, when every edge has one; `row` is what would hold one more.
+  EdgeWeights weights(const std::string& where, const char* row) {
+    const auto absent = std::find(result_.w.begin(), result_.w.end(), missing);
+    if (absent != result_.w.end()) {
+      const auto [i, j] = connectivity_.edges[absent - result_.w.begin()];
+      throw MeshError(
+          fmt::format("{}: edge ({}, {}) has no {}; give every edge of the mesh once", where, i, j, row));
+    }
+    result_.zero_edges = static_cast<int>(std::count(result_.w.begin(), result_.w.end(), 0.0));
+    return std::move(result_);
+  }
+
+ private:
+  static constexpr double missing = -1;
+  const Connectivity& connectivity_;
+  EdgeWeights result_;
+};
+
 }  // namespace
 
 std::string name(WeightKind kind) {
@@ -189,8 +229,9 @@ EdgeWeights edge_weights(const Mesh& mesh, const Connectivity& connectivity, con
   if (!(options.clamp > 0) || !std::isfinite(options.clamp))
     throw ArgumentError(
         fmt::format("the clamp of the weights is {}; it must be positive and finite", options.clamp));
-  if (options.kind == WeightKind::file)
+  if (options.kind == WeightKind::file && options.given.empty())
     throw ArgumentError("weights of the kind 'file' are read by read_weights");
+  if (options.kind == WeightKind::file) return given_weights(options.given, connectivity);
   if (options.kind == WeightKind::standard)
     return edge_weights(mesh, connectivity, {WeightKind::delaunay, options.clamp, options.kept_faces});
   EdgeWeights result = weights_of_kind(mesh, connectivity, options);
@@ -199,12 +240,16 @@ EdgeWeights edge_weights(const Mesh& mesh, const Connectivity& connectivity, con
   return result;
 }
 
+EdgeWeights given_weights(const std::vector<WeightedEdge>& list, const Connectivity& connectivity) {
+  WeightCollector collector(connectivity);
+  for (std::size_t k = 0; k < list.size(); ++k)
+    collector.add([&] { return fmt::format("weight {}", k); }, list[k]);
+  return collector.weights("the weights", "entry");
+}
+
 EdgeWeights read_weights(const std::string& path, const Connectivity& connectivity) {
   const std::string text = read_file(path);
-  const double missing = -1;
-  EdgeWeights result;
-  result.kind = WeightKind::file;
-  result.w.setConstant(static_cast<Eigen::Index>(connectivity.edges.size()), missing);
+  WeightCollector collector(connectivity);
   int number = 0;
   for (std::string_view rest = text; !rest.empty();) {
     std::string_view line = rest.substr(0, rest.find('\n'));
@@ -212,32 +257,13 @@ EdgeWeights read_weights(const std::string& path, const Connectivity& connectivi
     ++number;
     const std::string_view first = next_word(line);
     if (first.empty() || first.front() == '#') continue;
-    int i = 0, j = 0;
-    double w = 0;
-    if (!parse(first, i) || !parse(next_word(line), j) || !parse(next_word(line), w))
+    WeightedEdge edge;
+    if (!parse(first, edge.i) || !parse(next_word(line), edge.j) || !parse(next_word(line), edge.weight))
       throw MeshError(
           fmt::format("{}: line {} is not 'i j w' (two vertices and a weight); mend it", path, number));
-    if (!(w >= 0) || !std::isfinite(w))
-      throw MeshError(
-          fmt::format("{}: line {}: edge ({}, {}) has the weight {}; weights must be finite and not negative",
-                      path, number, i, j, w));
-    const int edge = find_edge(connectivity, i, j);
-    if (edge < 0)
-      throw MeshError(
-          fmt::format("{}: line {}: ({}, {}) is no edge of the mesh; remove the line", path, number, i, j));
-    if (result.w[edge] != missing)
-      throw MeshError(
-          fmt::format("{}: line {}: edge ({}, {}) is given twice; give every edge once", path, number, i, j));
-    result.w[edge] = w;
+    collector.add([&] { return fmt::format("{}: line {}", path, number); }, edge);
   }
-  const auto absent = std::find(result.w.begin(), result.w.end(), missing);
-  if (absent != result.w.end()) {
-    const auto [i, j] = connectivity.edges[absent - result.w.begin()];
-    throw MeshError(
-        fmt::format("{}: edge ({}, {}) has no line; give every edge of the mesh once", path, i, j));
-  }
-  result.zero_edges = static_cast<int>(std::count(result.w.begin(), result.w.end(), 0.0));
-  return result;
+  return collector.weights(path, "line");
 }
 
 }  // namespace orbitutte

@@ -263,21 +263,26 @@ std::string report_json(const EmbedResult& result, const RunRecord& run) {
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-Report read_report(const std::string& path) {
-  const std::string text = read_file(path);
+Report parse_report(std::string_view text) {
   try {
     return to_report(Json::parse(text));
   } catch (const nlohmann::json::parse_error& error) {
-    throw MeshError(fmt::format("{}: this is no JSON, from byte {} on", path, error.byte));
+    throw MeshError(fmt::format("this is no JSON, from byte {} on", error.byte));
   } catch (const nlohmann::json::out_of_range&) {
-    throw MeshError(fmt::format("{}: a number is too large to be one", path));
+    throw MeshError("a number is too large to be one");
+  }
+}
+
+Report read_report(const std::string& path) {
+  const std::string text = read_file(path);
+  try {
+    return parse_report(text);
   } catch (const MeshError& error) {
     throw MeshError(fmt::format("{}: {}", path, error.what()));
   }
 }
 
-Embedding read_embedding(const std::string& ply_path, const Report& report) {
-  Embedding embedding = read_embedding(ply_path);
+Embedding with_report(Embedding embedding, const Report& report) {
   embedding.signature = report.signature;
   embedding.group_order = report.group_order;
   embedding.seams = report.seams;
@@ -286,8 +291,7 @@ Embedding read_embedding(const std::string& ply_path, const Report& report) {
   const auto require = [&](const std::vector<int>& vertices) {
     for (const int v : vertices)
       if (v < 0 || v >= count)
-        throw MeshError(
-            fmt::format("the report names the cut vertex {}, but {} holds {}", v, ply_path, count));
+        throw MeshError(fmt::format("the report names the cut vertex {}, but there are {}", v, count));
   };
   for (const Seam& seam : embedding.seams) {
     require(seam.left);
@@ -295,6 +299,15 @@ Embedding read_embedding(const std::string& ply_path, const Report& report) {
   }
   for (const ConeCopies& cone : embedding.cones) require(cone.copies);
   return embedding;
+}
+
+Embedding read_embedding(const std::string& ply_path, const Report& report) {
+  Embedding embedding = read_embedding(ply_path);
+  try {
+    return with_report(std::move(embedding), report);
+  } catch (const MeshError& error) {
+    throw MeshError(fmt::format("{}: {}", ply_path, error.what()));
+  }
 }
 
 std::string sha256(std::string_view bytes) {

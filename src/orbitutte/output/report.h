@@ -40,8 +40,16 @@ struct Report {
   std::vector<int> nonpositive_faces;
 };
 
-/// Reads a report. Throws FileError, and MeshError naming the key that is missing or of the wrong type.
+/// What the text of a report says. Throws MeshError naming the key that is missing or of the wrong type.
+Report parse_report(std::string_view text);
+
+/// parse_report of a file, whose messages begin with the path. Throws FileError, and MeshError naming the key
+/// that is missing or of the wrong type.
 Report read_report(const std::string& path);
+
+/// An embedding of which the report tells the signature, the group order, seams and cones. Throws MeshError
+/// where a vertex of the report is not in the embedding.
+Embedding with_report(Embedding embedding, const Report& report);
 
 /// An embedding from its two files. Throws as read_embedding and read_report do, and MeshError where a vertex
 /// of the report is not in the embedding.

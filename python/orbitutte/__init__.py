@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: MIT
+"""Spherical orbifold Tutte embeddings (Aigerman, Kovalsky and Lipman 2017) of meshes in NumPy arrays.
+
+>>> import orbitutte
+>>> V, F = orbitutte.read_mesh("figure.ply")
+>>> embedding = orbitutte.embed(V, F, "432", "auto")
+>>> embedding.bijective
+True
+
+Functions
+---------
+embed(V, F, signature, cones="auto", *, progress, polygon, geometry, weights, ...) -> Embedding
+Solver(V, F, **options).embed(signature, cones) -> Embedding     many embeddings of one mesh
+info(V, F) -> dict                      topology, quality, defects, what a mesh embeds into
+signatures() -> list of dict            the families of orbifolds
+choose_cones(V, F, signature) -> list   well separated vertices to be marked
+verify(embedding[, V, F]) -> dict       the certificate again, from the data alone
+distortion(embedding[, V, F]) -> dict   area and angle distortion again
+tile(embedding) -> (V, F, element)      |G| copies, welded into one closed mesh
+read_mesh(path) -> (V, F)               OBJ, OFF, PLY and STL
+write_mesh(path, V, F)
+Embedding                               positions, faces, source_vertex, seams, group, energy, certificate, ...;
+    map_points(face, barycentric[, element])   points of the surface to the sphere
+    locate(points) -> (face, barycentric, element)     and back, from anywhere on the tiled sphere
+    source_points(face, barycentric)    the same points in space
+    save(ply, json), load(ply, json[, mesh]), write_tiling(path), render(path, panel=..., size=...)
+
+Exceptions: Error, of which MeshError and ArgumentError are ValueErrors and FileError is an OSError; Cancelled. Results that
+are not converged or not certified come with an EmbeddingWarning.
+"""
+from ._api import Solver, Tiling, choose_cones, distortion, embed, info, read_mesh, signatures, tile, verify, write_mesh
+from ._embedding import Cone, EdgeWeights, Embedding, Location, Seam
+from ._orbitutte import __version__
+from .errors import ArgumentError, Cancelled, EmbeddingWarning, Error, FileError, MeshError
+
+__all__ = [
+    "ArgumentError", "Cancelled", "Cone", "EdgeWeights", "Embedding", "EmbeddingWarning", "Error", "FileError", "Location", "MeshError", "Seam", "Solver",
+    "Tiling", "__version__", "choose_cones", "distortion", "embed", "info", "read_mesh", "signatures", "tile", "verify", "write_mesh",
+]

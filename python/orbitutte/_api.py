@@ -1,0 +1,246 @@
+# SPDX-License-Identifier: MIT
+"""The functions of the package."""
+from __future__ import annotations
+
+import json
+import os
+import warnings
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _arrays, _options, _orbitutte
+from ._embedding import Embedding
+from .errors import ArgumentError, EmbeddingWarning
+
+Progress = Callable[[str, int, float, float], Union[bool, None]]
+Cones = Union[Sequence[int], npt.NDArray[np.integer], str, None]
+
+
+def embed(V: npt.ArrayLike, F: Any, signature: str, cones: Cones = "auto", *, progress: Progress | None = None, polygon: Any = None,
+          geometry: str = "spherical", **options: Any) -> Embedding:
+    """Embed a mesh into a spherical orbifold.
+
+    Parameters
+    ----------
+    V : (n, 3) array_like
+        Positions of the vertices, any real dtype.
+    F : (m, 3) array_like of int, (m, k), or list of sequences
+        Faces, counterclockwise seen from outside, 0-based; sequences of different lengths are polygons.
+    signature : str
+        Conway's symbol, such as "432" (see `signatures`), or "polygon" for a fixed boundary.
+    cones : sequence of int, or "auto"
+        The vertices to be marked, in the order of the symbol. "auto" takes well separated extremities.
+    progress : callable(stage, iteration, energy, gradient_norm), optional
+        Called in every stage and iteration. Returning False cancels; what it raises passes through.
+    polygon : path, (k, 4) array_like of vertex, x, y, z, or (k, 3) array_like for the vertices in `cones`
+        The corners, for the signature "polygon": counterclockwise, on the unit sphere.
+    geometry : "spherical" or "euclidean"
+        "euclidean" for the orbifolds 333, 442, 632, 2222 and the same with mirrors.
+    weights : str, (i, j, w), or scipy sparse matrix
+        "standard" (the default: delaunay, or cotan for polygons), "cotan", "delaunay", "mean-value" or "uniform"; or
+        a weight >= 0 for every edge, once.
+    weights_file : path
+        Lines ``i j w`` instead.
+    clamp : float
+        What cotangent weights that are not positive become, 0.01.
+    cut_seed : int
+        Another cut through the same cones.
+    spread : "arc-length" or "equidistant"
+        Of boundary vertices along the sides of a polygon.
+    tolerance : float
+        Of the gradient and of the step, 1e-9.
+    max_iterations : int
+        2000.
+    threads : int
+        0, as many as the machine has. Results do not depend on it.
+
+    Returns
+    -------
+    Embedding
+        Not converging and not being certified are results, told by an `EmbeddingWarning`.
+
+    Raises
+    ------
+    MeshError
+        Where the mesh cannot be embedded as asked; names the vertex, edge or face.
+    ArgumentError, TypeError
+        Where an argument has no meaning.
+    Cancelled
+        Where `progress` returned False.
+    """
+    chosen = _options.options(**options)
+    target = _options.orbifold(signature, cones, polygon, geometry)
+    mesh = _arrays.mesh(V, F)
+    vertices = _options.marked_vertices(mesh, target, cones)
+    return _told(Embedding._of(_orbitutte.embed(mesh, target, vertices, chosen, _callable(progress))))
+
+
+class Solver:
+    """Many embeddings of one mesh: keeps what depends neither on the cones nor on their orders.
+
+    Parameters
+    ----------
+    V, F, **options
+        As for `embed`. The mesh is copied.
+
+    Examples
+    --------
+    >>> solver = orbitutte.Solver(V, F)
+    >>> maps = [solver.embed(signature, [12, 40, 7]) for signature in ("532", "432", "332")]
+    """
+
+    __slots__ = ("_mesh", "_core")
+
+    def __init__(self, V: npt.ArrayLike, F: Any, **options: Any) -> None:
+        chosen = _options.options(**options)
+        self._mesh = _arrays.mesh(V, F)
+        self._core = _orbitutte.Solver(self._mesh, chosen)
+
+    def embed(self, signature: str, cones: Cones = "auto", *, progress: Progress | None = None, polygon: Any = None,
+              geometry: str = "spherical") -> Embedding:
+        """As the function `embed`. One thread at a time."""
+        target = _options.orbifold(signature, cones, polygon, geometry)
+        vertices = _options.marked_vertices(self._mesh, target, cones)
+        return _told(Embedding._of(self._core.embed(target, vertices, _callable(progress))))
+
+    def __repr__(self) -> str:
+        return f"<orbitutte.Solver of {len(self._mesh.positions)} vertices>"
+
+
+def info(V: npt.ArrayLike, F: Any) -> dict[str, Any]:
+    """Topology, quality and defects of a mesh, and the families that it embeds into.
+
+    The dictionary of ``orbitutte info --json``. Defects are part of it, and raise nothing.
+    """
+    return json.loads(_arrays.mesh(V, F).info())
+
+
+def signatures() -> list[dict[str, str]]:
+    """The families of spherical orbifolds: ``family``, ``group_order``, ``input``, ``marked_points``."""
+    return json.loads(_orbitutte.families())
+
+
+def choose_cones(V: npt.ArrayLike, F: Any, signature: str, *, geometry: str = "spherical") -> list[int]:
+    """Well separated extremities to be marked, as `embed` takes them for "auto"."""
+    return _arrays.mesh(V, F).choose_cones(_options.orbifold(signature, None, None, geometry))
+
+
+def verify(embedding: Embedding, V: npt.ArrayLike | None = None, F: Any = None, *, weights_file: str | os.PathLike | None = None,
+           theorem2: bool = False) -> dict[str, Any]:
+    """Judge an embedding and its report again, from the data alone.
+
+    Parameters
+    ----------
+    embedding : Embedding
+    V, F : optional
+        The mesh; without, the one that the embedding knows.
+    weights_file : path, optional
+        Weights that were given as a file when the embedding was computed: with them its energy is checked, too.
+    theorem2 : bool
+        Also check the conditions of the paper's theorem 2, which takes long.
+
+    Returns
+    -------
+    dict
+        ``bijective``, ``checks`` and, where asked for, ``theorem2``: as ``orbitutte verify --json`` has it.
+    """
+    core = _with_mesh(embedding, V, F)._core
+    file = b"" if weights_file is None else _arrays.path(weights_file)
+    return json.loads(core.verify(file, "theorem2" if theorem2 else "certificate"))
+
+
+def distortion(embedding: Embedding, V: npt.ArrayLike | None = None, F: Any = None) -> dict[str, Any]:
+    """Area and angle distortion, measured again: ``area``, ``angle``, ``histogram``, ``measured_faces``."""
+    return _with_mesh(embedding, V, F)._core.distortion()
+
+
+class Tiling(NamedTuple):
+    """The whole sphere: |G| copies of an embedding, welded along its seams."""
+
+    V: npt.NDArray[np.float64]  #: unit vectors
+    F: _arrays.Faces  #: counterclockwise from outside; copy by copy, each in the order of the input
+    element: npt.NDArray[np.int32]  #: of every face, the copy that it belongs to: an index into Embedding.group
+
+
+def tile(embedding: Embedding) -> Tiling:
+    """Weld the |G| copies of an embedding into one closed mesh.
+
+    Returns
+    -------
+    Tiling
+        ``V`` ((k, 3) float64), ``F`` ((m |G|, 3) int32, or polygons as the input's) and ``element`` ((m |G|,) int32). Face f of
+        copy g is row g m + f.
+
+    Raises
+    ------
+    ArgumentError
+        Where the copies do not close up into a sphere, as those of a polygon do not.
+    """
+    V, triangles, corners, start, element = _embedding(embedding)._core.tile()
+    if len(start) < 2:
+        return Tiling(V, triangles, element)
+    copies = int(element[-1]) + 1
+    return Tiling(V, _arrays.faces(corners, start), np.repeat(np.arange(copies, dtype=np.int32), (len(start) - 1) // copies))
+
+
+def read_mesh(path: str | os.PathLike) -> tuple[npt.NDArray[np.float64], _arrays.Faces]:
+    """Read an OBJ, OFF, PLY or STL file.
+
+    Returns
+    -------
+    V : (n, 3) float64
+    F : (m, 3) int32
+        (m, k) where all faces have k corners; a list of tuples where their numbers differ.
+
+    Raises
+    ------
+    FileError, MeshError, ArgumentError
+        Where it cannot be read, makes no sense, or its ending is not known.
+    """
+    mesh = _orbitutte.Mesh.read(_arrays.path(path))
+    return mesh.positions, _arrays.faces(*mesh.faces)
+
+
+def write_mesh(path: str | os.PathLike, V: npt.ArrayLike, F: Any) -> None:
+    """Write OBJ, OFF, PLY or, of triangles, STL, whichever the ending of the path names; the file appears whole or not at all."""
+    mesh = _arrays.mesh(_arrays.finite_positions(V), F)
+    _arrays.require_vertices(mesh)
+    mesh.write(_arrays.path(path))
+
+
+def _told(embedding: Embedding) -> Embedding:
+    """Warns of what the caller should know of a result."""
+    for sentence in embedding.warnings:
+        warnings.warn(sentence, EmbeddingWarning, stacklevel=3)
+    if not embedding.converged:
+        warnings.warn(f"the optimiser did not converge ({embedding._report['termination']}); the best embedding so far is the result",
+                      EmbeddingWarning, stacklevel=3)
+    elif not embedding.bijective:
+        failed = [check for check in embedding._report["certificate"]["checks"] if not check["passed"]]
+        details = "; ".join(f"{check['name']}: {check.get('detail', '')}" for check in failed)
+        warnings.warn(f"the embedding is not certified to be bijective: {details}", EmbeddingWarning, stacklevel=3)
+    return embedding
+
+
+def _callable(progress: Any) -> Any:
+    if progress is not None and not callable(progress):
+        raise TypeError(f"progress is a {type(progress).__name__}; a function is expected")
+    return progress
+
+
+def _embedding(value: Any) -> Embedding:
+    if not isinstance(value, Embedding):
+        raise TypeError(f"an Embedding is expected, not a {type(value).__name__}")
+    return value
+
+
+def _with_mesh(embedding: Embedding, V: Any, F: Any) -> Embedding:
+    _embedding(embedding)
+    if V is None and F is None:
+        return embedding
+    if V is None or F is None:
+        raise ArgumentError("V and F belong together; give both or none")
+    return embedding.with_mesh(V, F)

@@ -1,0 +1,438 @@
+# SPDX-License-Identifier: MIT
+"""The result of an embedding."""
+from __future__ import annotations
+
+import json
+import os
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _arrays, _options, _orbitutte
+from .errors import ArgumentError
+
+Array = npt.NDArray[Any]
+
+
+class Seam(NamedTuple):
+    """Two banks of the cut: ``positions[left] == positions[right] @ transform.T``. Of a mirror both are the same."""
+
+    kind: str  #: "rotation", "reflection" or "rotoreflection"
+    left: Array  #: cut vertices
+    right: Array  #: cut vertices, as many
+    transform: Array  #: 3 x 3
+
+
+class Cone(NamedTuple):
+    """A marked vertex. Its angles add up to 2 pi/order ("rotation"), to pi/order ("corner"), or are held ("fixed")."""
+
+    vertex: int  #: of the input
+    order: int
+    kind: str
+    copies: Array  #: its cut vertices
+
+
+class EdgeWeights(NamedTuple):
+    """A weight for every undirected edge. Those of an intrinsic triangulation may join two vertices more than once."""
+
+    i: Array
+    j: Array
+    w: Array
+
+    def to_sparse(self, n: int | None = None) -> Any:
+        """The symmetric n x n matrix (scipy.sparse.coo_matrix); edges between the same vertices add up there."""
+        from scipy.sparse import coo_matrix
+
+        n = int(max(self.i.max(), self.j.max())) + 1 if n is None else n
+        rows, columns = np.concatenate([self.i, self.j]), np.concatenate([self.j, self.i])
+        return coo_matrix((np.concatenate([self.w, self.w]), (rows, columns)), shape=(n, n))
+
+
+class Location(NamedTuple):
+    """Points of the copies of a surface. Of a single point, an int, three numbers and an int."""
+
+    face: Array  #: (k,) rows of Embedding.triangles; -1 where there is none
+    barycentric: Array  #: (k, 3) on the corners of that row; NaN where there is none
+    element: Array  #: (k,) the copies, indices into Embedding.group; -1 where there is none
+
+
+class Embedding:
+    """A map of a mesh onto an orbifold of the sphere, with its certificate.
+
+    Made by `orbitutte.embed`, `Solver.embed` and `Embedding.load`. Nothing of it can be changed; arrays are views
+    that keep it alive, and are read-only. Indices are 0-based, angles in radians. The *cut mesh* is the mesh after cutting: its faces
+    are the input faces in the input order, its vertices the n input vertices, followed by the copies that the cut adds.
+
+    Attributes
+    ----------
+    positions : (n_cut, 3) float64
+        Unit vectors, one for every cut vertex (points of the plane z = 1 for a Euclidean orbifold).
+    faces : (m, 3) int32
+        The input faces on cut vertices. Faces of k corners are (m, k); where their number differs, a list of tuples.
+    triangles : (t, 3) int32
+        The same, where polygons are divided into triangles; otherwise `faces`.
+    source_vertex : (n_cut,) int32
+        The input vertex of every cut vertex.
+    seams : list of Seam
+        ``kind``, ``left``, ``right``, ``transform`` (3 x 3): position(left[i]) = transform position(right[i]).
+    cones : list of Cone
+        ``vertex``, ``order``, ``kind``, ``copies``.
+    group : (|G|, 3, 3) float64
+        The symmetries of the sphere; the first is the identity.
+    signature : str
+        Conway's symbol, or "polygon".
+    energy : float
+        The Dirichlet energy: the sum over undirected edges of w d^2, d the length of the edge's arc.
+    converged, bijective : bool
+        What the optimiser and the certificate say. Only converged maps are ever called bijective.
+    certificate, distortion : dict
+        As in the report.
+    history : (k,) structured array
+        Fields ``energy``, ``gradient_norm`` and ``step``, for the start and every iteration.
+    warnings : list of str
+    weights : EdgeWeights
+        ``i``, ``j``, ``w``, and ``to_sparse()``.
+    area_distortion, angle_distortion : (t,) float64
+        Of every triangle: its share of the tile's area over its share of the source's (a ratio A; the report's
+        statistics are of max(A, 1/A)), and the ratio of the singular values of its map. 0 where a triangle is not measured.
+    report : dict
+        The JSON report, with the same keys and meanings as the command line's file.
+    """
+
+    __slots__ = ("_core", "_report", "_locator")
+
+    def __init__(self, *_: Any, **__: Any) -> None:
+        raise TypeError("an Embedding is made by orbitutte.embed, Solver.embed or Embedding.load")
+
+    @classmethod
+    def _of(cls, core: _orbitutte.Embedding) -> Embedding:
+        self = object.__new__(cls)
+        object.__setattr__(self, "_core", core)
+        object.__setattr__(self, "_report", json.loads(core.report))
+        object.__setattr__(self, "_locator", None)
+        return self
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        raise AttributeError(f"an Embedding cannot be changed, nor its '{name}'")
+
+    # Arrays
+
+    @property
+    def positions(self) -> npt.NDArray[np.float64]:
+        """(n_cut, 3) unit vectors."""
+        return self._core.positions
+
+    @property
+    def faces(self) -> _arrays.Faces:
+        """(m, 3) cut vertices, or (m, k), or a list of tuples, as the input's faces are."""
+        corners, start = self._core.polygons
+        return _arrays.faces(corners, start) if len(start) > 1 else self._core.triangles
+
+    @property
+    def triangles(self) -> npt.NDArray[np.int32]:
+        """(t, 3) cut vertices."""
+        return self._core.triangles
+
+    @property
+    def source_vertex(self) -> npt.NDArray[np.int32]:
+        """(n_cut,) the input vertex of every cut vertex."""
+        return self._core.source_vertex
+
+    @property
+    def seams(self) -> list[Seam]:
+        """The seams of the cut."""
+        return [Seam(*seam) for seam in self._core.seams]
+
+    @property
+    def cones(self) -> list[Cone]:
+        """The marked vertices with their copies."""
+        return [Cone(*cone) for cone in self._core.cones]
+
+    @property
+    def group(self) -> npt.NDArray[np.float64]:
+        """(|G|, 3, 3) orthogonal matrices, the identity first."""
+        return self._core.group
+
+    @property
+    def weights(self) -> EdgeWeights:
+        """The weights that the embedding was computed with, on the uncut mesh. Computed again after `load`."""
+        return EdgeWeights(*self._core.weights())
+
+    @property
+    def area_distortion(self) -> npt.NDArray[np.float64]:
+        """(t,) the area ratio A of every triangle; 0 where it is not measured. Needs the mesh."""
+        return self._core.face_distortion()[0]
+
+    @property
+    def angle_distortion(self) -> npt.NDArray[np.float64]:
+        """(t,) the ratio of singular values of every triangle's map; 0 where it is not measured. Needs the mesh."""
+        return self._core.face_distortion()[1]
+
+    # What the report says
+
+    @property
+    def report(self) -> dict[str, Any]:
+        """The JSON report as a dictionary of the caller's own."""
+        return json.loads(self._core.report)
+
+    @property
+    def signature(self) -> str:
+        return self._report["orbifold"]["signature"]
+
+    @property
+    def energy(self) -> float:
+        return self._report["energy"]
+
+    @property
+    def converged(self) -> bool:
+        """Did the optimiser reach its tolerance?"""
+        return self._report["termination"] == "converged"
+
+    @property
+    def bijective(self) -> bool:
+        """Is the map certified to be a bijection onto the orbifold?"""
+        return self._report["certificate"]["bijective"]
+
+    @property
+    def certificate(self) -> dict[str, Any]:
+        """``bijective``, ``nonpositive_faces``, ``signed_area``, ``expected_area``, ``max_edge_length``, ..., ``checks``."""
+        return self.report["certificate"]
+
+    @property
+    def distortion(self) -> dict[str, Any]:
+        """``area`` (mean, std, median, max), ``angle`` (mean, max), ``histogram``, ``measured_faces``."""
+        return self.report["distortion"]
+
+    @property
+    def history(self) -> Array:
+        """Structured array with the fields ``energy``, ``gradient_norm`` and ``step``."""
+        rows = [(row["energy"], row["gradient_norm"], row["step"]) for row in self._report["history"]]
+        array = np.array(rows, dtype=[("energy", "f8"), ("gradient_norm", "f8"), ("step", "f8")])
+        array.setflags(write=False)
+        return array
+
+    @property
+    def warnings(self) -> list[str]:
+        """Sentences about what deserves a look."""
+        return list(self._report.get("warnings", []))
+
+    # The mesh that was embedded
+
+    @property
+    def mesh(self) -> tuple[npt.NDArray[np.float64], _arrays.Faces] | None:
+        """(V, F) as they were embedded; None where the embedding was loaded without them."""
+        known = self._core.mesh
+        return None if known is None else (known.positions, _arrays.faces(*known.faces))
+
+    def with_mesh(self, V: npt.ArrayLike, F: Any) -> Embedding:
+        """The same embedding, knowing its mesh."""
+        return Embedding._of(self._core.with_mesh(_arrays.mesh(V, F)))
+
+    # Points
+
+    def map_points(self, face: npt.ArrayLike, barycentric: npt.ArrayLike, element: npt.ArrayLike | None = None) -> Array:
+        """Take points of the surface to the sphere.
+
+        Parameters
+        ----------
+        face : (k,) array_like of int, or int
+            Rows of `triangles`; -1 gives NaN.
+        barycentric : (k, 3) array_like, or (3,)
+            Coordinates on the corners of those rows, with the sum 1. The corners are the input's, in its order, but on projective
+            planes, some of whose faces are turned over (first, third, second): their input vertices are ``source_vertex[triangles[face]]``.
+        element : (k,) array_like of int, or int, optional
+            The copies, indices into `group`; without, the embedding itself.
+
+        Returns
+        -------
+        (k, 3) float64, or (3,)
+            The combination of the three positions, normalised: triangles agree on their edges, and copies on seams. For a Euclidean
+            orbifold the combination itself.
+
+        Raises
+        ------
+        ArgumentError
+            Names the point whose face or copy does not exist, or whose coordinates are none.
+        """
+        single = np.ndim(face) == 0
+        faces, points = _arrays.indices(_rows(face, 1), "face", "point"), _arrays.positions(_rows(barycentric, 2), "barycentric", "point")
+        copies = np.empty(0, dtype=np.int32) if element is None else _arrays.indices(_rows(element, 1), "element", "point")
+        if element is not None and len(copies) == 1 and len(faces) != 1:
+            copies = np.repeat(copies, len(faces))
+        if len(points) != len(faces) or (element is not None and len(copies) != len(faces)):
+            raise ArgumentError(f"there are {len(faces)} faces, {len(points)} rows of coordinates and {len(copies)} copies")
+        images = _orbitutte.map_points(self._core, faces, points, copies)
+        return images[0] if single else images
+
+    def locate(self, points: npt.ArrayLike) -> Location:
+        """Find points of the sphere on the surface, in any of the |G| copies: the inverse of `map_points`.
+
+        Parameters
+        ----------
+        points : (k, 3) array_like, or (3,)
+            Directions; their lengths do not matter.
+
+        Returns
+        -------
+        Location
+            ``face``, ``barycentric`` and ``element``; ``map_points(*location)`` is the direction again. Where the embedding is certified,
+            every direction is found. -1 and NaN where nothing is: outside of a polygon, where no face of an embedding that is not
+            bijective lies, and for vectors that are zero or not finite. Of several copies or faces the first is taken.
+
+        Raises
+        ------
+        ArgumentError
+            For embeddings into the plane.
+
+        Notes
+        -----
+        The first call makes a search tree of the faces, which the embedding keeps.
+        """
+        single = np.ndim(points) == 1 and np.size(points) > 0
+        directions = _arrays.positions(_rows(points, 2), "points", "point")
+        if self._locator is None:
+            object.__setattr__(self, "_locator", _orbitutte.PointLocator(self._core))
+        face, barycentric, element = self._locator.locate(directions)
+        return Location(int(face[0]), barycentric[0], int(element[0])) if single else Location(face, barycentric, element)
+
+    def source_points(self, face: npt.ArrayLike, barycentric: npt.ArrayLike) -> Array:
+        """The same points on the surface in space: (k, 3), or (3,). Needs the mesh; NaN where the face is -1."""
+        known = self.mesh
+        if known is None:
+            raise ArgumentError("points in space need the mesh that was embedded; load the embedding with it, or use with_mesh(V, F)")
+        faces = np.asarray(_arrays.indices(_rows(face, 1), "face", "point"))
+        weights = _arrays.positions(_rows(barycentric, 2), "barycentric", "point")
+        if len(faces) != len(weights):
+            raise ArgumentError(f"there are {len(faces)} faces and {len(weights)} rows of coordinates")
+        wrong = (faces < -1) | (faces >= len(self.triangles))
+        if wrong.any():
+            k = int(np.argmax(wrong))
+            raise ArgumentError(f"point {k} names the face {faces[k]}; there are {len(self.triangles)}")
+        corners = known[0][self.source_vertex[self.triangles[faces]]]
+        points = np.einsum("ki,kij->kj", weights, corners)
+        points[faces == -1] = np.nan
+        return points[0] if np.ndim(face) == 0 else points
+
+    # Files
+
+    def save(self, ply: str | os.PathLike, json: str | os.PathLike | None = None) -> None:
+        """Write the embedding, and its report, as ``orbitutte embed -o PLY --report JSON`` does.
+
+        Raises
+        ------
+        FileError
+            Where a file cannot be written; it appears whole or not at all.
+        """
+        self._core.save(_arrays.path(ply), b"" if json is None else _arrays.path(json))
+
+    @staticmethod
+    def load(ply: str | os.PathLike, json: str | os.PathLike, mesh: Any = None) -> Embedding:
+        """Read an embedding and its report, written by `save` or by the command line.
+
+        Parameters
+        ----------
+        ply, json : path
+        mesh : path or (V, F), optional
+            The mesh that was embedded: needed for `verify`, distortion, weights and pictures.
+
+        Raises
+        ------
+        FileError, MeshError
+            Where a file cannot be read, or is not what it should be.
+        """
+        return Embedding._of(_orbitutte.load(_arrays.path(ply), _arrays.path(json), _known_mesh(mesh)))
+
+    def write_tiling(self, path: str | os.PathLike) -> None:
+        """Write the |G| copies as one closed mesh: .ply, .obj, .stl or .glb, as ``orbitutte tile`` does."""
+        self._core.write_tiling(_arrays.path(path))
+
+    def render(self, path: str | os.PathLike, *, panel: str = "sheet", size: Any = None, view: Any = None, up: Any = None,
+               title: str = "") -> None:
+        """Draw a picture, as ``orbitutte render`` does: .png, or .svg for histogram and convergence.
+
+        Parameters
+        ----------
+        path : path
+        panel : str
+            "source", "sphere", "area", "angle", "checkerboard", "histogram", "convergence" or "sheet".
+        size : int, (width, height) or str, optional
+            Pixels.
+        view : str or (3,) array, optional
+            "front", "back", "left", "right", "top", "bottom", or the direction towards the viewer.
+        up : str or (3,) array, optional
+            "x", "-x", ... "-z", or what points up.
+        title : str
+            Of the sheet.
+
+        Raises
+        ------
+        ArgumentError
+            For options out of range, where the mesh is not known, or where the module was built without pictures.
+        """
+        texts = {"panel": _options.text(panel, "panel")}
+        if size is not None:
+            texts["size"] = _size(size)
+        for name, value in (("view", view), ("up", up)):
+            if value is not None:
+                texts[name] = value if isinstance(value, str) else _direction(value, name)
+        _orbitutte.render(self._core, _arrays.path(path), _options.text(title, "title"), texts)
+
+    # What Python asks
+
+    def __repr__(self) -> str:
+        mesh, order = self._report["mesh"], self._report["orbifold"]["group_order"]
+        state = "bijective" if self.bijective else "not certified" if self.converged else f"not converged ({self._report['termination']})"
+        return (f"<orbitutte.Embedding onto {self.signature} (|G| = {order or 'infinite'}): {mesh['vertices']} vertices, {mesh['faces']} faces, "
+                f"{len(self.source_vertex)} cut vertices;\n energy {self.energy:.9g} after {self._report['iterations']} iterations, {state}>")
+
+    def __reduce__(self) -> Any:
+        known = self._core.mesh
+        mesh = None if known is None else (known.positions, *known.faces)
+        return _unpickled, (self._core.ply(), self._core.report, mesh)
+
+    def __copy__(self) -> Embedding:
+        return self
+
+    def __deepcopy__(self, _: Any) -> Embedding:
+        return self
+
+
+def _rows(values: Any, dimensions: int) -> Any:
+    """A single point as a row of one."""
+    return [values] if np.ndim(values) == dimensions - 1 and np.size(values) > 0 else values
+
+
+def _unpickled(ply: bytes, report: str, mesh: tuple | None) -> Embedding:
+    known = None
+    if mesh is not None:
+        V, corners, start = mesh
+        known = _orbitutte.Mesh(V, corners) if start is None else _orbitutte.Mesh(V, corners, start)
+    return Embedding._of(_orbitutte.unpickled(ply, report, known))
+
+
+def _known_mesh(mesh: Any) -> _orbitutte.Mesh | None:
+    """The mesh of a path, or of (V, F)."""
+    if mesh is None:
+        return None
+    if isinstance(mesh, (str, bytes, os.PathLike)):
+        return _orbitutte.Mesh.read(_arrays.path(mesh))
+    if not isinstance(mesh, (tuple, list)) or len(mesh) != 2:
+        raise TypeError("mesh must be a path, or (V, F)")
+    return _arrays.mesh(*mesh)
+
+
+def _size(size: Any) -> str:
+    if isinstance(size, str):
+        return size
+    sides = size if isinstance(size, (tuple, list)) else [size]
+    if len(sides) not in (1, 2):
+        raise ArgumentError("size must be a width, or a width and a height")
+    return "x".join(str(_options.whole(side, "size")) for side in sides)
+
+
+def _direction(value: Any, name: str) -> str:
+    vector = np.asarray(value)
+    if vector.shape != (3,) or vector.dtype.kind not in "fiu":
+        raise TypeError(f"{name} must be a name or three numbers")
+    return ",".join(repr(float(entry)) for entry in vector)

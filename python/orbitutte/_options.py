@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: MIT
+"""Options and targets of an embedding, checked."""
+from __future__ import annotations
+
+import numbers
+import operator
+import os
+from typing import Any
+
+import numpy as np
+
+from . import _arrays, _orbitutte
+from .errors import ArgumentError
+
+#: Every option of `embed` but `progress` and those that say what the target is.
+NAMES = ("weights", "weights_file", "clamp", "cut_seed", "spread", "tolerance", "max_iterations", "threads")
+
+
+def options(**given: Any) -> _orbitutte.Options:
+    """The options of the compiled module. Raises TypeError for a name that there is not."""
+    for name in given:
+        if name not in NAMES:
+            raise TypeError(f"there is no option '{name}'; there are {', '.join(NAMES)}, progress, polygon and geometry")
+    result = _orbitutte.Options()
+    for name in ("clamp", "tolerance"):
+        if name in given:
+            setattr(result, name, real(given[name], name))
+    for name, bits in (("cut_seed", 64), ("max_iterations", 31), ("threads", 31)):
+        if name in given:
+            setattr(result, name, whole(given[name], name, bits))
+    if "spread" in given:
+        result.set_spread(text(given["spread"], "spread"))
+    if given.get("weights_file") is not None:
+        if given.get("weights") is not None:
+            raise ArgumentError("weights and weights_file exclude each other")
+        result.weights_file = _arrays.path(given["weights_file"])
+    if given.get("weights") is not None:
+        _set_weights(result, given["weights"])
+    return result
+
+
+def orbifold(signature: str, cones: Any, polygon: Any = None, geometry: str = "spherical") -> _orbitutte.Orbifold:
+    """What is embedded into, by its symbol, or the polygon by its corners."""
+    signature = text(signature, "signature")
+    if geometry not in ("spherical", "euclidean"):
+        raise ArgumentError(f"geometry is '{geometry}'; it may be spherical or euclidean")
+    if signature == "polygon":
+        return _polygon(polygon, cones)
+    if polygon is not None:
+        raise ArgumentError(f"polygon gives the corners of a fixed boundary, which {signature} has not; take the signature 'polygon'")
+    known = _orbitutte.Orbifold.spherical if geometry == "spherical" else _orbitutte.Orbifold.euclidean
+    return known(signature)
+
+
+def marked_vertices(mesh: _orbitutte.Mesh, target: _orbitutte.Orbifold, cones: Any) -> list[int]:
+    """The vertices that `cones` names, or chooses."""
+    if target.signature == "polygon":
+        return target.corner_vertices
+    if cones is None:
+        raise ArgumentError("cones is missing; mark vertices, or 'auto'")
+    if isinstance(cones, str):
+        if cones != "auto":
+            raise ArgumentError(f"cones is '{cones}'; give vertices, as in [12, 40, 7], or 'auto'")
+        return mesh.choose_cones(target)
+    return _arrays.indices(cones, "cones").tolist()
+
+
+def real(value: Any, name: str) -> float:
+    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (numbers.Real, np.number)) or np.iscomplexobj(value):
+        raise TypeError(f"{name} is a {type(value).__name__}; a number is expected")
+    return float(value)
+
+
+def whole(value: Any, name: str, bits: int = 31) -> int:
+    try:
+        if isinstance(value, (bool, np.bool_)):
+            raise TypeError
+        number = operator.index(value)
+    except TypeError:
+        raise TypeError(f"{name} is a {type(value).__name__}; a whole number is expected") from None
+    if not 0 <= number < 2**bits:
+        raise ArgumentError(f"{name} is {number}; it must be between 0 and {2**bits - 1}")
+    return number
+
+
+def text(value: Any, name: str) -> str:
+    if not isinstance(value, str):
+        raise TypeError(f"{name} is a {type(value).__name__}; a string is expected")
+    return value
+
+
+def _set_weights(result: _orbitutte.Options, weights: Any) -> None:
+    if isinstance(weights, str):
+        result.set_weights(weights)
+        return
+    i, j, w = _edges_of_sparse(weights) if hasattr(weights, "tocoo") else _edges_of_triple(weights)
+    if not len(w):
+        raise ArgumentError("weights is empty; give every edge of the mesh once")
+    result.give_weights(i, j, w)
+
+
+def _edges_of_triple(weights: Any) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    if not isinstance(weights, (tuple, list)) or len(weights) != 3:
+        raise TypeError("weights must be a name, three arrays (i, j, w), or a sparse matrix")
+    i, j = _arrays.indices(weights[0], "weights: i"), _arrays.indices(weights[1], "weights: j")
+    w = np.asarray(weights[2])
+    if w.dtype.kind not in "fiu" and w.size:
+        raise TypeError(f"weights: w has the type {w.dtype}; real numbers are expected")
+    if w.ndim != 1 or not len(i) == len(j) == len(w):
+        raise ArgumentError(f"weights: i, j and w have the lengths {len(i)}, {len(j)} and {w.shape}; they must be the same")
+    return i, j, np.ascontiguousarray(w, dtype=np.float64)
+
+
+def _edges_of_sparse(matrix: Any) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """A symmetric matrix names every edge twice, a triangular one once."""
+    entries = matrix.tocoo()
+    i, j, w = _edges_of_triple((entries.row, entries.col, entries.data))
+    if (i == j).any():
+        raise ArgumentError(f"weights: the matrix has an entry on its diagonal, at {int(i[np.argmax(i == j)])}; it must have edges only")
+    lower, upper = i > j, i < j
+    if lower.any() and upper.any():
+        difference = abs(matrix - matrix.T).tocoo()
+        if difference.nnz and difference.data.max() > 0:
+            k = int(np.argmax(difference.data))
+            raise ArgumentError(f"weights: the matrix is not symmetric at ({difference.row[k]}, {difference.col[k]})")
+        return i[upper], j[upper], w[upper]
+    return i, j, w
+
+
+def _polygon(polygon: Any, cones: Any) -> _orbitutte.Orbifold:
+    if polygon is None:
+        raise ArgumentError("polygon is missing: the corners, k x 4 rows of vertex, x, y, z, or k x 3 positions for the vertices in cones")
+    if isinstance(polygon, (str, bytes, os.PathLike)):
+        if cones is not None:
+            raise ArgumentError("cones is not for polygons from a file, whose lines name the vertices")
+        return _orbitutte.Orbifold.polygon_file(_arrays.path(polygon))
+    corners = np.asarray(polygon)
+    if corners.dtype.kind not in "fiu":
+        raise TypeError(f"polygon has the type {corners.dtype}; real numbers are expected")
+    if corners.ndim == 2 and corners.shape[1] == 4:
+        if cones is not None:
+            raise ArgumentError("cones is not for polygons whose rows name the vertices")
+        vertices = corners[:, 0]
+        if not np.array_equal(vertices, np.floor(vertices)) or not (np.abs(vertices) < 2**31).all():
+            raise ArgumentError("polygon: the first column must be vertices, whole numbers")
+        return _polygon_of(vertices.astype(np.int32).tolist(), corners[:, 1:])
+    points = _arrays.positions(corners, "polygon", "corner")
+    if cones is None or isinstance(cones, str):
+        raise ArgumentError("cones is missing: the vertices of the polygon's corners")
+    vertices = _arrays.indices(cones, "cones").tolist()
+    if len(vertices) != len(points):
+        raise ArgumentError(f"there are {len(points)} corners of the polygon and {len(vertices)} vertices in cones")
+    return _polygon_of(vertices, points)
+
+
+def _polygon_of(vertices: list[int], points: np.ndarray) -> _orbitutte.Orbifold:
+    """Corners off the sphere by 1e-3 at the most, as rounded decimals are, are put there."""
+    points = _arrays.finite_positions(points, "polygon", "corner")
+    lengths = np.linalg.norm(points, axis=1)
+    off = np.abs(lengths - 1) > 1e-3
+    if off.any():
+        k = int(np.argmax(off))
+        raise ArgumentError(f"polygon: the corner at vertex {vertices[k]} is at distance {lengths[k]:.6g} from the centre, not on the unit sphere")
+    return _orbitutte.Orbifold.polygon(vertices, points / lengths[:, None])

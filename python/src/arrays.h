@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// NumPy arrays from and to the library's plain values. The package hands over C-contiguous arrays of the
+// right type.
+#pragma once
+
+#include <pybind11/numpy.h>
+
+#include <vector>
+
+#include "bindings.h"
+#include "orbitutte/types.h"
+
+namespace orbitutte::python {
+
+using DoubleArray = py::array_t<double, py::array::c_style>;
+using IntArray = py::array_t<int, py::array::c_style>;
+
+/// Copies. n x 3 each; the caller has checked the shape.
+Points to_points(const DoubleArray& array);
+Faces to_faces(const IntArray& array);
+std::vector<int> to_vector(const IntArray& array);
+
+/// Views that cannot be written to, and that keep `owner`, of whose C++ object they are part, alive.
+py::array view(const Points& points, const py::handle& owner);
+py::array view(const Faces& faces, const py::handle& owner);
+py::array view(const std::vector<int>& values, const py::handle& owner);
+
+/// Copies that cannot be written to.
+py::array copy(const Matrix3& matrix);
+py::array copy(const std::vector<Matrix3>& matrices);  ///< k x 3 x 3
+py::array copy(const std::vector<int>& values);
+py::array copy(const std::vector<double>& values);
+
+/// An array that takes over the values, and with them their memory.
+py::array take(Points&& points);
+py::array take(Faces&& faces);
+py::array take(std::vector<int>&& values);
+
+}  // namespace orbitutte::python

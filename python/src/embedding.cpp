@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+// What is asked of an embedding: its arrays, its files, its certificate and measures.
+#include <pybind11/stl.h>
+
+#include "arrays.h"
+#include "held_embedding.h"
+#include "orbitutte/mesh/file.h"
+#include "orbitutte/orbifold/symmetry_group.h"
+#include "orbitutte/output/embedding_file.h"
+#include "orbitutte/output/tiling.h"
+#include "orbitutte/output/verification.h"
+
+namespace orbitutte::python {
+namespace {
+
+using Held = std::shared_ptr<HeldEmbedding>;
+using MaybeMesh = std::shared_ptr<const SourceMesh>;
+using Release = py::call_guard<py::gil_scoped_release>;
+
+// (kind, left, right, transform) of each.
+py::list seams(const HeldEmbedding& held) {
+  py::list result;
+  for (const Seam& seam : held.embedding.seams)
+    result.append(py::make_tuple(name(seam.kind()), copy(seam.left), copy(seam.right), copy(seam.transform)));
+  return result;
+}
+
+// (vertex, order, kind, copies) of each.
+py::list cones(const HeldEmbedding& held) {
+  py::list result;
+  for (const ConeCopies& cone : held.embedding.cones)
+    result.append(py::make_tuple(cone.vertex, cone.order, name(cone.kind), copy(cone.copies)));
+  return result;
+}
+
+void require_spherical(const Embedding& embedding, const char* what) {
+  if (embedding.geometry != Geometry::spherical)
+    throw ArgumentError(std::string(what) + " are there for embeddings on the sphere only, not in the plane");
+}
+
+py::array group(const HeldEmbedding& held) {
+  require_spherical(held.embedding, "the elements of a finite group");
+  std::vector<Matrix3> generators;
+  for (const Seam& seam : held.embedding.seams) generators.push_back(seam.transform);
+  return copy(SymmetryGroup(generators, held.embedding.group_order).elements());
+}
+
+py::tuple polygons(const Held& held) {
+  const py::object owner = py::cast(held);
+  const Polygons& faces = held->embedding.polygons;
+  return py::make_tuple(view(faces.corners, owner), view(faces.start, owner));
+}
+
+// The edges (k x 2) and one weight for each.
+py::tuple weights(const HeldEmbedding& held) {
+  const EdgeWeights weights = held.edge_weights();
+  const Connectivity connectivity =
+      weights.triangulation ? Connectivity() : held.source("the list of edges").connectivity();
+  const auto& edges = weights.triangulation ? weights.triangulation->connectivity.edges : connectivity.edges;
+  std::vector<int> i, j;
+  for (const auto& edge : edges) {
+    i.push_back(edge[0]);
+    j.push_back(edge[1]);
+  }
+  return py::make_tuple(copy(i), copy(j),
+                        copy(std::vector<double>(weights.w.data(), weights.w.data() + weights.w.size())));
+}
+
+// A and the ratio of singular values of every triangle.
+py::tuple face_distortion(const HeldEmbedding& held) {
+  const std::vector<FaceDistortion> faces =
+      measure_faces(held.source("distortion").triangles(), held.embedding);
+  std::vector<double> area, angle;
+  for (const FaceDistortion& face : faces) {
+    area.push_back(face.area);
+    angle.push_back(face.angle);
+  }
+  return py::make_tuple(copy(area), copy(angle));
+}
+
+// With the keys of the report.
+py::dict distortion(const HeldEmbedding& held) {
+  using namespace py::literals;
+  const Distortion measured = measure_distortion(held.source("distortion").triangles(), held.embedding);
+  const auto& [mean, std, median, max] = measured.area;
+  return py::dict(
+      "area"_a = py::dict("mean"_a = mean, "std"_a = std, "median"_a = median, "max"_a = max),
+      "angle"_a = py::dict("mean"_a = measured.angle.mean, "max"_a = measured.angle.max),
+      "histogram"_a = py::dict("quantity"_a = "log2 of the area ratio", "edges"_a = measured.histogram.edges,
+                               "counts"_a = measured.histogram.counts),
+      "measured_faces"_a = measured.measured_faces);
+}
+
+VerificationOptions verification_options(const HeldEmbedding& held, const std::string& weights_file,
+                                         const std::string& depth) {
+  VerificationOptions options;
+  options.weights_file = weights_file;
+  options.theorem2 = depth == "theorem2";
+  const bool given = held.weights && held.weights->kind == WeightKind::file;
+  if (given && weights_file.empty()) options.weights = held.weights;
+  return options;
+}
+
+// The judgement from the data alone. What is known of weights that the caller gave is used where no file is
+// named.
+std::string verify_again(const HeldEmbedding& held, const std::string& weights_file,
+                         const std::string& depth) {
+  require_spherical(held.embedding, "verifications");
+  return verdict_json(verify(held.source("verification").polygons(), held.embedding,
+                             parse_report(held.report), verification_options(held, weights_file, depth)));
+}
+
+Tiling tiled(const HeldEmbedding& held) {
+  require_spherical(held.embedding, "tilings");
+  return tile_sphere(held.embedding);
+}
+
+// (V, triangles, polygons' corners and starts, tile of each triangle)
+py::tuple tile(const HeldEmbedding& held) {
+  Tiling tiling;
+  {
+    const py::gil_scoped_release release;
+    tiling = tiled(held);
+  }
+  return py::make_tuple(take(std::move(tiling.mesh.V)), take(std::move(tiling.mesh.F)),
+                        take(std::move(tiling.polygons.corners)), take(std::move(tiling.polygons.start)),
+                        take(std::move(tiling.tile)));
+}
+
+Held loaded(Embedding embedding, std::string report, MaybeMesh mesh) {
+  embedding = with_report(std::move(embedding), parse_report(report));
+  if (mesh) embedding = mesh->divided(std::move(embedding));
+  return std::make_shared<HeldEmbedding>(
+      HeldEmbedding{std::move(embedding), std::move(report), std::move(mesh), std::nullopt});
+}
+
+// Messages begin with the path that they are about.
+Held load(const std::string& ply, const std::string& json, MaybeMesh mesh) {
+  Embedding embedding = read_embedding(ply, read_report(json));
+  return loaded(std::move(embedding), read_file(json), std::move(mesh));
+}
+
+Held unpickled(const py::bytes& ply, std::string report, MaybeMesh mesh) {
+  return loaded(parse_embedding(std::string(ply)), std::move(report), std::move(mesh));
+}
+
+void save(const HeldEmbedding& held, const std::string& ply, const std::string& json) {
+  require_spherical(held.embedding, "files of embeddings");
+  write_file(ply, serialize_embedding(held.embedding));
+  if (!json.empty()) write_file(json, held.report);
+}
+
+Held with_mesh(const HeldEmbedding& held, MaybeMesh mesh) {
+  auto result = std::make_shared<HeldEmbedding>(held);
+  result->embedding = mesh->divided(std::move(result->embedding));
+  result->mesh = std::move(mesh);
+  return result;
+}
+
+}  // namespace
+
+void bind_embedding(py::module_& module) {
+  py::class_<HeldEmbedding, Held>(module, "Embedding")
+      .def_property_readonly("positions",
+                             [](const Held& held) { return view(held->embedding.positions, py::cast(held)); })
+      .def_property_readonly("triangles",
+                             [](const Held& held) { return view(held->embedding.faces, py::cast(held)); })
+      .def_property_readonly("polygons", &polygons)
+      .def_property_readonly(
+          "source_vertex",
+          [](const Held& held) { return view(held->embedding.source_vertex, py::cast(held)); })
+      .def_property_readonly("seams", &seams)
+      .def_property_readonly("cones", &cones)
+      .def_property_readonly("group", &group)
+      .def_property_readonly(
+          "mesh", [](const HeldEmbedding& held) { return std::const_pointer_cast<SourceMesh>(held.mesh); })
+      .def_readonly("report", &HeldEmbedding::report)
+      .def("ply", [](const HeldEmbedding& held) { return py::bytes(serialize_embedding(held.embedding)); })
+      .def("weights", &weights)
+      .def("face_distortion", &face_distortion)
+      .def("distortion", &distortion)
+      .def("verify", &verify_again, Release())
+      .def("tile", &tile)
+      .def(
+          "write_tiling",
+          [](const HeldEmbedding& held, const std::string& path) { write_tiling(path, tiled(held)); },
+          Release())
+      .def("save", &save, Release())
+      .def("with_mesh", &with_mesh, Release());
+  module.def("load", &load, Release());
+  module.def("unpickled", &unpickled);
+}
+
+}  // namespace orbitutte::python

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#include "held_embedding.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include "orbitutte/verify/energy.h"
+
+namespace orbitutte::python {
+namespace {
+
+long long peak_memory_bytes() {
+  rusage usage = {};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<long long>(usage.ru_maxrss) * 1024;
+}
+
+}  // namespace
+
+const SourceMesh& HeldEmbedding::source(const char* purpose) const {
+  if (mesh) return *mesh;
+  throw ArgumentError(fmt::format(
+      "{} needs the mesh that was embedded; load the embedding with it, or give V and F", purpose));
+}
+
+EdgeWeights HeldEmbedding::edge_weights() const {
+  if (weights) return *weights;
+  const SourceMesh& known = source("the computation of weights");
+  const WeightOptions options = parse_report(report).weights;
+  if (options.kind == WeightKind::file)
+    throw ArgumentError("the weights were given by the caller, and files of embeddings do not hold them");
+  return weights_of(known.triangles(), known.connectivity(), options, embedding);
+}
+
+HeldEmbedding hold(EmbedResult result, std::shared_ptr<const SourceMesh> mesh, double total_seconds) {
+  RunRecord run;
+  run.total_seconds = total_seconds;
+  run.peak_memory_bytes = peak_memory_bytes();
+  std::string report = report_json(result, run);
+  return {std::move(result.embedding), std::move(report), std::move(mesh), std::move(result.weights)};
+}
+
+}  // namespace orbitutte::python

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// An embedding with everything that is known of it: what Python's Embedding holds.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "orbitutte/embed.h"
+#include "orbitutte/output/report.h"
+#include "source_mesh.h"
+
+namespace orbitutte::python {
+
+struct HeldEmbedding {
+  Embedding embedding;
+  std::string report;                      ///< JSON, as in the file
+  std::shared_ptr<const SourceMesh> mesh;  ///< null where an embedding was loaded without it
+  std::optional<EdgeWeights> weights;      ///< null where it was loaded: they can be computed again
+
+  /// Throws ArgumentError, saying what `purpose` it is missing for.
+  const SourceMesh& source(const char* purpose) const;
+
+  /// The weights that the embedding has, and the edges that they belong to. Throws ArgumentError.
+  EdgeWeights edge_weights() const;
+};
+
+/// Everything that is to be kept of a result.
+HeldEmbedding hold(EmbedResult result, std::shared_ptr<const SourceMesh> mesh, double total_seconds);
+
+}  // namespace orbitutte::python

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// Meshes: from arrays, from and to files, and what they are.
+#include <pybind11/stl.h>
+
+#include <memory>
+
+#include "arrays.h"
+#include "orbitutte/embed.h"
+#include "orbitutte/mesh/inspection.h"
+#include "orbitutte/mesh/mesh_io.h"
+#include "orbitutte/output/inspection_json.h"
+#include "source_mesh.h"
+
+namespace orbitutte::python {
+namespace {
+
+using Release = py::call_guard<py::gil_scoped_release>;
+
+std::shared_ptr<SourceMesh> from_triangles(const DoubleArray& V, const IntArray& F) {
+  return std::make_shared<SourceMesh>(Mesh{to_points(V), to_faces(F)});
+}
+
+std::shared_ptr<SourceMesh> from_polygons(const DoubleArray& V, const IntArray& corners,
+                                          const IntArray& start) {
+  return std::make_shared<SourceMesh>(PolygonMesh{to_points(V), to_vector(corners), to_vector(start)});
+}
+
+std::shared_ptr<SourceMesh> from_file(const std::string& path) {
+  return std::make_shared<SourceMesh>(read_mesh(path));
+}
+
+// Where the mesh has no defect but those of its elements, as `info` says it.
+std::string info(const SourceMesh& mesh) {
+  const PolygonMesh polygons = mesh.polygons();
+  const Inspection inspection = inspect(polygons);
+  return inspection_json("", inspection, weak_places(polygons, inspection));
+}
+
+py::tuple faces_of(const std::shared_ptr<SourceMesh>& mesh) {
+  const py::object owner = py::cast(mesh);
+  if (const Mesh* triangles = std::get_if<Mesh>(&mesh->input()))
+    return py::make_tuple(view(triangles->F, owner), py::none());
+  const PolygonMesh& polygons = std::get<PolygonMesh>(mesh->input());
+  return py::make_tuple(view(polygons.corners, owner), view(polygons.face_start, owner));
+}
+
+void write(const SourceMesh& mesh, const std::string& path) {
+  std::visit([&](const auto& known) { write_mesh(path, known); }, mesh.input());
+}
+
+std::vector<int> choose_cones(const SourceMesh& mesh, const Orbifold& orbifold) {
+  return std::visit([&](const auto& known) { return choose_marked_vertices(known, orbifold); }, mesh.input());
+}
+
+}  // namespace
+
+void bind_mesh(py::module_& module) {
+  py::class_<SourceMesh, std::shared_ptr<SourceMesh>>(module, "Mesh")
+      .def(py::init(&from_triangles))
+      .def(py::init(&from_polygons))
+      .def_static("read", &from_file, Release())
+      .def_property_readonly(
+          "positions",
+          [](const std::shared_ptr<SourceMesh>& mesh) { return view(mesh->positions(), py::cast(mesh)); })
+      .def_property_readonly("faces", &faces_of, "(m x 3, None), or (corners, start) of polygons")
+      .def("info", &info, Release())
+      .def("write", &write, Release())
+      .def("choose_cones", &choose_cones, Release());
+  module.def("families", &families_json);
+}
+
+}  // namespace orbitutte::python

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// What a mesh is embedded into.
+#include <pybind11/stl.h>
+
+#include "arrays.h"
+#include "orbitutte/mesh/corner_file.h"
+#include "orbitutte/orbifold/polygon.h"
+
+namespace orbitutte::python {
+namespace {
+
+Orbifold polygon(const std::vector<int>& vertices, const DoubleArray& positions) {
+  const Points points = to_points(positions);
+  std::vector<PolygonCorner> corners;
+  for (std::size_t k = 0; k < vertices.size(); ++k)
+    corners.push_back({vertices[k], points.row(static_cast<Eigen::Index>(k))});
+  return polygon_orbifold(corners);
+}
+
+}  // namespace
+
+void bind_orbifold(py::module_& module) {
+  py::class_<Orbifold>(module, "Orbifold")
+      .def_static("spherical", &parse_orbifold)
+      .def_static("euclidean", &parse_euclidean_orbifold)
+      .def_static("polygon", &polygon)
+      .def_static("polygon_file",
+                  [](const std::string& path) { return polygon_orbifold(read_corners(path)); })
+      .def_readonly("signature", &Orbifold::signature)
+      .def_readonly("group_order", &Orbifold::group_order)
+      .def_property_readonly("corner_vertices", &corner_vertices);
+}
+
+}  // namespace orbitutte::python

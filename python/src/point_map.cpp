@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// Points from the surface to the sphere and back.
+#include "orbitutte/map/point_map.h"
+
+#include "arrays.h"
+#include "held_embedding.h"
+
+namespace orbitutte::python {
+namespace {
+
+// (face, barycentric, element)
+py::tuple locate(const PointLocator& locator, const DoubleArray& directions) {
+  const Points rows = to_points(directions);
+  SurfacePoints found;
+  {
+    const py::gil_scoped_release release;
+    found = locator.locate(rows);
+  }
+  return py::make_tuple(take(std::move(found.face)), take(std::move(found.barycentric)),
+                        take(std::move(found.element)));
+}
+
+py::array map(const HeldEmbedding& held, const IntArray& face, const DoubleArray& barycentric,
+              const IntArray& element) {
+  const SurfacePoints points = {to_vector(face), to_points(barycentric), to_vector(element)};
+  Points images;
+  {
+    const py::gil_scoped_release release;
+    images = map_points(held.embedding, points);
+  }
+  return take(std::move(images));
+}
+
+}  // namespace
+
+void bind_point_map(py::module_& module) {
+  py::class_<PointLocator>(module, "PointLocator")
+      .def(py::init([](const HeldEmbedding& held) {
+        const py::gil_scoped_release release;
+        return std::make_unique<PointLocator>(held.embedding);
+      }))
+      .def("locate", &locate);
+  module.def("map_points", &map);
+}
+
+}  // namespace orbitutte::python

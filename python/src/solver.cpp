@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+// The computation: options, progress, and solvers.
+#include <pybind11/functional.h>
+#include <pybind11/stl.h>
+
+#include <atomic>
+#include <chrono>
+
+#include "arrays.h"
+#include "held_embedding.h"
+
+namespace orbitutte::python {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// Tells Python of the progress, where somebody listens, and lets it handle signals in any case. What Python
+// raises ends the computation and is raised again by `rethrow`, so that nothing of Python's passes through
+// the library.
+class ProgressHook {
+ public:
+  explicit ProgressHook(py::object listener) : listener_(std::move(listener)) {}
+
+  /// Called without the GIL. False: stop.
+  bool operator()(const Progress& progress) {
+    constexpr double signal_seconds = 0.05;  // waiting for the GIL may take as long as an iteration
+    if (listener_.is_none() && seconds_since(last_) < signal_seconds) return true;
+    const py::gil_scoped_acquire acquire;
+    last_ = Clock::now();
+    try {
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      return listener_.is_none() || tell(progress);
+    } catch (...) {
+      raised_ = std::current_exception();
+      return false;
+    }
+  }
+
+  /// With the GIL: what Python raised, if it did.
+  void rethrow() const {
+    if (raised_) std::rethrow_exception(raised_);
+  }
+
+ private:
+  // Only False stops: a function without `return` goes on.
+  bool tell(const Progress& progress) const {
+    const py::object answer =
+        listener_(progress.stage, progress.iteration, progress.energy, progress.gradient_norm);
+    if (answer.is_none()) return true;
+    return answer.cast<bool>();
+  }
+
+  py::object listener_;
+  Clock::time_point last_ = Clock::now();
+  std::exception_ptr raised_;
+};
+
+// A mesh, and the solver that keeps what its embeddings have in common.
+class Solver {
+ public:
+  Solver(std::shared_ptr<const SourceMesh> mesh, EmbedOptions options)
+      : mesh_(std::move(mesh)), solver_(make_solver(*mesh_, with_hook(std::move(options)))) {}
+
+  HeldEmbedding embed(const Orbifold& orbifold, const std::vector<int>& cones, py::object listener) {
+    const Busy busy(busy_);
+    ProgressHook hook(std::move(listener));
+    hook_ = &hook;
+    try {
+      const py::gil_scoped_release release;
+      const Clock::time_point start = Clock::now();
+      EmbedResult result = solver_.embed(orbifold, cones);
+      return hold(std::move(result), mesh_, seconds_since(start));
+    } catch (const Cancelled&) {
+      hook.rethrow();
+      throw;
+    }
+  }
+
+  const std::shared_ptr<const SourceMesh>& mesh() const { return mesh_; }
+
+ private:
+  // One computation at a time.
+  class Busy {
+   public:
+    explicit Busy(std::atomic<bool>& flag) : flag_(flag) {
+      if (flag_.exchange(true))
+        throw ArgumentError("this solver is computing already; take one Solver for every thread");
+    }
+    ~Busy() { flag_ = false; }
+    Busy(const Busy&) = delete;
+    Busy& operator=(const Busy&) = delete;
+
+   private:
+    std::atomic<bool>& flag_;
+  };
+
+  EmbedOptions with_hook(EmbedOptions options) {
+    options.progress = [this](const Progress& progress) { return (*hook_)(progress); };
+    return options;
+  }
+
+  static EmbeddingSolver make_solver(const SourceMesh& mesh, const EmbedOptions& options) {
+    return std::visit([&](const auto& known) { return EmbeddingSolver(known, options); }, mesh.input());
+  }
+
+  std::shared_ptr<const SourceMesh> mesh_;
+  EmbeddingSolver solver_;
+  ProgressHook* hook_ = nullptr;  // of the computation that runs
+  std::atomic<bool> busy_ = false;
+};
+
+// For one embedding: without the copies of the mesh that a solver keeps.
+HeldEmbedding embed_once(const std::shared_ptr<SourceMesh>& mesh, const Orbifold& orbifold,
+                         const std::vector<int>& cones, EmbedOptions options, py::object listener) {
+  ProgressHook hook(std::move(listener));
+  options.progress = [&](const Progress& progress) { return hook(progress); };
+  try {
+    const py::gil_scoped_release release;
+    const Clock::time_point start = Clock::now();
+    EmbedResult result =
+        std::visit([&](const auto& known) { return embed(known, orbifold, cones, options); }, mesh->input());
+    return hold(std::move(result), mesh, seconds_since(start));
+  } catch (const Cancelled&) {
+    hook.rethrow();
+    throw;
+  }
+}
+
+void set_weights(EmbedOptions& options, const std::string& text) {
+  for (const WeightKind kind : {WeightKind::standard, WeightKind::cotan, WeightKind::delaunay,
+                                WeightKind::mean_value, WeightKind::uniform})
+    if (text == name(kind)) {
+      options.weights.kind = kind;
+      return;
+    }
+  throw ArgumentError(
+      "weights is '" + text +
+      "'; it may be standard, cotan, delaunay, mean-value or uniform, or (i, j, w), or a sparse matrix");
+}
+
+void give_weights(EmbedOptions& options, const IntArray& i, const IntArray& j, const DoubleArray& w) {
+  options.weights.kind = WeightKind::file;
+  options.weights.given.clear();
+  for (py::ssize_t k = 0; k < w.size(); ++k)
+    options.weights.given.push_back({i.data()[k], j.data()[k], w.data()[k]});
+}
+
+void set_spread(EmbedOptions& options, const std::string& text) {
+  if (text != "arc-length" && text != "equidistant")
+    throw ArgumentError("spread is '" + text + "'; it may be arc-length or equidistant");
+  options.spread = text == "equidistant" ? Spread::equidistant : Spread::arc_length;
+}
+
+}  // namespace
+
+void bind_solver(py::module_& module) {
+  py::class_<EmbedOptions>(module, "Options")
+      .def(py::init<>())
+      .def("set_weights", &set_weights)
+      .def("give_weights", &give_weights)
+      .def("set_spread", &set_spread)
+      .def_readwrite("weights_file", &EmbedOptions::weights_file)
+      .def_property(
+          "clamp", [](const EmbedOptions& options) { return options.weights.clamp; },
+          [](EmbedOptions& options, double clamp) { options.weights.clamp = clamp; })
+      .def_property(
+          "cut_seed", [](const EmbedOptions& options) { return options.cut.seed; },
+          [](EmbedOptions& options, std::uint64_t seed) { options.cut.seed = seed; })
+      .def_readwrite("tolerance", &EmbedOptions::tolerance)
+      .def_readwrite("max_iterations", &EmbedOptions::max_iterations)
+      .def_readwrite("threads", &EmbedOptions::threads);
+  py::class_<Solver>(module, "Solver")
+      .def(py::init([](std::shared_ptr<SourceMesh> mesh, const EmbedOptions& options) {
+        const py::gil_scoped_release release;
+        return std::make_unique<Solver>(std::move(mesh), options);
+      }))
+      .def("embed", &Solver::embed);
+  module.def("embed", &embed_once);
+}
+
+}  // namespace orbitutte::python

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// The judgement on an embedding and its report again, from the mesh and both alone: `orbitutte verify`.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "orbitutte/output/report.h"
+#include "orbitutte/verify/theorem2.h"
+
+namespace orbitutte {
+
+struct VerificationOptions {
+  std::string
+      weights_file;  ///< the weights that the embedding was computed with, where they came from a file
+  std::optional<EdgeWeights> weights;  ///< or these themselves
+  bool theorem2 = false;               ///< also theorem 2's conditions, which can take long
+};
+
+struct Verdict {
+  std::vector<Check> checks;  ///< of the certificate, then whether the report says the same, then the energy
+  bool sound = false;         ///< all of them passed
+  bool bijective = false;     ///< and the report says that the optimiser converged
+  bool converged = false;     ///< that the report says so
+  std::optional<Theorem2> theorem2;  ///< where it was asked for
+};
+
+/// Throws MeshError with the first defect of the mesh, and as read_weights does; what does not hold of the
+/// embedding or its report is a failed check.
+Verdict verify(const PolygonMesh& mesh, const Embedding& embedding, const Report& report,
+               const VerificationOptions& options = {});
+
+/// `bijective`, `checks` and, where it was asked for, `theorem2`, as JSON (docs/file-formats.md).
+std::string verdict_json(const Verdict& verdict);
+
+}  // namespace orbitutte

@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/map/point_map.h"
+
+#include <gmock/gmock.h>
+
+#include <Eigen/Geometry>
+#include <numbers>
+#include <random>
+#include <set>
+
+#include "orbitutte/map/spherical_coordinates.h"
+#include "orbitutte/orbifold/polygon.h"
+#include "orbitutte/orbifold/symmetry_group.h"
+#include "orbitutte/verify/orientation.h"
+#include "sample_embeddings.h"
+
+namespace orbitutte {
+namespace {
+
+using test::sample_embedding;
+using test::sample_signatures;
+using testing::HasSubstr;
+
+Points random_directions(int count, unsigned seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  Points points(count, 3);
+  for (double& x : points.reshaped()) x = normal(random);
+  points.rowwise().normalize();
+  return points;
+}
+
+// Coordinates in the inner part of a triangle.
+Vector3 random_coordinates(std::mt19937& random) {
+  std::uniform_real_distribution<double> uniform(0.05, 1);
+  const Vector3 coordinates(uniform(random), uniform(random), uniform(random));
+  return coordinates / coordinates.sum();
+}
+
+SurfacePoints random_surface_points(const Embedding& embedding, int copies, int count) {
+  std::mt19937 random(5);
+  std::uniform_int_distribution<int> face(0, static_cast<int>(embedding.faces.rows()) - 1),
+      copy(0, copies - 1);
+  SurfacePoints points = {{}, Points(count, 3), {}};
+  for (int k = 0; k < count; ++k) {
+    points.face.push_back(face(random));
+    points.element.push_back(copy(random));
+    points.barycentric.row(k) = random_coordinates(random).transpose();
+  }
+  return points;
+}
+
+// Every corner and the middle of every edge of some triangles, in every copy.
+Points corners_and_edges(const Embedding& embedding, const std::vector<Matrix3>& copies,
+                         const std::vector<int>& triangles) {
+  std::vector<Vector3> points;
+  for (const int f : triangles)
+    for (int k = 0; k < 3; ++k) {
+      const Vector3 a = embedding.positions.row(embedding.faces(f, k)),
+                    b = embedding.positions.row(embedding.faces(f, (k + 1) % 3));
+      for (const Matrix3& copy : copies) {
+        points.push_back(copy * a);
+        points.push_back(copy * (a + b).normalized());
+      }
+    }
+  Points rows(static_cast<Eigen::Index>(points.size()), 3);
+  for (Eigen::Index k = 0; k < rows.rows(); ++k) rows.row(k) = points[k].transpose();
+  return rows;
+}
+
+// Triangles with a corner on a seam, in which cones are too.
+std::vector<int> triangles_at_seams(const Embedding& embedding) {
+  std::set<int> seam_vertices;
+  for (const Seam& seam : embedding.seams) {
+    seam_vertices.insert(seam.left.begin(), seam.left.end());
+    seam_vertices.insert(seam.right.begin(), seam.right.end());
+  }
+  std::vector<int> triangles;
+  for (int f = 0; f < embedding.faces.rows(); ++f)
+    for (const int v : embedding.faces.row(f))
+      if (seam_vertices.count(v) && (triangles.empty() || triangles.back() != f)) triangles.push_back(f);
+  return triangles;
+}
+
+double largest_round_trip(const Embedding& embedding, const PointLocator& locator, const Points& directions) {
+  const SurfacePoints found = locator.locate(directions);
+  EXPECT_EQ(std::count(found.face.begin(), found.face.end(), -1), 0);
+  return (map_points(embedding, found) - directions).cwiseAbs().maxCoeff();
+}
+
+TEST(PointMap, EveryDirectionIsTheImageOfThePointThatIsLocatedInEveryFamily) {
+  for (const std::string& signature : sample_signatures()) {
+    const Embedding& embedding = sample_embedding(signature).embedding();
+    const PointLocator locator(embedding);
+    EXPECT_LE(largest_round_trip(embedding, locator, random_directions(3000, 1)), 1e-14) << signature;
+  }
+}
+
+TEST(PointMap, EveryCopyHoldsItsShareOfTheSphere) {
+  for (const std::string& signature : sample_signatures()) {
+    const Embedding& embedding = sample_embedding(signature).embedding();
+    const SurfacePoints found = PointLocator(embedding).locate(random_directions(6000, 2));
+    std::vector<int> count(embedding.group_order, 0);
+    for (const int element : found.element) ++count[element];
+    const double share = 6000.0 / embedding.group_order;
+    for (const int points : count) EXPECT_NEAR(points, share, 6 * std::sqrt(share)) << signature;
+  }
+}
+
+TEST(PointMap, LocatingUndoesTheMapInEveryCopy) {
+  for (const std::string& signature : sample_signatures()) {
+    const Embedding& embedding = sample_embedding(signature).embedding();
+    const PointLocator locator(embedding);
+    const SurfacePoints points = random_surface_points(embedding, embedding.group_order, 300);
+    const SurfacePoints found = locator.locate(map_points(embedding, points));
+    EXPECT_EQ(found.face, points.face) << signature;
+    EXPECT_EQ(found.element, points.element) << signature;
+    EXPECT_LE((found.barycentric - points.barycentric).cwiseAbs().maxCoeff(), 1e-9) << signature;
+  }
+}
+
+TEST(PointMap, CornersAndEdgesAlongSeamsAreLocatedInEveryFamily) {
+  for (const std::string& signature : sample_signatures()) {
+    const Embedding& embedding = sample_embedding(signature).embedding();
+    const PointLocator locator(embedding);
+    std::vector<int> triangles = triangles_at_seams(embedding);
+    triangles.resize(std::min<std::size_t>(triangles.size(), 24));
+    const Points points = corners_and_edges(embedding, locator.elements(), triangles);
+    EXPECT_LE(largest_round_trip(embedding, locator, points), 1e-12) << signature;
+  }
+}
+
+TEST(PointMap, ConesAreLocatedAtOneOfTheirCopies) {
+  for (const std::string& signature : sample_signatures()) {
+    const Embedding& embedding = sample_embedding(signature).embedding();
+    const PointLocator locator(embedding);
+    for (const ConeCopies& cone : embedding.cones) {
+      const SurfacePoints found = locator.locate(embedding.positions.row(cone.copies.front()));
+      int corner = -1;
+      EXPECT_NEAR(found.barycentric.row(0).maxCoeff(&corner), 1, 1e-9) << signature;
+      EXPECT_EQ(embedding.source_vertex[embedding.faces(found.face[0], corner)], cone.vertex) << signature;
+    }
+  }
+}
+
+TEST(PointMap, VerticesGoToTheirPositions) {
+  const Embedding& embedding = sample_embedding("2*3").embedding();
+  SurfacePoints points = {{}, Points(embedding.faces.size(), 3), {}};
+  for (int c = 0; c < embedding.faces.size(); ++c) {
+    points.face.push_back(c / 3);
+    points.barycentric.row(c) = Vector3::Unit(c % 3).transpose();
+  }
+  const Points images = map_points(embedding, points);
+  for (int c = 0; c < embedding.faces.size(); ++c)
+    EXPECT_LE((images.row(c) - embedding.positions.row(embedding.faces.data()[c])).norm(), 3e-16);
+}
+
+TEST(PointMap, TrianglesAgreeOnTheirEdges) {
+  const Embedding& embedding = sample_embedding("5x").embedding();
+  const Connectivity connectivity =
+      connect(embedding.faces, static_cast<int>(embedding.source_vertex.size()));
+  int inner = 0;
+  for (int h = 0; h < embedding.faces.size(); ++h) {
+    const int other = connectivity.opposite[h];
+    if (other < h) continue;
+    SurfacePoints points = {{h / 3, other / 3}, Points::Zero(2, 3), {}};
+    points.barycentric(0, h % 3) = points.barycentric(1, (other + 1 - 3 * (other / 3)) % 3) = 0.3;
+    points.barycentric(0, (h + 1 - 3 * (h / 3)) % 3) = points.barycentric(1, other % 3) = 0.7;
+    const Points images = map_points(embedding, points);
+    EXPECT_LE((images.row(0) - images.row(1)).norm(), 3e-16);
+    ++inner;
+  }
+  EXPECT_GT(inner, 900);
+}
+
+// The half-edge of the cut mesh that joins the two vertices, either way.
+int halfedge_between(const Faces& F, int v, int w) {
+  for (int h = 0; h < F.size(); ++h)
+    if ((origin(F, h) == v && target(F, h) == w) || (origin(F, h) == w && target(F, h) == v)) return h;
+  return -1;
+}
+
+// The image of the point that is 0.3 of the way from v to w.
+Vector3 point_between(const Embedding& embedding, int v, int w) {
+  const int h = halfedge_between(embedding.faces, v, w);
+  SurfacePoints point = {{h / 3}, Points::Zero(1, 3), {}};
+  for (int k = 0; k < 3; ++k) {
+    const int corner = embedding.faces(h / 3, k);
+    point.barycentric(0, k) = corner == v ? 0.7 : corner == w ? 0.3 : 0;
+  }
+  return map_points(embedding, point).row(0);
+}
+
+TEST(PointMap, TransformsOfSeamsTakeTheRightBankToTheLeftOneBetweenVerticesToo) {
+  for (const char* signature : {"432", "2x", "3*2", "5*"}) {
+    const Embedding& embedding = sample_embedding(signature).embedding();
+    for (const Seam& seam : embedding.seams)
+      for (std::size_t i = 0; i + 1 < seam.left.size(); ++i) {
+        const Vector3 left = point_between(embedding, seam.left[i], seam.left[i + 1]);
+        const Vector3 right = point_between(embedding, seam.right[i], seam.right[i + 1]);
+        EXPECT_LE((left - seam.transform * right).norm(), 1e-13) << signature;
+      }
+  }
+}
+
+TEST(PointMap, NothingIsFoundWhereOnlyATriangleThatIsTurnedOverLies) {
+  Embedding embedding = sample_embedding("532").embedding();
+  SurfacePoints inside = {{7, 8}, Points::Constant(2, 3, 1.0 / 3), {4, 4}};
+  const Points images = map_points(embedding, inside);
+  std::swap(embedding.faces(7, 0), embedding.faces(7, 1));
+  const SurfacePoints found = PointLocator(embedding).locate(images);
+  EXPECT_EQ(found.face, (std::vector<int>{-1, 8}));
+  EXPECT_EQ(found.element, (std::vector<int>{-1, 4}));
+  EXPECT_TRUE(found.barycentric.row(0).array().isNaN().all());
+  EXPECT_TRUE(map_points(embedding, found).row(0).array().isNaN().all());
+}
+
+TEST(PointMap, DirectionsNeedNoLengthButOneThatIsPositiveAndFinite) {
+  const Embedding& embedding = sample_embedding("432").embedding();
+  const PointLocator locator(embedding);
+  Points directions(5, 3);
+  directions << 3, 4, 5, 3e-200, 4e-200, 5e-200, 0, 0, 0, 1, NAN, 0, INFINITY, 0, 0;
+  const SurfacePoints found = locator.locate(directions);
+  EXPECT_GE(found.face[0], 0);
+  EXPECT_EQ(found.face[1], found.face[0]);
+  for (int k = 2; k < 5; ++k) EXPECT_EQ(found.face[k], -1);
+  EXPECT_EQ(locator.locate(Points(0, 3)).count(), 0);
+}
+
+TEST(PointMap, OutsideOfAPolygonNothingIsFound) {
+  const Mesh mesh = test::round_disk(6);
+  const std::vector<int> corners = choose_marked_vertices(mesh, parse_orbifold("*222"));
+  const Connectivity connectivity = connect(mesh.F, test::vertex_count(mesh));
+  std::vector<PolygonCorner> polygon;  // counterclockwise, as their longitudes on the disk are
+  for (const int v : corners) polygon.push_back({v, Vector3(mesh.V(v, 0), mesh.V(v, 1), 1).normalized()});
+  std::sort(polygon.begin(), polygon.end(), [](const PolygonCorner& a, const PolygonCorner& b) {
+    return std::atan2(a.position.y(), a.position.x()) < std::atan2(b.position.y(), b.position.x());
+  });
+  const Orbifold orbifold = polygon_orbifold(polygon);
+  const EmbedResult result = embed(mesh, orbifold, corner_vertices(orbifold));
+  ASSERT_TRUE(result.certificate.bijective);
+  const PointLocator locator(result.embedding);
+  EXPECT_EQ(locator.elements().size(), 1u);
+  const Points directions = random_directions(4000, 3);
+  const SurfacePoints found = locator.locate(directions);
+  double inside = 0;
+  for (int k = 0; k < found.count(); ++k) {
+    bool is_inside = true;
+    for (std::size_t c = 0; c < polygon.size(); ++c)
+      is_inside =
+          is_inside &&
+          polygon[c].position.cross(polygon[(c + 1) % polygon.size()].position).dot(directions.row(k)) > 0;
+    EXPECT_EQ(found.face[k] >= 0, is_inside) << directions.row(k);
+    inside += is_inside;
+  }
+  EXPECT_NEAR(inside / found.count(), result.certificate.signed_area / (4 * std::numbers::pi), 0.03);
+}
+
+TEST(PointMap, PointsOfThePlaneAreMappedButNotLocated) {
+  const Mesh mesh = test::perturbed(test::icosphere(2), 0.03, 7);
+  const Orbifold orbifold = parse_euclidean_orbifold("442");
+  const EmbedResult result = embed(mesh, orbifold, choose_marked_vertices(mesh, orbifold));
+  const Points image = map_points(result.embedding, {{3}, Points::Constant(1, 3, 1.0 / 3), {}});
+  const Faces& F = result.embedding.faces;
+  const Vector3 mean = (result.embedding.positions.row(F(3, 0)) + result.embedding.positions.row(F(3, 1)) +
+                        result.embedding.positions.row(F(3, 2))) /
+                       3;
+  EXPECT_LE((image.row(0).transpose() - mean).norm(), 1e-15);
+  EXPECT_THROW(PointLocator{result.embedding}, ArgumentError);
+}
+
+std::string refusal(const Embedding& embedding, const SurfacePoints& points) {
+  try {
+    map_points(embedding, points);
+  } catch (const ArgumentError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(PointMap, PointsThatAreNoneAreNamed) {
+  const Embedding& embedding = sample_embedding("432").embedding();
+  const Points middle = Points::Constant(1, 3, 1.0 / 3);
+  EXPECT_EQ(refusal(embedding, {{0}, middle, {23}}), "accepted");
+  EXPECT_EQ(refusal(embedding, {{-1}, Points::Constant(1, 3, NAN), {-1}}), "accepted");
+  EXPECT_THAT(refusal(embedding, {{320}, middle, {}}),
+              HasSubstr("point 0 names the face 320; there are 320"));
+  EXPECT_THAT(refusal(embedding, {{-2}, middle, {}}), HasSubstr("face -2"));
+  EXPECT_THAT(refusal(embedding, {{0}, middle, {24}}), HasSubstr("the copy 24; there are 24"));
+  EXPECT_THAT(refusal(embedding, {{0}, 2 * middle, {}}), HasSubstr("add up to 1"));
+  EXPECT_THAT(refusal(embedding, {{0}, Vector3(1.5, -0.5, 0).transpose(), {}}), HasSubstr("not negative"));
+  EXPECT_THAT(refusal(embedding, {{0, 1}, middle, {}}), HasSubstr("2 faces, 1 rows"));
+  Embedding broken = embedding;
+  broken.faces(5, 1) = 100000;
+  EXPECT_THAT(refusal(broken, {{0}, middle, {}}), HasSubstr("does not exist"));
+  EXPECT_THROW(PointLocator{broken}, ArgumentError);
+  broken = embedding;
+  broken.group_order = 60;
+  EXPECT_THROW(PointLocator{broken}, ArgumentError);
+}
+
+// A triangle whose corners are within `width` of one great arc.
+SphericalCorners thin_triangle(std::mt19937& random, double length, double width) {
+  std::normal_distribution<double> normal;
+  const auto vector = [&] { return Vector3(normal(random), normal(random), normal(random)); };
+  const Vector3 a = vector().normalized(), along = length * a.cross(vector()).normalized();
+  SphericalCorners corners = {a, (a + along).normalized(),
+                              (a + 0.4 * along + width * a.cross(along).normalized()).normalized()};
+  if (orientation_sign(corners[0], corners[1], corners[2]) < 0) std::swap(corners[1], corners[2]);
+  return corners;
+}
+
+TEST(SphericalCoordinates, PointsComeBackFromTrianglesHoweverThinOrSmall) {
+  std::mt19937 random(3);
+  for (const double length : {1.5, 0.1, 1e-3, 1e-7})
+    for (const double width : {1.0, 1e-3, 1e-6, 1e-10}) {
+      for (int k = 0; k < 50; ++k) {
+        const SphericalCorners corners = thin_triangle(random, length, length * width);
+        if (orientation_sign(corners[0], corners[1], corners[2]) <= 0) continue;
+        const Vector3 point = spherical_point(corners, random_coordinates(random));
+        const Vector3 coordinates = spherical_coordinates(corners, point);
+        EXPECT_GE(coordinates.minCoeff(), 0);
+        EXPECT_NEAR(coordinates.sum(), 1, 1e-15);
+        EXPECT_LE((spherical_point(corners, coordinates) - point).norm(), 1e-14) << length << " " << width;
+      }
+    }
+}
+
+TEST(SphericalCoordinates, TheFanOfAPointIsItsTriangleDivided) {
+  std::mt19937 random(4);
+  for (int k = 0; k < 200; ++k) {
+    const SphericalCorners corners = thin_triangle(random, 1, 0.7);
+    const Vector3 expected = random_coordinates(random), point = spherical_point(corners, expected);
+    EXPECT_LE((spherical_coordinates(corners, point) - expected).cwiseAbs().maxCoeff(), 1e-14);
+    EXPECT_TRUE(contains(corners, point));
+    EXPECT_FALSE(contains(corners, -point));
+    EXPECT_FALSE(contains(corners, spherical_point(corners, Vector3(0.7, 0.7, -0.4))));
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_TRUE(contains(corners, corners[c]));
+      EXPECT_EQ(spherical_coordinates(corners, corners[c]), Vector3::Unit(c));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace orbitutte
