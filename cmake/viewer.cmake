@@ -13,7 +13,7 @@ function(orbitutte_embed_text name)
     COMMAND ${CMAKE_COMMAND} "-DNAME=${name}" "-DINPUTS=${ARGN}" "-DOUTPUT=${output}" -P ${PROJECT_SOURCE_DIR}/cmake/embed_text.cmake
     DEPENDS ${ARGN} ${PROJECT_SOURCE_DIR}/cmake/embed_text.cmake VERBATIM)
   target_sources(orbitutte PRIVATE ${output})
-  set_source_files_properties(${output} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+  set_source_files_properties(${output} PROPERTIES SKIP_PRECOMPILE_HEADERS ON SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
 set(ORBITUTTE_BUNDLE "")

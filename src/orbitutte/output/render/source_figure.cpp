@@ -11,7 +11,7 @@ namespace orbitutte {
 namespace {
 
 constexpr double crease = 40 * std::numbers::pi / 180;
-constexpr double camera_distance = 4;    // the figure lies in the unit ball
+constexpr double distance_to_source = 4;    // the figure lies in the unit ball
 constexpr float surface_offset = 2e-4F;  // how far above the surface rays begin that leave it
 constexpr float reach_of_shade = 0.6F;
 
@@ -49,7 +49,7 @@ SourceFigure::SourceFigure(const Points& V, const Faces& F)
 Image SourceFigure::draw(const Camera& camera, const SurfaceColour& colour,
                          const Ornaments& ornaments) const {
   return supersample(camera.size, [&](const Sample& sample) -> Rgba {
-    const Ray ray = camera.ray(sample.x, sample.y, camera_distance);
+    const Ray ray = camera.ray(sample.x, sample.y, distance_to_source);
     const auto surface = scene_.first_hit(ray), ornament = ornaments.first_hit(ray);
     if (ornament && (!surface || ornament->distance < surface->distance))
       return shade_ornament(camera, ornaments, *ornament);
