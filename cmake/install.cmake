@@ -9,7 +9,8 @@ include(CheckLinkerFlag)
 set(ORBITUTTE_HEADERS embed memory types
     mesh/corner_file mesh/extremities mesh/file mesh/inspection mesh/mesh_io mesh/sample mesh/triangulation mesh/weak_places mesh/weights
     orbifold/families orbifold/polygon orbifold/signature orbifold/symmetry_group orbifold/tile
-    output/comparison output/embedding_file output/export output/page output/report output/tiling
+    map/point_map output/comparison output/embedding_file output/export output/inspection_json output/page output/report output/tiling
+    output/verification
     solve/sparse_factor verify/certificate verify/distortion verify/energy verify/theorem2)
 if(ORBITUTTE_RENDER)
   list(APPEND ORBITUTTE_HEADERS output/render)
@@ -36,6 +37,7 @@ endfunction()
 orbitutte_close_over_includes(ORBITUTTE_HEADERS)
 
 foreach(header IN LISTS ORBITUTTE_HEADERS)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS src/${header})  # it may include further ones
   get_filename_component(folder ${header} DIRECTORY)
   install(FILES src/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${folder} COMPONENT development)
 endforeach()
@@ -86,16 +88,18 @@ install(TARGETS orbitutte EXPORT orbitutteTargets
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime NAMELINK_COMPONENT development)
 install(EXPORT orbitutteTargets NAMESPACE orbitutte:: DESTINATION ${package_dir} COMPONENT development)
 
-set(zsh_folder site-functions)
-if(CMAKE_INSTALL_PREFIX STREQUAL "/usr" AND EXISTS /etc/debian_version)
-  set(zsh_folder vendor-completions)  # where Debian's zsh looks for what packages bring
+if(ORBITUTTE_BUILD_REFERENCE)
+  set(zsh_folder site-functions)
+  if(CMAKE_INSTALL_PREFIX STREQUAL "/usr" AND EXISTS /etc/debian_version)
+    set(zsh_folder vendor-completions)  # where Debian's zsh looks for what packages bring
+  endif()
+  install(FILES ${ORBITUTTE_MAN_PAGE} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT runtime)
+  install(FILES ${ORBITUTTE_REFERENCE_DIR}/orbitutte.bash RENAME orbitutte
+          DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/bash-completion/completions COMPONENT runtime)
+  install(FILES ${ORBITUTTE_REFERENCE_DIR}/_orbitutte DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/zsh/${zsh_folder} COMPONENT runtime)
+  install(FILES ${ORBITUTTE_REFERENCE_DIR}/orbitutte.fish DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/fish/vendor_completions.d
+          COMPONENT runtime)
 endif()
-install(FILES ${ORBITUTTE_MAN_PAGE} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT runtime)
-install(FILES ${ORBITUTTE_REFERENCE_DIR}/orbitutte.bash RENAME orbitutte
-        DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/bash-completion/completions COMPONENT runtime)
-install(FILES ${ORBITUTTE_REFERENCE_DIR}/_orbitutte DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/zsh/${zsh_folder} COMPONENT runtime)
-install(FILES ${ORBITUTTE_REFERENCE_DIR}/orbitutte.fish DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/fish/vendor_completions.d
-        COMPONENT runtime)
 
 # The package for CMake. Of a static library it also finds what that was linked with.
 set(ORBITUTTE_LINKED "")
@@ -138,7 +142,15 @@ endfunction()
 list(TRANSFORM definitions PREPEND -D)
 list(JOIN definitions " " ORBITUTTE_PC_DEFINITIONS)
 set(ORBITUTTE_PC_REQUIRES "fmt libcrypto tbb")
-set(libraries ${METIS_LIBRARY} ${AMD_LIBRARY} ${LAPACK_LIBRARIES} -lmeshoptimizer)
+# liblapack and libblas by these names may be any of Debian's implementations, while FindLAPACK names one of them.
+set(lapack -llapack -lblas)
+find_library(ORBITUTTE_LAPACK_LIBRARY lapack)
+find_library(ORBITUTTE_BLAS_LIBRARY blas)
+mark_as_advanced(ORBITUTTE_LAPACK_LIBRARY ORBITUTTE_BLAS_LIBRARY)
+if(NOT ORBITUTTE_LAPACK_LIBRARY OR NOT ORBITUTTE_BLAS_LIBRARY)
+  set(lapack ${LAPACK_LIBRARIES})
+endif()
+set(libraries ${METIS_LIBRARY} ${AMD_LIBRARY} ${lapack} -lmeshoptimizer)
 if(TARGET orbitutte::CHOLMOD)
   list(PREPEND libraries ${CHOLMOD_LIBRARY})
 endif()

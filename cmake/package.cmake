@@ -18,14 +18,15 @@ endif()
 if(TARGET orbitutte::MUMPS AND TARGET orbitutte::CHOLMOD)
   string(APPEND ORBITUTTE_BINARY_LICENCE " Whether the GPL allows that\n is doubtful: this binary is not to be passed on.")
 endif()
-configure_file(packaging/copyright.in ${ORBITUTTE_GENERATED_DIR}/copyright @ONLY)
+configure_file(packaging/copyright ${ORBITUTTE_GENERATED_DIR}/copyright @ONLY)
 install(FILES ${ORBITUTTE_GENERATED_DIR}/copyright DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/orbitutte COMPONENT runtime)
 
 find_program(DPKG_SHLIBDEPS_EXECUTABLE dpkg-shlibdeps)
-if(NOT DPKG_SHLIBDEPS_EXECUTABLE OR NOT GZIP_EXECUTABLE OR BUILD_SHARED_LIBS)
-  message(STATUS "Debian packages: need dpkg-dev and gzip, and a static library (BUILD_SHARED_LIBS=OFF)")
+if(NOT DPKG_SHLIBDEPS_EXECUTABLE OR NOT GZIP_EXECUTABLE OR BUILD_SHARED_LIBS OR NOT ORBITUTTE_BUILD_REFERENCE)
+  message(STATUS "No Debian packages: they need dpkg-dev, gzip, a static library (BUILD_SHARED_LIBS=OFF) and ORBITUTTE_BUILD_REFERENCE")
   return()
 endif()
+set(ORBITUTTE_MAKES_DEB ON)
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME orbitutte)
@@ -36,19 +37,19 @@ set(CPACK_VERBATIM_VARIABLES ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
+set(description
+"Computes seamless, nearly conformal bijections from meshes of spheres, disks
+and projective planes onto spherical orbifolds, with a certificate for each.")
 set(CPACK_DEBIAN_COMMAND_PACKAGE_NAME orbitutte)
 set(CPACK_DEBIAN_COMMAND_PACKAGE_SECTION math)
 set(CPACK_DEBIAN_COMMAND_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_COMMAND_PACKAGE_RECOMMENDS fonts-dejavu-core)
-set(CPACK_COMPONENT_COMMAND_DESCRIPTION "spherical orbifold Tutte embeddings of meshes
- Computes seamless, nearly conformal bijections from meshes of spheres, disks
- and projective planes onto spherical orbifolds, with a certificate for each.
- .
- This package has the command orbitutte.")
+set(CPACK_COMPONENT_COMMAND_DESCRIPTION "${description}
+This package has the command orbitutte.")
 
 # What a program that is linked with the static library is linked with, too.
 set(libraries libeigen3-dev libfmt-dev libssl-dev libtbb-dev libmetis-dev libsuitesparse-dev libmeshoptimizer-dev
-              "liblapack-dev | liblapack.so")
+              "libopenblas-dev | liblapack-dev | liblapack.so")
 if(ORBITUTTE_RENDER)
   list(APPEND libraries libembree-dev libcairo2-dev "pkgconf | pkg-config")
 endif()
@@ -58,15 +59,12 @@ endif()
 list(JOIN libraries ", " CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME liborbitutte-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "spherical orbifold Tutte embeddings of meshes (development files)
- Computes seamless, nearly conformal bijections from meshes of spheres, disks
- and projective planes onto spherical orbifolds, with a certificate for each.
- .
- This package has the headers, the static library, and what find_package() of
- CMake and pkg-config need to find them.")
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "${description}
+This package has the headers, the static library, and what find_package()
+of CMake and pkg-config need to find them.")
 
 # What every Debian package brings; not part of `cmake --install`.
-configure_file(packaging/changelog.in ${ORBITUTTE_GENERATED_DIR}/changelog @ONLY)
+configure_file(packaging/changelog ${ORBITUTTE_GENERATED_DIR}/changelog @ONLY)
 execute_process(COMMAND ${GZIP_EXECUTABLE} -9nkf ${ORBITUTTE_GENERATED_DIR}/changelog COMMAND_ERROR_IS_FATAL ANY)
 install(FILES ${ORBITUTTE_GENERATED_DIR}/changelog.gz DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/orbitutte
         COMPONENT debian_runtime EXCLUDE_FROM_ALL)

@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: MIT
 # The man page and the shells' completions, written by a program that shares the command line's definition.
+option(ORBITUTTE_BUILD_REFERENCE "Write the man page and the shells' completions" ON)
+if(NOT ORBITUTTE_BUILD_REFERENCE)
+  return()
+endif()
 file(GLOB ORBITUTTE_REFERENCE_SOURCES CONFIGURE_DEPENDS apps/reference/*.cpp)
 add_executable(orbitutte_reference ${ORBITUTTE_REFERENCE_SOURCES})
 target_link_libraries(orbitutte_reference PRIVATE orbitutte_commands)

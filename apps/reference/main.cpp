@@ -3,10 +3,8 @@
 // completions into FOLDER.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <exception>
 
-#include "../command_line.h"
 #include "orbitutte/mesh/file.h"
 #include "reference.h"
 
@@ -15,10 +13,7 @@ int main(int argc, char** argv) {
   if (argc != 3) return 2;
   try {
     const std::string folder = argv[2];
-    int code = 0;
-    CLI::App app;
-    cli::add_commands(app, code);
-    const std::vector<cli::CommandReference> commands = cli::reference_of(app);
+    const std::vector<cli::CommandReference> commands = cli::command_line_reference();
     write_file(folder + "/orbitutte.1", cli::man_page(read_file(argv[1]), commands));
     write_file(folder + "/orbitutte.bash", cli::bash_completion(commands));
     write_file(folder + "/_orbitutte", cli::zsh_completion(commands));

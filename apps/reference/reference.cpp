@@ -7,6 +7,8 @@
 #include <map>
 #include <stdexcept>
 
+#include "../command_line.h"
+
 namespace orbitutte::cli {
 namespace {
 
@@ -46,16 +48,22 @@ OptionReference reference_of(const CLI::Option& option) {
   return reference;
 }
 
+CommandReference reference_of(const CLI::App& command) {
+  CommandReference reference = {command.get_name(), command.get_description(), {}, {}};
+  for (const CLI::Option* option : command.get_options())
+    (option->get_positional() ? reference.positionals : reference.options).push_back(reference_of(*option));
+  return reference;
+}
+
 }  // namespace
 
-std::vector<CommandReference> reference_of(const CLI::App& app) {
+std::vector<CommandReference> command_line_reference() {
+  int code = 0;
+  CLI::App app;
+  add_commands(app, code);
   std::vector<CommandReference> commands;
-  for (const CLI::App* command : app.get_subcommands(std::function<bool(const CLI::App*)>())) {
-    commands.push_back({command->get_name(), command->get_description(), {}, {}});
-    for (const CLI::Option* option : command->get_options())
-      (option->get_positional() ? commands.back().positionals : commands.back().options)
-          .push_back(reference_of(*option));
-  }
+  for (const CLI::App* command : app.get_subcommands(std::function<bool(CLI::App*)>()))
+    commands.push_back(reference_of(*command));
   return commands;
 }
 

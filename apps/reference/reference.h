@@ -6,10 +6,6 @@
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-}
-
 namespace orbitutte::cli {
 
 struct OptionReference {
@@ -27,9 +23,9 @@ struct CommandReference {
   std::vector<OptionReference> positionals, options;
 };
 
-/// The commands of `app`, in their order. Throws std::logic_error where a word to be completed is not one
+/// The program's commands, in their order. Throws std::logic_error where a word to be completed is not one
 /// that the option's description names.
-std::vector<CommandReference> reference_of(const CLI::App& app);
+std::vector<CommandReference> command_line_reference();
 
 /// Replaces @COMMANDS@ (roff) and @VERSION@ in the text of the page.
 std::string man_page(std::string text, const std::vector<CommandReference>& commands);

@@ -19,6 +19,9 @@ echo "installed and moved: $(find "$prefix" -type f | wc -l) files"
 # Nothing names the build or the place of the first installation.
 if grep -rlF -e "$source/" -e "$build" -e "$scratch/first" "$prefix"; then fail "the files above name a folder of the build"; fi
 
+# Nor where this machine has the libraries that it is linked with.
+if grep -rnE '(^|[;" ])/[^;" ]*[.](so|a|dylib)' "$library/cmake" "$library/pkgconfig"; then fail "the above names a library by its path"; fi
+
 # All that the command and the examples include is a public header, and each header includes what it needs.
 missing=$(cat "$source"/apps/*.{cpp,h} "$source"/examples/*.cpp | sed -n 's/^#include "\(orbitutte\/.*\)"/\1/p' | sort -u |
           while read -r header; do [ -e "$prefix/include/$header" ] || echo "$header"; done)

@@ -8,6 +8,7 @@ set -euo pipefail
 source=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd -P)
 [ $# -ge 1 ] && debs=$(cd "$1" && pwd -P) || { sed -n 's/^# usage: /usage: /p' "${BASH_SOURCE[0]}" >&2; exit 2; }
 development=${2-}
+[ "$(id -u)" = 0 ] && command -v mmdebstrap >/dev/null || { echo "this needs root and mmdebstrap" >&2; exit 1; }
 scratch=$(mktemp -d)
 root=$scratch/root
 trap 'rm -rf "$scratch"' EXIT
