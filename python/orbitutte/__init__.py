@@ -17,6 +17,7 @@ choose_cones(V, F, signature) -> list   well separated vertices to be marked
 verify(embedding[, V, F]) -> dict       the certificate again, from the data alone
 distortion(embedding[, V, F]) -> dict   area and angle distortion again
 tile(embedding) -> (V, F, element)      |G| copies, welded into one closed mesh
+sample_mesh(shape, faces) -> (V, F)     a mesh to try things with
 read_mesh(path) -> (V, F)               OBJ, OFF, PLY and STL
 write_mesh(path, V, F)
 Embedding                               positions, faces, source_vertex, seams, group, energy, certificate, ...;
@@ -28,12 +29,12 @@ Embedding                               positions, faces, source_vertex, seams, 
 Exceptions: Error, of which MeshError and ArgumentError are ValueErrors and FileError is an OSError; Cancelled. Results that
 are not converged or not certified come with an EmbeddingWarning.
 """
-from ._api import Solver, Tiling, choose_cones, distortion, embed, info, read_mesh, signatures, tile, verify, write_mesh
+from ._api import Solver, Tiling, choose_cones, distortion, embed, info, read_mesh, sample_mesh, signatures, tile, verify, write_mesh
 from ._embedding import Cone, EdgeWeights, Embedding, Location, Seam
 from ._orbitutte import __version__
 from .errors import ArgumentError, Cancelled, EmbeddingWarning, Error, FileError, MeshError
 
 __all__ = [
     "ArgumentError", "Cancelled", "Cone", "EdgeWeights", "Embedding", "EmbeddingWarning", "Error", "FileError", "Location", "MeshError", "Seam", "Solver",
-    "Tiling", "__version__", "choose_cones", "distortion", "embed", "info", "read_mesh", "signatures", "tile", "verify", "write_mesh",
+    "Tiling", "__version__", "choose_cones", "distortion", "embed", "info", "read_mesh", "sample_mesh", "signatures", "tile", "verify", "write_mesh",
 ]

@@ -147,14 +147,16 @@ def verify(embedding: Embedding, V: npt.ArrayLike | None = None, F: Any = None, 
     dict
         ``bijective``, ``checks`` and, where asked for, ``theorem2``: as ``orbitutte verify --json`` has it.
     """
-    core = _with_mesh(embedding, V, F)._core
+    mesh = _mesh_or_none(V, F)
     file = b"" if weights_file is None else _arrays.path(weights_file)
-    return json.loads(core.verify(file, "theorem2" if theorem2 else "certificate"))
+    return json.loads(_embedding(embedding)._core.verify(mesh, file, "theorem2" if theorem2 else "certificate"))
 
 
 def distortion(embedding: Embedding, V: npt.ArrayLike | None = None, F: Any = None) -> dict[str, Any]:
     """Area and angle distortion, measured again: ``area``, ``angle``, ``histogram``, ``measured_faces``."""
-    return _with_mesh(embedding, V, F)._core.distortion()
+    mesh = _mesh_or_none(V, F)
+    core = _embedding(embedding)._core
+    return (core if mesh is None else core.with_mesh(mesh)).distortion()
 
 
 class Tiling(NamedTuple):
@@ -184,6 +186,20 @@ def tile(embedding: Embedding) -> Tiling:
         return Tiling(V, triangles, element)
     copies = int(element[-1]) + 1
     return Tiling(V, _arrays.faces(corners, start), np.repeat(np.arange(copies, dtype=np.int32), (len(start) - 1) // copies))
+
+
+def sample_mesh(shape: str = "figure", faces: int = 20000) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.int32]]:
+    """Make a mesh, as ``orbitutte sample`` does.
+
+    Parameters
+    ----------
+    shape : str
+        "figure" (a sphere), "mask" (a disk), "boy", "roman", "crosscap" or "quotient" (projective planes).
+    faces : int
+        About so many, 100 to 20 million.
+    """
+    mesh = _orbitutte.Mesh.sample(_options.text(shape, "shape"), _options.whole(faces, "faces"))
+    return mesh.positions, mesh.faces[0]
 
 
 def read_mesh(path: str | os.PathLike) -> tuple[npt.NDArray[np.float64], _arrays.Faces]:
@@ -237,10 +253,9 @@ def _embedding(value: Any) -> Embedding:
     return value
 
 
-def _with_mesh(embedding: Embedding, V: Any, F: Any) -> Embedding:
-    _embedding(embedding)
+def _mesh_or_none(V: Any, F: Any) -> _orbitutte.Mesh | None:
     if V is None and F is None:
-        return embedding
+        return None
     if V is None or F is None:
         raise ArgumentError("V and F belong together; give both or none")
-    return embedding.with_mesh(V, F)
+    return _arrays.mesh(V, F)

@@ -103,11 +103,12 @@ VerificationOptions verification_options(const HeldEmbedding& held, const std::s
 
 // The judgement from the data alone. What is known of weights that the caller gave is used where no file is
 // named.
-std::string verify_again(const HeldEmbedding& held, const std::string& weights_file,
+std::string verify_again(const HeldEmbedding& held, const MaybeMesh& mesh, const std::string& weights_file,
                          const std::string& depth) {
   require_spherical(held.embedding, "verifications");
-  return verdict_json(verify(held.source("verification").polygons(), held.embedding,
-                             parse_report(held.report), verification_options(held, weights_file, depth)));
+  const SourceMesh& judge = mesh ? *mesh : held.source("verification");
+  return verdict_json(verify(judge.polygons(), held.embedding, parse_report(held.report),
+                             verification_options(held, weights_file, depth)));
 }
 
 Tiling tiled(const HeldEmbedding& held) {
@@ -129,7 +130,7 @@ py::tuple tile(const HeldEmbedding& held) {
 
 Held loaded(Embedding embedding, std::string report, MaybeMesh mesh) {
   embedding = with_report(std::move(embedding), parse_report(report));
-  if (mesh) embedding = mesh->divided(std::move(embedding));
+  if (mesh) embedding = mesh->belonging(std::move(embedding));
   return std::make_shared<HeldEmbedding>(
       HeldEmbedding{std::move(embedding), std::move(report), std::move(mesh), std::nullopt});
 }
@@ -152,7 +153,7 @@ void save(const HeldEmbedding& held, const std::string& ply, const std::string& 
 
 Held with_mesh(const HeldEmbedding& held, MaybeMesh mesh) {
   auto result = std::make_shared<HeldEmbedding>(held);
-  result->embedding = mesh->divided(std::move(result->embedding));
+  result->embedding = mesh->belonging(std::move(result->embedding));
   result->mesh = std::move(mesh);
   return result;
 }

@@ -8,6 +8,7 @@
 #include "orbitutte/embed.h"
 #include "orbitutte/mesh/inspection.h"
 #include "orbitutte/mesh/mesh_io.h"
+#include "orbitutte/mesh/sample.h"
 #include "orbitutte/output/inspection_json.h"
 #include "source_mesh.h"
 
@@ -29,7 +30,10 @@ std::shared_ptr<SourceMesh> from_file(const std::string& path) {
   return std::make_shared<SourceMesh>(read_mesh(path));
 }
 
-// Where the mesh has no defect but those of its elements, as `info` says it.
+std::shared_ptr<SourceMesh> sample(const std::string& shape, int faces) {
+  return std::make_shared<SourceMesh>(sample_mesh({sample_shape(shape), faces}));
+}
+
 std::string info(const SourceMesh& mesh) {
   const PolygonMesh polygons = mesh.polygons();
   const Inspection inspection = inspect(polygons);
@@ -59,6 +63,7 @@ void bind_mesh(py::module_& module) {
       .def(py::init(&from_triangles))
       .def(py::init(&from_polygons))
       .def_static("read", &from_file, Release())
+      .def_static("sample", &sample, Release())
       .def_property_readonly(
           "positions",
           [](const std::shared_ptr<SourceMesh>& mesh) { return view(mesh->positions(), py::cast(mesh)); })

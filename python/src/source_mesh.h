@@ -29,8 +29,9 @@ class SourceMesh {
   /// Of the faces that were given. Throws MeshError.
   Connectivity connectivity() const;
 
-  /// The embedding of this mesh, from a file, with its polygons divided as those of the mesh are.
-  Embedding divided(Embedding embedding) const;
+  /// The embedding of this mesh, from a file, with its polygons divided as those of the mesh are. Throws
+  /// MeshError naming the first face that is not the mesh's.
+  Embedding belonging(Embedding embedding) const;
 
  private:
   std::variant<Mesh, PolygonMesh> input_;

@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: MIT
+# From arrays to a certified embedding, a closed mesh of its copies, and pictures: PYTHONPATH=build/python python3 examples/first_steps.py
+import numpy as np
+import orbitutte
+
+V, F = orbitutte.sample_mesh("figure", 5000)  # or orbitutte.read_mesh("mesh.obj"), or arrays of your own
+print(orbitutte.info(V, F)["embeds_into"])
+
+embedding = orbitutte.embed(V, F, "432", cones="auto")
+print(embedding)
+print("angle distortion:", np.round(np.percentile(embedding.angle_distortion, [50, 95, 100]), 3))
+
+sphere = orbitutte.tile(embedding)  # 24 copies, welded
+orbitutte.write_mesh("tiling.obj", sphere.V, sphere.F)
+
+north = embedding.locate([0, 0, 1])  # what lies at the north pole?
+print("north pole: face", north.face, "of copy", north.element, "at", embedding.source_points(north.face, north.barycentric))
+
+embedding.save("map.ply", "map.json")  # as the command line writes them
