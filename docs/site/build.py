@@ -102,8 +102,7 @@ def command_page(program: Path) -> str:
         parts.append(f"## {command}\n\n{text.strip().splitlines()[0]}.\n\n```text\norbitutte {usage(command, text)}\n```\n")
         parts.append("| argument | default | meaning |\n| --- | --- | --- |\n" +
                      "\n".join("| " + " | ".join(cell.replace("|", r"\|").replace("*", r"\*") for cell in row) + " |" for row in rows) + "\n")
-    readme = (ROOT / "README.md").read_text()
-    codes = re.search(r"## Exit codes\n(.*?)\n## ", readme, re.DOTALL)[1]
+    codes = re.search(r"## Exit codes\n(.*?)\n## ", (ROOT / "docs/choosing-cones.md").read_text(), re.DOTALL)[1]
     parts.append("## Exit codes\n" + codes)
     return "\n".join(parts)
 
