@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Two surfaces, one orbifold: out by the embedding of the first, back by that of the second. Between two meshes
-// of one surface that map is the identity but for the meshes' edges, and comes closer to it as they get finer.
+// Two surfaces, one orbifold: out by the embedding of the first, back by that of the second. Between two
+// meshes of one surface that map is the identity but for the meshes' edges, and comes closer to it as they
+// get finer.
 #include <Eigen/Geometry>
 #include <cstdio>
 
@@ -43,8 +44,9 @@ int main() {
     const Points images = map_between(first, out.embedding, second, back.embedding);
 
     const auto distance = (images - first.V).rowwise().norm();
-    std::printf("%6d onto %6d faces: vertices move by %.2f %% of the height in the mean, %.2f %% at most\n", faces,
-                faces * 3 / 2, 50 * distance.mean(), 50 * distance.maxCoeff());  // it is about 2 units high
+    std::printf("%6d onto %6d faces: vertices move by %.2f %% of the height in the mean, %.2f %% at most\n",
+                faces, faces * 3 / 2, 50 * distance.mean(),
+                50 * distance.maxCoeff());              // it is about 2 units high
     write_mesh("remeshed.obj", Mesh{images, first.F});  // the second surface in the first one's triangles
     certified = certified && out.certificate.bijective && back.certificate.bijective;
   }

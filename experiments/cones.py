@@ -77,12 +77,12 @@ def orders_table(program):
               ('igea', SHARED / 'igea.ply', IGEA)]
     rows = []
     for symbol in TRIANGLES + LUNES:
-        row = [symbol, {2: 'two'}.get(len(symbol), 'three')]
+        row = [symbol]
         for _, mesh, cones in meshes:
             mean, median, _, angle = measures(program.embed(mesh, symbol, cones[:2] if symbol in LUNES else cones))
-            row += [mean, median, angle]
+            row += [f'{mean} ({median})', angle]
         rows.append(row)
-    return table(['orbifold', 'cones', *(f'{name}: {what}' for name, _, _ in meshes for what in ('area, mean', 'median', 'angle'))], rows)
+    return table(['orbifold', *(f'{name}: {what}' for name, _, _ in meshes for what in ('area', 'angle'))], rows)
 
 
 def assignment_table(program):

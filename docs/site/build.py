@@ -129,18 +129,20 @@ def public_headers() -> list[Path]:
     """Those that are installed: what cmake/install.cmake lists, and what they include."""
     text = (ROOT / "cmake/install.cmake").read_text()
     names = re.search(r"set\(ORBITUTTE_HEADERS ([^)]*)\)", text)[1].split() + ["output/render"]
-    headers, pending = set(), [f"orbitutte/{name}.h" for name in names]
+    headers = {f"orbitutte/{name}.h": None for name in names}  # in this order
+    pending = list(headers)
     while pending:
-        if (header := pending.pop()) not in headers:
-            headers.add(header)
-            pending += re.findall(r'#include "(orbitutte/[^"]*)"', (ROOT / "src" / header).read_text())
-    return sorted(ROOT / "src" / header for header in headers)
+        for header in sorted(re.findall(r'#include "(orbitutte/[^"]*)"', (ROOT / "src" / pending.pop()).read_text())):
+            if header not in headers:
+                headers[header] = None
+                pending.append(header)
+    return [ROOT / "src" / header for header in headers]
 
 
 def cpp_pages(headers: list[Path]) -> dict[str, str]:
     pages = {}
     for folder, title in FOLDERS.items():
-        own = sorted(path for path in headers if path.parent == (ROOT / "src/orbitutte" / folder))
+        own = [path for path in headers if path.parent == (ROOT / "src/orbitutte" / folder)]
         if not own:
             continue
         text = f"{title}\n{'=' * len(title)}\n"

@@ -20,7 +20,7 @@ myst_heading_anchors = 3
 breathe_projects = {"orbitutte": os.environ["ORBITUTTE_XML"]}
 breathe_default_project = "orbitutte"
 breathe_default_members = ("members", "undoc-members")
-cpp_index_common_prefix = ["orbitutte::"]
+breathe_show_include = False
 
 # Python
 autodoc_member_order = "bysource"
