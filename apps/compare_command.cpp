@@ -49,6 +49,13 @@ Json to_json(const Compared& compared) {
       {"angle", {{"mean", d.angle.mean}, {"max", d.angle.max}}}};
 }
 
+ComparedMap compared_map(const Mesh& mesh, const Compared& compared) {
+  const bool is_spherical = compared.orbifold.geometry == Geometry::spherical;
+  const std::string verdict = compared.result.certificate.bijective ? "" : " (not certified)";
+  return {(is_spherical ? "sphere: " : "plane: ") + compared.orbifold.signature + verdict,
+          compared.result.distortion.area, measure_faces(mesh, compared.result.embedding)};
+}
+
 }  // namespace
 
 int compare_command(const CompareArguments& arguments) {
@@ -69,9 +76,7 @@ int compare_command(const CompareArguments& arguments) {
   for (const Orbifold& orbifold : orbifolds) {
     if (cones.empty()) cones = choose_marked_vertices(mesh, orbifold);
     maps.push_back({orbifold, embed(mesh, orbifold, cones, options)});
-    pictures.push_back({orbifold.geometry == Geometry::spherical ? "spherical " + orbifold.signature
-                                                                 : "Euclidean " + orbifold.signature,
-                        measure_faces(mesh, maps.back().result.embedding)});
+    pictures.push_back(compared_map(mesh, maps.back()));
   }
   if (arguments.json) {
     fmt::print("{}\n", Json({{"mesh", arguments.mesh},
@@ -85,7 +90,7 @@ int compare_command(const CompareArguments& arguments) {
                "median", "max", "angle", "max", "certified");
     for (const Compared& compared : maps) print_row(compared);
   }
-  if (!arguments.output.empty()) write_comparison(arguments.output, pictures);
+  if (!arguments.output.empty()) write_comparison(arguments.output, {mesh, cones, std::move(pictures)});
   const bool certified = maps[0].result.certificate.bijective && maps[1].result.certificate.bijective;
   return certified ? succeeded : not_certified;
 }

@@ -176,7 +176,8 @@ void add_compare(CLI::App& app, int& code) {
       "--flat", arguments->flat,
       "The Euclidean symbol: 333, 442, 632, 2222, or with a star; 442, of disks *442, unless given");
   command->add_option("--weights", arguments->weights, "As of embed")->capture_default_str();
-  command->add_option("-o,--output", arguments->output, "Draw both histograms here: .png or .svg");
+  command->add_option("-o,--output", arguments->output,
+                      "Draw both here: .png (mesh and histogram), .svg (histogram)");
   command->add_flag("--json", arguments->json, "As JSON");
   command->callback([arguments, &code] { code = run([&] { return compare_command(*arguments); }); });
 }

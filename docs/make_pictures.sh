@@ -43,13 +43,13 @@ render() {
   keep "$picture" full.png
 }
 
-# The histograms of both geometries: PICTURE MESH CONES
+# Mesh and histograms of both geometries: PICTURE MESH CONES
 compare() {
   "$orbitutte" compare "$2" --cones "$3" --weights cotan -o full.png >/dev/null
   keep "$1" full.png
 }
 
-# README.md, rendering.md, projective-planes.md
+# README.md, rendering.md, comparison.md, projective-planes.md
 
 sample figure figure 20000
 sample mask mask 3000
@@ -58,6 +58,8 @@ embed figure figure.ply 432 auto
 embed mask mask.ply '*532' auto
 embed boy boy.ply 1x auto
 render sheet figure --size 1600x1228
+"$orbitutte" compare figure.ply -o full.png >/dev/null
+keep comparison full.png
 render mask mask --panel source --size 480
 render mask-sphere mask --panel sphere --size 480
 render boy boy --size 1200x920

@@ -9,9 +9,12 @@
 #include <filesystem>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <regex>
 
 #include "orbitutte/mesh/file.h"
+#include "orbitutte/output/comparison.h"
+#include "orbitutte/output/render/area_histogram.h"
 #include "orbitutte/output/render/checkerboard.h"
 #include "orbitutte/output/render/default_view.h"
 #include "orbitutte/output/render/scales.h"
@@ -200,6 +203,117 @@ TEST(Render, SphereShowsTheTileInItsMiddle) {
   }
 }
 
+/// Where a ray from outside straight down to the sphere meets an ornament: its height over the sphere.
+std::optional<double> height_of_ornament(const Ornaments& ornaments, const Vector3& point) {
+  const Vector3f down = -point.cast<float>();
+  const auto hit = ornaments.first_hit({-2 * down, down});
+  if (!hit) return std::nullopt;
+  return 1.0 - hit->distance;
+}
+
+TEST(Render, SeamsStandOutOfTheSphereAllAlongTheirArcs) {
+  Embedding embedding = sample_embedding("5*").embedding();
+  // An arc of a quarter of a great circle, as next to cones that the map shrinks to.
+  embedding.positions.conservativeResize(2, 3);
+  embedding.positions << 1, 0, 0, 0, 1, 0;
+  embedding.seams.resize(1);
+  embedding.seams[0].left = embedding.seams[0].right = {0, 1};
+  embedding.cones.clear();
+  const Ornaments ornaments = sphere_ornaments(embedding, {}, sphere_camera({}, {200, 200}, 0.9));
+  for (int k = 0; k <= 40; ++k) {
+    const double angle = k * std::numbers::pi / 80;
+    const auto height = height_of_ornament(ornaments, {std::cos(angle), std::sin(angle), 0});
+    ASSERT_TRUE(height) << k;
+    EXPECT_GT(*height, 0.7 * seam_radius(embedding.group_order)) << k;
+  }
+}
+
+TEST(Render, BallsOfTheNearSideAreSeenWhole) {
+  Embedding embedding = sample_embedding("5*").embedding();
+  embedding.cones.resize(1);
+  embedding.cones[0].copies = {0};
+  embedding.seams.clear();
+  const Camera camera = sphere_camera({}, {200, 200}, 0.9);
+  const double radius = ball_radius(embedding, camera.pixel);
+  EXPECT_GT(radius / camera.pixel, 6) << "large enough for its number";
+  for (const double colatitude : {0.0, 0.6, 1.1, 1.4}) {
+    embedding.positions.row(0) << std::sin(colatitude), 0, std::cos(colatitude);
+    const Ornaments ornaments = sphere_ornaments(embedding, {}, camera);
+    for (int k = 0; k < 12; ++k) {
+      const double angle = k * std::numbers::pi / 6;
+      const Eigen::Vector2d place = Eigen::Vector2d(std::sin(colatitude), 0) +
+                                    0.9 * radius * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+      const Ray ray = {Vector3f(static_cast<float>(place[0]), static_cast<float>(place[1]), 3),
+                       -Vector3f::UnitZ()};
+      const auto ball = ornaments.first_hit(ray);
+      ASSERT_TRUE(ball) << colatitude << " " << k;
+      if (place.norm() < 1)
+        EXPECT_LT(ball->distance, 3 - std::sqrt(1 - place.squaredNorm())) << colatitude << " " << k;
+    }
+  }
+}
+
+TEST(Render, AMapOntoAPolygonIsShownAlone) {
+  Embedding embedding = sample_embedding("*532").embedding();
+  embedding.seams.clear();
+  embedding.group_order = 1;
+  const SphereFigure sphere(embedding, std::vector<float>(embedding.source_vertex.size(), 1));
+  EXPECT_EQ(sphere.copies().size(), 1U);
+}
+
+/// A comparison of maps whose triangles have these log2 A, on a mesh of as many triangles.
+std::string compared(const std::vector<std::vector<double>>& log_areas, const std::string& ending) {
+  Mesh mesh = icosphere(2);
+  mesh.V.rightCols(2) *= 0.08;  // few pixels to shade
+  Comparison comparison = {mesh, {0, 1, 2}, {}};
+  for (const std::vector<double>& areas : log_areas) {
+    ComparedMap map = {"a map", {1, 1, 1, 1}, std::vector<FaceDistortion>(mesh.F.rows())};
+    for (std::size_t f = 0; f < map.faces.size(); ++f)
+      map.faces[f] = {std::exp2(areas[f % areas.size()]), 1.5};
+    comparison.maps.push_back(map);
+  }
+  const std::string path = testing::TempDir() + "orbitutte_comparison_test" + ending;
+  write_comparison(path, comparison);
+  const std::string bytes = read_file(path);
+  std::filesystem::remove(path);
+  return bytes;
+}
+
+/// How many pixels differ between two boxes of the same size: a box is left, top, right, bottom.
+int count_differences(const Picture& a, const std::array<int, 2>& at, const Picture& b,
+                      const std::array<int, 2>& there, const std::array<int, 2>& size) {
+  int count = 0;
+  for (int row = 0; row < size[1]; ++row)
+    for (int byte = 0; byte < 3 * size[0]; ++byte)
+      count += a.bytes[3 * (static_cast<std::size_t>(at[1] + row) * a.width + at[0]) + byte] !=
+               b.bytes[3 * (static_cast<std::size_t>(there[1] + row) * b.width + there[0]) + byte];
+  return count;
+}
+
+TEST(Comparison, MapsShareAxesAndColours) {
+  const std::vector<double> narrow = {-0.5, 0, 0.2, 0.5, 0.5}, wide = {-5, -4, -1, 0, 1, 2, 4, 5};
+  const Picture both(compared({narrow, wide}, ".png")), same(compared({narrow, narrow}, ".png"));
+  const int half = both.width / 2, height = both.height;
+  EXPECT_EQ(count_differences(same, {0, 0}, same, {half, 0}, {half / 2, height - 600}), 0)
+      << "equal maps look the same, figures included";
+  EXPECT_EQ(count_differences(both, {0, height - 95}, both, {half, height - 95}, {half, 95}), 0)
+      << "the numbers of the horizontal axes are the same";
+  EXPECT_EQ(count_differences(both, {0, height - 500}, both, {half, height - 500}, {110, 500}), 0)
+      << "the numbers of the vertical axes are the same";
+  EXPECT_GT(count_differences(both, {0, height - 95}, same, {0, height - 95}, {half, 95}), 0)
+      << "a wide map widens the axis of its neighbour";
+  EXPECT_GT(count_differences(both, {0, 120}, same, {0, 120}, {half, 600}), 0)
+      << "and the scale of its neighbour's colours";
+}
+
+TEST(Comparison, SameBytesOnEveryRun) {
+  for (const std::string ending : {".png", ".svg"}) {
+    const std::string first = compared({{-1, 0, 1}, {0, 2}}, ending);
+    EXPECT_TRUE(compared({{-1, 0, 1}, {0, 2}}, ending) == first) << ending;
+  }
+  EXPECT_THROW(compared({{0}}, ".jpg"), ArgumentError);
+}
+
 TEST(Render, PngAndSvgSayTheirSize) {
   const Subject subject("332");
   const std::string png = render_png(subject.get(), options_of(Panel::convergence, 300, 170));
@@ -230,6 +344,8 @@ void expect_well_formed(const std::string& xml) {
   }
   EXPECT_TRUE(open.empty());
 }
+
+TEST(Comparison, SvgIsWellFormed) { expect_well_formed(compared({{-1, 0, 1}, {0, 20}}, ".svg")); }
 
 TEST(Render, SvgIsWellFormed) {
   const Subject subject("*33");
@@ -388,6 +504,52 @@ TEST(Lighting, NormalsAreSmoothOnSpheresAndFlatOnCubes) {
   for (Eigen::Index c = 0; c < F.size(); ++c) EXPECT_NEAR(flat.row(c).cwiseAbs().maxCoeff(), 1, 1e-6);
 }
 
+/// The mean openness over the samples of a pixel.
+double mean_openness(const RayScene& scene, const Ray& from) {
+  const Blocker is_blocked = [&](const Ray& ray) { return scene.is_blocked(ray); };
+  double sum = 0;
+  for (int k = 0; k < 9; ++k) sum += openness(is_blocked, from, 3, {100.5F, 60.5F, k});
+  return sum / 9;
+}
+
+/// Two squares that meet along the y axis, each rising by the slope (negative: falling) away from it.
+RayScene folded_squares(double slope) {
+  Points V(6, 3);
+  V << -1, -1, slope, 0, -1, 0, 1, -1, slope, -1, 1, slope, 0, 1, 0, 1, 1, slope;
+  Faces F(4, 3);
+  F << 0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4;
+  RayScene scene;
+  scene.add_triangles(V, F);
+  scene.commit();
+  return scene;
+}
+
+TEST(Lighting, ConcaveCreasesAreDarkerAndConvexTopsAreNot) {
+  const Ray above = {Vector3f(0, 0, 0.01F), Vector3f::UnitZ(), 0.6F};
+  const double steep = mean_openness(folded_squares(2), above),
+               flatter = mean_openness(folded_squares(1), above);
+  EXPECT_NEAR(steep, 0.447, 0.08) << "the cosine of the slope's angle, for squares without end";
+  EXPECT_NEAR(flatter, 0.707, 0.08);
+  EXPECT_EQ(mean_openness(folded_squares(-1), above), 1);
+  EXPECT_EQ(mean_openness(folded_squares(0), above), 1);
+}
+
+TEST(Lighting, BallsThrowShadowsAwayFromTheMainLight) {
+  RayScene scene;
+  scene.add_ball({0, 0, 0.5}, 0.2);
+  scene.commit();
+  const Blocker is_blocked = [&](const Ray& ray) { return scene.is_blocked(ray); };
+  const auto share = [&](const Vector3f& origin) {
+    float sum = 0;
+    for (int k = 0; k < 9; ++k) sum += lit(is_blocked, origin, Matrix3::Identity(), {100.5F, 60.5F, k});
+    return sum / 9;
+  };
+  EXPECT_LT(share({0.3F, -0.43F, 0}), 0.5F) << "the light is above the viewer's left shoulder";
+  EXPECT_EQ(share({-0.3F, 0.43F, 0}), 1);
+  EXPECT_EQ(share({0.3F, -0.43F, 0.8F}), 1) << "beside and above the ball";
+  EXPECT_LT(brightness(Vector3f::UnitZ(), {1, 0}), 0.7F * brightness(Vector3f::UnitZ(), {}));
+}
+
 TEST(Colours, MapsAreMonotoneInLightness) {
   double previous = 2;
   for (int k = 0; k <= 100; ++k) {
@@ -463,11 +625,31 @@ TEST(Checkerboard, NeighbouringSquaresDiffer) {
   EXPECT_LT((board.colour(any, 1) - far).abs().maxCoeff(), 1e-6F) << "squares smaller than pixels are grey";
 }
 
+TEST(Plots, HistogramsCountEveryTriangleOnAxesThatHoldAllMaps) {
+  const std::vector<double> narrow = {-0.3, 0, 0.1, 0.4}, wide = {-30, -3, -1, 0, 1, 2, 3};
+  for (const std::vector<double>& values : {narrow, wide}) {
+    const std::vector<double> shares = shares_by_bin(values, 2);
+    EXPECT_NEAR(std::accumulate(shares.begin(), shares.end(), 0.0), 1, 1e-12);
+  }
+  EXPECT_NEAR(shares_by_bin(wide, 2).front(), 2.0 / 7, 1e-12) << "what lies beyond is in the outermost bin";
+  const HistogramAxes both = histogram_axes({narrow, wide}), swapped = histogram_axes({wide, narrow});
+  for (const std::vector<double>& values : {narrow, wide}) {
+    const HistogramAxes own = histogram_axes({values});
+    EXPECT_GE(both.range, own.range);
+    EXPECT_GE(both.scale.range, own.scale.range);
+    for (const double share : shares_by_bin(values, both.range)) EXPECT_LE(share, both.highest);
+  }
+  EXPECT_EQ(both.range, swapped.range);
+  EXPECT_EQ(both.highest, swapped.highest);
+  EXPECT_EQ(both.lowest, -30);
+  EXPECT_GT(histogram_axes({}).highest, 0);
+}
+
 TEST(Plots, ScalesHoldNineTenthsOfTheTriangles) {
   for (const std::string signature : {"432", "*532", "5*"}) {
     const test::SampleEmbedding& sample = sample_embedding(signature);
     const std::vector<FaceDistortion> faces = measure_faces(sample.mesh, sample.embedding());
-    const AreaScale scale = area_scale(faces);
+    const AreaScale scale = area_scale(log_areas(faces));
     double inside = 0;
     for (const FaceDistortion& face : faces) inside += std::abs(std::log2(face.area)) <= scale.range ? 1 : 0;
     if (scale.range < 6) EXPECT_GE(inside, 0.89 * static_cast<double>(faces.size())) << signature;

@@ -9,14 +9,22 @@
 
 namespace orbitutte {
 
-/// A map's name and the distortion of each of its faces (measure_faces).
+/// A map of the mesh.
 struct ComparedMap {
-  std::string title;
-  std::vector<FaceDistortion> faces;
+  std::string title;                  ///< "sphere: 432"
+  Distortion::Area area;              ///< of max(A, 1/A), as measure_distortion has it
+  std::vector<FaceDistortion> faces;  ///< m, as measure_faces has them
 };
 
-/// Writes the histograms of area distortion next to each other, as .png or .svg. The file appears whole or
-/// not at all. Throws ArgumentError for another ending, FileError.
-void write_comparison(const std::string& path, const std::vector<ComparedMap>& maps);
+struct Comparison {
+  const Mesh& mesh;
+  std::vector<int> cones;  ///< the marked vertices: they should be seen
+  std::vector<ComparedMap> maps;
+};
+
+/// Draws the maps next to each other: the mesh in the colours of area distortion (.png only), and below it
+/// the histogram. All have the same colour scale, bins and axes. The same input gives the same bytes. The
+/// file appears whole or not at all. Throws ArgumentError for another ending than .png or .svg, FileError.
+void write_comparison(const std::string& path, const Comparison& comparison);
 
 }  // namespace orbitutte

@@ -58,6 +58,15 @@ Vector3f hemisphere_direction(float shift, int k) {
 
 Vector3f unit(float x, float y, float z) { return Vector3f(x, y, z).normalized(); }
 
+// In the camera's frame.
+const Vector3f& main_light() {
+  static const Vector3f direction = unit(-0.45F, 0.65F, 0.75F);
+  return direction;
+}
+
+constexpr float lamp_radius = 0.35F;  // at distance 1
+constexpr float shade = 0.75F;        // the share of the main light that its shadows take away
+
 }  // namespace
 
 CornerNormals corner_normals(const Points& V, const Faces& F, double crease) {
@@ -77,29 +86,38 @@ CornerNormals corner_normals(const Points& V, const Faces& F, double crease) {
   return normals;
 }
 
-float brightness(const Vector3f& normal, float openness) {
-  static const Vector3f main_light = unit(-0.45F, 0.65F, 0.75F), fill_light = unit(0.8F, 0.1F, 0.5F);
-  const float ambient = 0.46F * openness * (0.8F + 0.2F * normal[1]);
-  const float main = 0.66F * std::max(0.0F, normal.dot(main_light));
+float brightness(const Vector3f& normal, const Exposure& exposure) {
+  static const Vector3f fill_light = unit(0.8F, 0.1F, 0.5F);
+  const float open = exposure.openness;
+  const float ambient = 0.40F * open * (0.8F + 0.2F * normal[1]);
+  const float main = 0.78F * std::max(0.0F, normal.dot(main_light())) * (1 - shade + shade * exposure.lit);
   const float fill = 0.16F * std::max(0.0F, normal.dot(fill_light));
-  return ambient + (0.35F + 0.65F * openness) * (main + fill);
+  return ambient + (0.35F + 0.65F * open) * (main + fill);
 }
 
 float gloss(const Vector3f& normal) {
-  static const Vector3f halfway = (unit(-0.45F, 0.65F, 0.75F) + Vector3f::UnitZ()).normalized();
+  static const Vector3f halfway = (main_light() + Vector3f::UnitZ()).normalized();
   return 0.07F * std::pow(std::max(0.0F, normal.dot(halfway)), 40.0F);
 }
 
-float openness(const RayScene& scene, const Ray& from, float reach, const Sample& sample) {
-  constexpr int rays = 3;
+float openness(const Blocker& is_blocked, const Ray& from, int rays, const Sample& sample) {
   const float shift = dither(std::floor(sample.x), std::floor(sample.y));
   const Eigen::Quaternionf turn = Eigen::Quaternionf::FromTwoVectors(Vector3f::UnitZ(), from.direction);
   int open = 0;
   for (int k = 0; k < rays; ++k) {
     const Vector3f direction = turn * hemisphere_direction(shift, rays * sample.number + k);
-    open += scene.is_blocked({from.origin, direction, reach}) ? 0 : 1;
+    open += is_blocked({from.origin, direction, from.length}) ? 0 : 1;
   }
-  return static_cast<float>(open) / rays;
+  return static_cast<float>(open) / static_cast<float>(rays);
+}
+
+float lit(const Blocker& is_blocked, const Vector3f& origin, const Matrix3& axes, const Sample& sample) {
+  const float shift = dither(std::floor(sample.x), std::floor(sample.y));
+  const Vector3f centre = axes.transpose().cast<float>() * main_light();
+  const Eigen::Quaternionf turn = Eigen::Quaternionf::FromTwoVectors(Vector3f::UnitZ(), centre);
+  Vector3f aside = hemisphere_direction(shift, sample.number);
+  aside[2] = 0;
+  return is_blocked({origin, centre + lamp_radius * (turn * aside)}) ? 0.0F : 1.0F;
 }
 
 }  // namespace orbitutte

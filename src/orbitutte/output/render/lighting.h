@@ -2,6 +2,8 @@
 // Normals, lights and shade.
 #pragma once
 
+#include <functional>
+
 #include "orbitutte/output/render/image.h"
 #include "orbitutte/output/render/ray_scene.h"
 
@@ -14,18 +16,31 @@ using CornerNormals = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 /// (radians) parts them: smooth surfaces look smooth, and edges of machine parts stay sharp. O(m).
 CornerNormals corner_normals(const Points& V, const Faces& F, double crease);
 
+/// How much light reaches a point, 0 .. 1 each.
+struct Exposure {
+  float openness = 1;  ///< of all that comes from around
+  float lit = 1;       ///< of the main light
+};
+
 /// How bright a white, matt surface looks, about 0 .. 1, lit from above the viewer's left shoulder, filled in
-/// from the right, and from all around as far as the surroundings are open.
-/// normal: unit, in the camera's frame (right, up, towards the viewer); openness: 0 .. 1.
-float brightness(const Vector3f& normal, float openness);
+/// from the right, and from all around.
+/// normal: unit, in the camera's frame (right, up, towards the viewer).
+float brightness(const Vector3f& normal, const Exposure& exposure);
 
 /// What a slightly glossy surface reflects of the main light besides, about 0 .. 0.1.
 float gloss(const Vector3f& normal);
 
-/// The share of the hemisphere above a point that nothing blocks within `reach`, estimated with a few rays.
-/// Over the samples of a pixel their directions are spread evenly, and from pixel to pixel they are turned
-/// such that what noise remains is finely grained. from: its origin just above the surface, its direction the
-/// unit normal.
-float openness(const RayScene& scene, const Ray& from, float reach, const Sample& sample);
+/// Whether anything lies on a ray.
+using Blocker = std::function<bool(const Ray&)>;
+
+/// The share of the hemisphere above a point that nothing blocks within `from.length`, estimated with so many
+/// rays. Over the samples of a pixel their directions are spread evenly, and from pixel to pixel they are
+/// turned such that what noise remains is finely grained. from: its origin just above the surface, its
+/// direction the unit normal.
+float openness(const Blocker& is_blocked, const Ray& from, int rays, const Sample& sample);
+
+/// Whether the main light, which is as wide as a lamp near by, reaches a point: 1 or 0, and its share as the
+/// mean over the samples of a pixel. origin: just above the surface; axes: the camera's (rows).
+float lit(const Blocker& is_blocked, const Vector3f& origin, const Matrix3& axes, const Sample& sample);
 
 }  // namespace orbitutte

@@ -22,6 +22,7 @@ class Ornaments {
   void commit() { scene_.commit(); }
 
   std::optional<Hit> first_hit(const Ray& ray) const { return scene_.first_hit(ray); }
+  bool is_blocked(const Ray& ray) const { return scene_.is_blocked(ray); }
   Colour colour(const Hit& hit) const;
 
  private:

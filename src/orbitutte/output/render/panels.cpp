@@ -4,9 +4,21 @@
 #include <algorithm>
 #include <cmath>
 
-#include "orbitutte/output/render/plots.h"
+#include "orbitutte/output/render/area_histogram.h"
+#include "orbitutte/output/render/convergence.h"
 
 namespace orbitutte {
+
+namespace {
+
+void draw_histogram_panel(Canvas& canvas, const Box& box, PictureParts& parts) {
+  const std::vector<double> areas = log_areas(parts.distortion());
+  const HistogramAxes axes = histogram_axes({areas});
+  draw_histogram(canvas, box, areas, axes);
+  draw_centres(canvas, box, areas, axes);
+}
+
+}  // namespace
 
 void draw_panel(Panel panel, Canvas& canvas, const Box& box, PictureParts& parts) {
   switch (panel) {
@@ -21,7 +33,7 @@ void draw_panel(Panel panel, Canvas& canvas, const Box& box, PictureParts& parts
     case Panel::checkerboard:
       return draw_checkerboard_panel(canvas, box, parts);
     case Panel::histogram:
-      return draw_histogram(canvas, box, parts.distortion());
+      return draw_histogram_panel(canvas, box, parts);
     case Panel::convergence:
       return draw_convergence(canvas, box, parts.subject().report.history);
     case Panel::sheet:

@@ -23,8 +23,8 @@ const SourceFigure& PictureParts::figure() {
 
 const View& PictureParts::source_view() {
   if (source_view_) return *source_view_;
-  const Vector3 up = options_.up ? *options_.up : default_up(subject_.mesh);
-  const bool is_of_sphere = options_.panel == Panel::sphere;
+  const bool is_of_sphere = options_.panel == Panel::sphere;  // then view and up are the sphere's
+  const Vector3 up = options_.up && !is_of_sphere ? *options_.up : default_up(subject_.mesh);
   source_view_ = options_.view && !is_of_sphere ? View{options_.view->normalized(), up}
                                                 : default_view(figure(), marked_positions(), up);
   return *source_view_;

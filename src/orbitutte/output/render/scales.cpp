@@ -19,15 +19,15 @@ struct Tick {
 
 void draw_bar(Canvas& canvas, const Box& box, const std::function<Colour(double)>& colour,
               const std::vector<Tick>& ticks) {
-  const double em = canvas.em(), width = std::min(0.7 * box.width, 22 * em);
-  const Box bar = {box.x + 0.5 * (box.width - width), box.y + 0.4 * em, width, 0.8 * em};
+  const double em = canvas.em();
+  const Box bar = scale_bar(canvas, box);
   constexpr int steps = 256;
   for (int k = 0; k < steps; ++k)
     // Each strip reaches below the next one: no gaps where they meet inside a pixel.
-    canvas.box({bar.x + width * k / steps, bar.y, width - width * k / steps, bar.height},
+    canvas.box({bar.x + bar.width * k / steps, bar.y, bar.width - bar.width * k / steps, bar.height},
                srgb(colour((k + 0.5) / steps)));
   for (const Tick& tick : ticks) {
-    const double x = bar.x + tick.at * width;
+    const double x = bar.x + tick.at * bar.width;
     canvas.line({{x, bar.bottom()}, {x, bar.bottom() + 0.3 * em}}, {.colour = ink::quiet});
     canvas.text({x, bar.bottom() + 1.3 * em}, tick.text, {.size = 0.9, .align = Align::centre});
   }
@@ -39,6 +39,11 @@ void draw_bar_title(Canvas& canvas, const Box& box, const std::string& title) {
 }
 
 }  // namespace
+
+Box scale_bar(const Canvas& canvas, const Box& box) {
+  const double em = canvas.em(), width = std::min(0.7 * box.width, 22 * em);
+  return {box.x + 0.5 * (box.width - width), box.y + 0.4 * em, width, 0.8 * em};
+}
 
 double quantile(std::vector<double> values, double q) {
   if (values.empty()) return 0;
@@ -73,8 +78,8 @@ Colour AngleScale::colour(const FaceDistortion& face) const {
   return face.angle > 0 ? sequential_colour((face.angle - 1) / (largest - 1)) : linear(unmeasured);
 }
 
-AreaScale area_scale(const std::vector<FaceDistortion>& faces) {
-  std::vector<double> magnitudes = log_areas(faces);
+AreaScale area_scale(const std::vector<double>& log_areas) {
+  std::vector<double> magnitudes = log_areas;
   for (double& value : magnitudes) value = std::abs(value);
   const double wanted = quantile(std::move(magnitudes), 0.9);
   for (const double range : {1.0, 2.0, 3.0, 4.0})
@@ -95,15 +100,18 @@ AngleScale angle_scale(const std::vector<FaceDistortion>& faces) {
 void draw_scale(Canvas& canvas, const Box& box, const AreaScale& scale) {
   std::vector<Tick> ticks;
   for (const int k : octaves(scale.range)) ticks.push_back({0.5 * (k / scale.range + 1), power_of_two(k)});
+  ticks.front().text.insert(0, "≤ ");
+  ticks.back().text.insert(0, "≥ ");
   draw_bar(
-      canvas, box, [&](double t) { return diverging_colour(2 * t - 1); }, ticks);
-  draw_bar_title(canvas, box, "area on the sphere : area on the mesh");
+      canvas, box, [](double t) { return diverging_colour(2 * t - 1); }, ticks);
+  draw_bar_title(canvas, box, fmt::format("← shrunk    {}    enlarged →", area_ratio));
 }
 
 void draw_scale(Canvas& canvas, const Box& box, const AngleScale& scale) {
   std::vector<Tick> ticks;
   for (int k = 0; k <= 4; ++k)
     ticks.push_back({k / 4.0, fmt::format("{:.4g}", 1 + k / 4.0 * (scale.largest - 1))});
+  ticks.back().text.insert(0, "≥ ");
   draw_bar(canvas, box, sequential_colour, ticks);
   draw_bar_title(canvas, box, "ratio of singular values");
 }

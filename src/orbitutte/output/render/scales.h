@@ -24,9 +24,15 @@ struct AngleScale {
   Colour colour(const FaceDistortion& face) const;
 };
 
-/// Scales that hold nine tenths of the triangles, and for areas up to a factor of 64.
-AreaScale area_scale(const std::vector<FaceDistortion>& faces);
+/// Scales that hold nine tenths of the triangles, and for areas up to a factor of 64. log_areas: log2 A.
+AreaScale area_scale(const std::vector<double>& log_areas);
 AngleScale angle_scale(const std::vector<FaceDistortion>& faces);
+
+/// What A is, on scales and axes; both areas are shares of the whole.
+constexpr const char* area_ratio = "image area / mesh area";
+
+/// Where a scale's bar of colours is in its box.
+Box scale_bar(const Canvas& canvas, const Box& box);
 
 /// A bar of colours with numbers below it and a title, centred in the box (which should be 4 ems high).
 void draw_scale(Canvas& canvas, const Box& box, const AreaScale& scale);

@@ -56,8 +56,13 @@ void draw_sheet(Canvas& canvas, const Box& box, PictureParts& parts) {
   const auto cell = [&](int column, int row) {
     return Box{body.x + column * (width + gap), body.y + row * (height + gap), width, height};
   };
-  draw_captioned(canvas, cell(0, 0), parts, {Panel::source, "Source mesh, marked vertices and seams"});
-  draw_captioned(canvas, cell(1, 0), parts, {Panel::sphere, "Its tile on the sphere, and the copies"});
+  const bool is_tiling = !parts.embedding().seams.empty();
+  draw_captioned(canvas, cell(0, 0), parts,
+                 {Panel::source, is_tiling ? "Source mesh, marked vertices and seams"
+                                           : "Source mesh and the corners of the polygon"});
+  draw_captioned(
+      canvas, cell(1, 0), parts,
+      {Panel::sphere, is_tiling ? "Its tile on the sphere, and the copies" : "Its image on the sphere"});
   draw_captioned(canvas, cell(2, 0), parts, {Panel::checkerboard, "Checkerboard through the map"});
   draw_captioned(canvas, cell(0, 1), parts, {Panel::area, "Area distortion"});
   draw_captioned(canvas, cell(1, 1), parts, {Panel::angle, "Angle distortion"});

@@ -11,9 +11,10 @@ namespace orbitutte {
 namespace {
 
 constexpr double crease = 40 * std::numbers::pi / 180;
-constexpr double distance_to_source = 4;    // the figure lies in the unit ball
-constexpr float surface_offset = 2e-4F;  // how far above the surface rays begin that leave it
+constexpr double distance_to_source = 4;  // the figure lies in the unit ball
+constexpr float surface_offset = 2e-4F;   // how far above the surface rays begin that leave it
 constexpr float reach_of_shade = 0.6F;
+constexpr int rays_to_surroundings = 3;  // for each sample
 
 // Vertices that no face uses come to lie on the first face's first corner: they must not make the figure
 // small.
@@ -48,29 +49,32 @@ SourceFigure::SourceFigure(const Points& V, const Faces& F)
 
 Image SourceFigure::draw(const Camera& camera, const SurfaceColour& colour,
                          const Ornaments& ornaments) const {
+  const Blocker is_blocked = [&](const Ray& ray) {
+    return scene_.is_blocked(ray) || ornaments.is_blocked(ray);
+  };
   return supersample(camera.size, [&](const Sample& sample) -> Rgba {
     const Ray ray = camera.ray(sample.x, sample.y, distance_to_source);
     const auto surface = scene_.first_hit(ray), ornament = ornaments.first_hit(ray);
     if (ornament && (!surface || ornament->distance < surface->distance))
       return shade_ornament(camera, ornaments, *ornament);
     if (!surface) return Rgba::Zero();
-    const Light light = light_at(camera, ray, *surface, sample);
-    return opaque(light.diffuse * colour(*surface) + light.glossy);
+    const Ray above = normal_at(ray, *surface);
+    const Exposure exposure = {openness(is_blocked, above, rays_to_surroundings, sample),
+                               lit(is_blocked, above.origin, camera.axes, sample)};
+    const Vector3f normal = camera.axes.cast<float>() * above.direction;
+    return opaque(brightness(normal, exposure) * colour(*surface) +
+                  gloss(normal) * exposure.openness * exposure.lit);
   });
 }
 
-Light SourceFigure::light_at(const Camera& camera, const Ray& ray, const Hit& hit,
-                             const Sample& sample) const {
-  const Vector3f viewer = -ray.direction;
-  const Vector3f side = towards(hit.normal, viewer);
+// From just above the surface along its smooth normal, on the side that is seen, as far as shade reaches.
+Ray SourceFigure::normal_at(const Ray& ray, const Hit& hit) const {
+  const Vector3f side = towards(hit.normal, -ray.direction);
   // Smooth normals agree with the side of the surface that is seen.
   Vector3f normal = interpolate(normals_, hit).normalized();
   if (!normal.allFinite()) normal = side;
-  normal = towards(normal, side);
-  const Vector3f origin = ray.origin + hit.distance * ray.direction + surface_offset * side;
-  const float open = openness(scene_, {origin, normal}, reach_of_shade, sample);
-  const Vector3f in_view = camera.axes.cast<float>() * normal;
-  return {brightness(in_view, open), gloss(in_view) * open};
+  return {ray.origin + hit.distance * ray.direction + surface_offset * side, towards(normal, side),
+          reach_of_shade};
 }
 
 bool SourceFigure::is_visible(const Vector3& point, const Vector3& viewer, double clearance) const {
@@ -81,7 +85,7 @@ bool SourceFigure::is_visible(const Vector3& point, const Vector3& viewer, doubl
 Rgba shade_ornament(const Camera& camera, const Ornaments& ornaments, const Hit& hit) {
   Vector3f normal = camera.axes.cast<float>() * hit.normal;
   if (normal[2] < 0) normal = -normal;
-  return opaque(ornaments.colour(hit) * (0.35F + 0.65F * brightness(normal, 1)) + 2 * gloss(normal));
+  return opaque(ornaments.colour(hit) * (0.35F + 0.65F * brightness(normal, {})) + 2 * gloss(normal));
 }
 
 }  // namespace orbitutte

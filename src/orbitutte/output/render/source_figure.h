@@ -14,12 +14,6 @@ namespace orbitutte {
 /// What colours a surface: from a hit's face and place in it to its colour, before it is lit.
 using SurfaceColour = std::function<Colour(const Hit&)>;
 
-/// What a lit surface shows: its colour times `diffuse`, plus `glossy` in every channel.
-struct Light {
-  float diffuse = 1;
-  float glossy = 0;
-};
-
 class SourceFigure {
  public:
   /// V (n x 3, finite) is scaled into the unit ball about the origin. There must be a face.
@@ -29,6 +23,7 @@ class SourceFigure {
   const Faces& faces() const { return F_; }
   const CornerNormals& normals() const { return normals_; }
 
+  /// The ornaments throw shadows on the surface, too.
   Image draw(const Camera& camera, const SurfaceColour& colour, const Ornaments& ornaments) const;
 
   /// Whether nothing of the surface lies between a point, moved by `clearance` towards the viewer (a
@@ -36,7 +31,7 @@ class SourceFigure {
   bool is_visible(const Vector3& point, const Vector3& viewer, double clearance) const;
 
  private:
-  Light light_at(const Camera& camera, const Ray& ray, const Hit& hit, const Sample& sample) const;
+  Ray normal_at(const Ray& ray, const Hit& hit) const;
 
   Points V_;
   Faces F_;

@@ -2,6 +2,7 @@
 // The panels that show the source mesh.
 #include <algorithm>
 
+#include "orbitutte/output/render/area_histogram.h"
 #include "orbitutte/output/render/ball_labels.h"
 #include "orbitutte/output/render/checkerboard.h"
 #include "orbitutte/output/render/mesh_lines.h"
@@ -16,7 +17,7 @@ constexpr double scale_height = 4;       // ems
 constexpr double median_square = 0.045;  // side on the source, whose half diagonal is 1
 
 // Sizes of ornaments, as shares of half the picture's shorter side.
-constexpr double ball_share = 0.042, tube_share = 0.0085;
+constexpr double ball_share = 0.042, largest_ball_share = 0.08, tube_share = 0.0085;
 
 Camera source_camera(const Box& box, PictureParts& parts) {
   return fit_camera(parts.source_view(), parts.figure().positions(), size_of(box), figure_fill);
@@ -34,8 +35,14 @@ std::vector<int> source_of(const Embedding& embedding, const std::vector<int>& c
   return vertices;
 }
 
-// half_side: of the picture, in the world's unit.
-Ornaments source_ornaments(PictureParts& parts, double half_side) {
+// In the world's unit: larger than usual in small pictures, so that the number can be read.
+double source_ball_radius(const Camera& camera) {
+  const double half_side = 0.5 * std::min(camera.size.width, camera.size.height) * camera.pixel;
+  return std::clamp(readable_radius * camera.pixel, ball_share * half_side, largest_ball_share * half_side);
+}
+
+Ornaments source_ornaments(PictureParts& parts, const Camera& camera) {
+  const double half_side = 0.5 * std::min(camera.size.width, camera.size.height) * camera.pixel;
   const Embedding& embedding = parts.embedding();
   Ornaments ornaments;
   for (std::size_t s = 0; s < embedding.seams.size(); ++s)
@@ -43,9 +50,16 @@ Ornaments source_ornaments(PictureParts& parts, double half_side) {
                        tube_share * half_side, seam_colour(static_cast<int>(s)));
   const Points marked = parts.marked_positions();
   for (Eigen::Index c = 0; c < marked.rows(); ++c)
-    ornaments.add_ball(marked.row(c), ball_share * half_side, cone_colour(static_cast<int>(c)));
+    ornaments.add_ball(marked.row(c), source_ball_radius(camera), cone_colour(static_cast<int>(c)));
   ornaments.commit();
   return ornaments;
+}
+
+// In ems, above the scale: the sheet has a histogram of its own, and on small pictures the figure needs the
+// room.
+double histogram_height(const Box& box, const PictureParts& parts) {
+  constexpr double smallest = 350;  // pixels, of the box
+  return parts.options().panel == Panel::area && std::min(box.width, box.height) >= smallest ? 5 : 0;
 }
 
 // One colour, and the triangulation where it is coarse enough.
@@ -62,18 +76,17 @@ SurfaceColour plain_colour(const SourceFigure& figure, double pixel) {
 
 void draw_source_panel(Canvas& canvas, const Box& box, PictureParts& parts) {
   const Camera camera = source_camera(box, parts);
-  const double half_side = 0.5 * std::min(camera.size.width, camera.size.height) * camera.pixel;
   const SourceFigure& figure = parts.figure();
   canvas.image({box.x, box.y},
-               figure.draw(camera, plain_colour(figure, camera.pixel), source_ornaments(parts, half_side)));
-  const double radius = ball_share * half_side;
+               figure.draw(camera, plain_colour(figure, camera.pixel), source_ornaments(parts, camera)));
+  const double radius = source_ball_radius(camera);
   const Vector3 viewer = camera.axes.row(2);
   const Points marked = parts.marked_positions();
   for (Eigen::Index c = 0; c < marked.rows(); ++c) {
     const Vector3 at = camera.project(marked.row(c));
     draw_label(canvas, {.at = {box.x + at[0], box.y + at[1]},
                         .radius = radius / camera.pixel,
-                        .order = parts.embedding().cones[c].order,
+                        .order = order_to_show(parts.embedding(), c),
                         .colour = cone_colour(static_cast<int>(c)),
                         .is_visible = figure.is_visible(marked.row(c), viewer, radius)});
   }
@@ -81,11 +94,16 @@ void draw_source_panel(Canvas& canvas, const Box& box, PictureParts& parts) {
 
 void draw_area_panel(Canvas& canvas, const Box& box, PictureParts& parts) {
   const std::vector<FaceDistortion>& faces = parts.distortion();
-  const AreaScale scale = area_scale(faces);
-  const double below = scale_height * canvas.em();
+  const std::vector<double> areas = log_areas(faces);
+  const AreaScale scale = area_scale(areas);
+  const double em = canvas.em(), bars = histogram_height(box, parts) * em,
+               below = scale_height * em + bars + (bars > 0 ? em : 0);
   draw_surface(canvas, box.inset(0, 0, 0, below), parts,
                [&](const Hit& hit) { return scale.colour(faces[hit.primitive]); });
-  draw_scale(canvas, {box.x, box.bottom() - below, box.width, below}, scale);
+  const Box legend = {box.x, box.bottom() - scale_height * em, box.width, scale_height * em};
+  draw_scale(canvas, legend, scale);
+  const Box bar = scale_bar(canvas, legend);
+  if (bars > 0) draw_bars_on_scale(canvas, {bar.x, bar.y - bars, bar.width, bars}, areas, scale);
 }
 
 void draw_angle_panel(Canvas& canvas, const Box& box, PictureParts& parts) {

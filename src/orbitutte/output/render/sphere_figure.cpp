@@ -5,9 +5,11 @@
 #include "orbitutte/output/render/sphere_figure.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "orbitutte/output/render/ball_labels.h"
 #include "orbitutte/output/render/mesh_lines.h"
 #include "orbitutte/output/render/source_figure.h"
 
@@ -15,6 +17,16 @@ namespace orbitutte {
 namespace {
 
 constexpr double camera_distance = 3;
+
+// Balls and tubes darken the sphere around them.
+constexpr float above_sphere = 1.0002F;
+constexpr float reach_of_contact = 0.1F;
+constexpr float contact = 0.55F;  // the share of the light that they can take away
+
+// A tile that is held on a polygon stands alone.
+std::vector<TileCopy> copies_of(const Embedding& embedding) {
+  return embedding.seams.empty() ? std::vector<TileCopy>(1) : tile_copies(embedding);
+}
 
 RayScene copies_of_tile(const Points& positions, const Faces& faces, const std::vector<TileCopy>& copies) {
   RayScene tile;
@@ -34,6 +46,48 @@ std::optional<float> distance_to_sphere(const Ray& ray) {
   return towards - std::sqrt(inside);
 }
 
+// The least distance between two marked vertices of the tile; 2 where there is one only.
+double smallest_gap(const Embedding& embedding) {
+  double gap = 2;
+  std::vector<int> corners;
+  for (const ConeCopies& cone : embedding.cones)
+    for (const int v : cone.copies) {
+      for (const int w : corners)
+        gap = std::min(gap, (embedding.positions.row(v) - embedding.positions.row(w)).norm());
+      corners.push_back(v);
+    }
+  return gap;
+}
+
+// Where a ball around a point of the sphere has to be so that the sphere hides no more than its rear half, as
+// an orthographic camera sees no difference otherwise; on the far side, the point.
+Vector3 brought_forward(const Vector3& point, double radius, const Vector3& viewer) {
+  const double depth = point.dot(viewer);
+  if (depth < 0) return point;
+  const double inner = std::max(0.0, (point - depth * viewer).norm() - radius);  // its nearest to the middle
+  return point + (std::sqrt(1 - inner * inner) - depth) * viewer;
+}
+
+// The great arcs through these vertices, in steps so short that no chord sinks into the sphere by more than a
+// small part of a tube.
+Points arcs(const Points& positions, const std::vector<int>& vertices) {
+  constexpr double step = 0.05;  // radians
+  std::vector<Vector3> points = {positions.row(vertices.front())};
+  for (std::size_t i = 1; i < vertices.size(); ++i) {
+    const Vector3 from = points.back(), to = positions.row(vertices[i]);
+    const double angle = std::atan2(from.cross(to).norm(), from.dot(to));
+    const int count = std::max(1, static_cast<int>(std::ceil(angle / step)));
+    for (int k = 1; k < count; ++k) {
+      const double t = angle * k / count;
+      points.push_back((std::sin(angle - t) * from + std::sin(t) * to) / std::sin(angle));
+    }
+    points.push_back(to);
+  }
+  Points result(static_cast<Eigen::Index>(points.size()), 3);
+  for (std::size_t i = 0; i < points.size(); ++i) result.row(static_cast<Eigen::Index>(i)) = points[i];
+  return result;
+}
+
 Colour copy_colour(const TileCopy& copy) {
   return mix(linear(tile_colour(copy.colour, false)), linear(ink::paper), copy.mirrored ? 0.45F : 0.6F);
 }
@@ -44,7 +98,7 @@ SphereFigure::SphereFigure(const Embedding& embedding, std::vector<float> relief
     : positions_(embedding.positions),
       faces_(embedding.faces),
       relief_(std::move(relief)),
-      copies_(tile_copies(embedding)),
+      copies_(copies_of(embedding)),
       edge_length_(mean_edge_length(positions_, faces_)),
       scene_(copies_of_tile(positions_, faces_, copies_)) {}
 
@@ -62,6 +116,7 @@ Colour SphereFigure::surface_colour(const Vector3f& point, double pixel) const {
 }
 
 Image SphereFigure::draw(const Camera& camera, const Ornaments& ornaments) const {
+  const Blocker is_blocked = [&](const Ray& ray) { return ornaments.is_blocked(ray); };
   return supersample(camera.size, [&](const Sample& sample) -> Rgba {
     const Ray ray = camera.ray(sample.x, sample.y, camera_distance);
     const auto distance = distance_to_sphere(ray);
@@ -71,7 +126,9 @@ Image SphereFigure::draw(const Camera& camera, const Ornaments& ornaments) const
     if (!distance) return Rgba::Zero();  // copies' seams do not stand out: the outline stays round
     const Vector3f point = (ray.origin + *distance * ray.direction).normalized();
     const Vector3f normal = camera.axes.cast<float>() * point;
-    return opaque((0.40F + 0.62F * brightness(normal, 1)) * surface_colour(point, camera.pixel) +
+    const float open = openness(is_blocked, {above_sphere * point, point, reach_of_contact}, 1, sample);
+    const float shade = 1 - contact + contact * open;
+    return opaque((0.40F + 0.62F * brightness(normal, {})) * shade * surface_colour(point, camera.pixel) +
                   0.6F * gloss(normal));
   });
 }
@@ -81,13 +138,17 @@ double seam_radius(int group_order) {
   return std::clamp(0.012 * side, 0.005, 0.012);
 }
 
-double ball_radius(int group_order) { return 5.5 * seam_radius(group_order); }
+double ball_radius(const Embedding& embedding, double pixel) {
+  const double wanted = std::max(5.5 * seam_radius(embedding.group_order), readable_radius * pixel);
+  return std::min(wanted, std::max(0.3 * smallest_gap(embedding), 0.01));
+}
 
-Ornaments sphere_ornaments(const Embedding& embedding, const std::vector<TileCopy>& copies) {
+Ornaments sphere_ornaments(const Embedding& embedding, const std::vector<TileCopy>& copies,
+                           const Camera& camera) {
   const double radius = seam_radius(embedding.group_order);
   Ornaments thin;
   for (const Seam& seam : embedding.seams)
-    thin.add_tube(polyline(embedding.positions, seam.left), 0.45 * radius, {120, 124, 134});
+    thin.add_tube(arcs(embedding.positions, seam.left), 0.45 * radius, {120, 124, 134});
   thin.commit();
   Ornaments result;
   std::vector<Matrix3> transforms;
@@ -97,11 +158,12 @@ Ornaments sphere_ornaments(const Embedding& embedding, const std::vector<TileCop
   for (std::size_t s = 0; s < embedding.seams.size(); ++s) {
     const Seam& seam = embedding.seams[s];
     for (const std::vector<int>* bank : {&seam.left, &seam.right})
-      result.add_tube(polyline(embedding.positions, *bank), radius, seam_colour(static_cast<int>(s)));
+      result.add_tube(arcs(embedding.positions, *bank), radius, seam_colour(static_cast<int>(s)));
   }
+  const double ball = ball_radius(embedding, camera.pixel);
   for (std::size_t c = 0; c < embedding.cones.size(); ++c)
     for (const int v : embedding.cones[c].copies)
-      result.add_ball(embedding.positions.row(v), ball_radius(embedding.group_order),
+      result.add_ball(brought_forward(embedding.positions.row(v), ball, camera.axes.row(2)), ball,
                       cone_colour(static_cast<int>(c)));
   result.commit();
   return result;

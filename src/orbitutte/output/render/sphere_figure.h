@@ -37,11 +37,14 @@ class SphereFigure {
 /// The radius of tubes along the tile's sides: thinner where tiles are small.
 double seam_radius(int group_order);
 
-/// The radius of balls at the marked vertices.
-double ball_radius(int group_order);
+/// The radius of balls at the marked vertices: large enough for a number on them where the tile has room.
+/// pixel: the length of a pixel's side, where the sphere's radius is 1.
+double ball_radius(const Embedding& embedding, double pixel);
 
 /// The seams of the tile in their colours, thin grey ones in all copies, and balls at the marked vertices.
-Ornaments sphere_ornaments(const Embedding& embedding, const std::vector<TileCopy>& copies);
+/// Balls on the near side are seen whole: towards the outline they come forward from the sphere.
+Ornaments sphere_ornaments(const Embedding& embedding, const std::vector<TileCopy>& copies,
+                           const Camera& camera);
 
 /// The camera for which the sphere fills the share `fill` of the picture's shorter side.
 Camera sphere_camera(const View& view, const PictureSize& size, double fill);

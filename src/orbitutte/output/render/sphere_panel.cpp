@@ -49,14 +49,14 @@ void draw_sphere_panel(Canvas& canvas, const Box& box, PictureParts& parts) {
   const Embedding& embedding = parts.embedding();
   const SphereFigure sphere(embedding, relief(parts.figure(), embedding, parts.source_view()));
   const Camera camera = sphere_camera(sphere_view(parts), size_of(box), figure_fill);
-  canvas.image({box.x, box.y}, sphere.draw(camera, sphere_ornaments(embedding, sphere.copies())));
+  canvas.image({box.x, box.y}, sphere.draw(camera, sphere_ornaments(embedding, sphere.copies(), camera)));
   for (std::size_t c = 0; c < embedding.cones.size(); ++c)
     for (const int v : embedding.cones[c].copies) {
       const Vector3 at = camera.project(embedding.positions.row(v));
-      if (at[2] < 0.1) continue;  // on the far side, or too near the outline
+      if (at[2] < 0) continue;  // on the far side
       draw_label(canvas, {.at = {box.x + at[0], box.y + at[1]},
-                          .radius = ball_radius(embedding.group_order) / camera.pixel,
-                          .order = embedding.cones[c].order,
+                          .radius = ball_radius(embedding, camera.pixel) / camera.pixel,
+                          .order = order_to_show(embedding, c),
                           .colour = cone_colour(static_cast<int>(c))});
     }
 }

@@ -4,7 +4,7 @@
 
 namespace orbitutte {
 
-void write_comparison(const std::string&, const std::vector<ComparedMap>&) {
+void write_comparison(const std::string&, const Comparison&) {
   throw ArgumentError("this binary was built without pictures; build it with -D ORBITUTTE_RENDER=ON");
 }
 
