@@ -20,6 +20,8 @@ tile(embedding) -> (V, F, element)      |G| copies, welded into one closed mesh
 sample_mesh(shape, faces) -> (V, F)     a mesh to try things with
 read_mesh(path) -> (V, F)               OBJ, OFF, PLY and STL
 write_mesh(path, V, F)
+build() -> dict                         version, commit, linear algebra
+keep_freed_memory()                     for programs that embed many large meshes
 Embedding                               positions, faces, source_vertex, seams, group, energy, certificate, ...;
     map_points(face, barycentric[, element])   points of the surface to the sphere
     locate(points) -> (face, barycentric, element)     and back, from anywhere on the tiled sphere
@@ -29,12 +31,14 @@ Embedding                               positions, faces, source_vertex, seams, 
 Exceptions: Error, of which MeshError and ArgumentError are ValueErrors and FileError is an OSError; Cancelled. Results that
 are not converged or not certified come with an EmbeddingWarning.
 """
-from ._api import Solver, Tiling, choose_cones, distortion, embed, info, read_mesh, sample_mesh, signatures, tile, verify, write_mesh
+from ._api import (
+    Solver, Tiling, build, choose_cones, distortion, embed, info, keep_freed_memory, read_mesh, sample_mesh, signatures, tile, verify, write_mesh,
+)
 from ._embedding import Cone, EdgeWeights, Embedding, Location, Seam
 from ._orbitutte import __version__
 from .errors import ArgumentError, Cancelled, EmbeddingWarning, Error, FileError, MeshError
 
 __all__ = [
     "ArgumentError", "Cancelled", "Cone", "EdgeWeights", "Embedding", "EmbeddingWarning", "Error", "FileError", "Location", "MeshError", "Seam", "Solver",
-    "Tiling", "__version__", "choose_cones", "distortion", "embed", "info", "read_mesh", "sample_mesh", "signatures", "tile", "verify", "write_mesh",
+    "Tiling", "__version__", "build", "choose_cones", "distortion", "embed", "info", "keep_freed_memory", "read_mesh", "sample_mesh", "signatures", "tile", "verify", "write_mesh",
 ]

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "bindings.h"
+#include "orbitutte/memory.h"
 #include "orbitutte/solve/sparse_factor.h"
 #include "orbitutte/version.h"
 
@@ -23,6 +24,7 @@ PYBIND11_MODULE(_orbitutte, module) {
   module.doc() = "The compiled part of orbitutte. Use the package 'orbitutte', which checks arguments.";
   module.attr("__version__") = version;
   module.def("build", build);
+  module.def("keep_freed_memory", keep_freed_memory);
   python::bind_errors(module);
   python::bind_mesh(module);
   python::bind_orbifold(module);
