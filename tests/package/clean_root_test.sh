@@ -16,8 +16,11 @@ fail() { echo "FAILED: $*" >&2; exit 1; }
 # In a mount namespace of its own, so that /proc is gone with it.
 inside() { unshare --mount sh -c 'mount -t proc proc "$0/proc" && exec chroot "$0" "$@"' "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive "$@"; }
 # What there is, but for apt's and dpkg's own records.
-listing() { (cd "$root" && find . -xdev \( -path ./proc -o -path ./dev -o -path ./sys -o -path ./tmp -o -path ./var/lib/apt -o -path ./var/lib/dpkg \
-  -o -path ./var/cache -o -path ./var/log \) -prune -o -print | sort); }
+listing() {
+  local skip=() folder
+  for folder in proc dev sys tmp var/lib/apt var/lib/dpkg var/cache var/log; do skip+=(-path "./$folder" -prune -o); done
+  (cd "$root" && find . -xdev "${skip[@]}" -print | sort)
+}
 
 # Debian's own sources of this machine, and how it reaches them.
 . /etc/os-release
