@@ -17,3 +17,4 @@ north = embedding.locate([0, 0, 1])  # what lies at the north pole?
 print("north pole: face", north.face, "of copy", north.element, "at", embedding.source_points(north.face, north.barycentric))
 
 embedding.save("map.ply", "map.json")  # as the command line writes them
+embedding.render("map.png", size=(1200, 920))  # mesh, sphere, distortion and more on one sheet

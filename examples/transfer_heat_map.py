@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: MIT
-# A value at every vertex of one surface, carried over to another one through common cones, and drawn on both: heat_map.svg.
+# A value at every vertex of one surface, carried over to another one through common cones, and drawn on both: heat_map.svg. Between the cones
+# the map follows angles, so it fits where limbs keep their proportions.
 # PYTHONPATH=build/python python3 examples/transfer_heat_map.py
 import numpy as np
 import orbitutte
 
 
-def stretched(V):
-    """The figure with another build: long and slim, bent forward."""
+def twisted(V):
+    """The figure, turning from foot to head."""
     x, y, z = V.T
-    angle = 0.5 * y
-    return np.stack([0.7 * x, 1.5 * y * np.cos(angle), z + 1.5 * y * np.sin(angle)], axis=1)
+    angle = 0.3 + 0.7 * y
+    return np.stack([x * np.cos(angle) + z * np.sin(angle), y, z * np.cos(angle) - x * np.sin(angle)], axis=1)
 
 
 def drawing(V, F, values, left):
@@ -30,10 +31,10 @@ def drawing(V, F, values, left):
 
 V, F = orbitutte.sample_mesh("figure", 8000)
 W, G = orbitutte.sample_mesh("figure", 6000)  # other vertices, other triangles, another shape
-W = stretched(W)
+W = twisted(W)
 
 first = orbitutte.embed(V, F, "432", orbitutte.choose_cones(V, F, "432"))
-tips = [int(np.argmin(np.linalg.norm(W - stretched(V[cone.vertex][None]), axis=1))) for cone in first.cones]
+tips = [int(np.argmin(np.linalg.norm(W - twisted(V[cone.vertex][None]), axis=1))) for cone in first.cones]
 second = orbitutte.embed(W, G, "432", tips)
 
 heat = np.linalg.norm(V - V[first.cones[2].vertex], axis=1)  # warm at the third cone
