@@ -218,6 +218,9 @@ def run(runner: Runner, root: Path = ROOT) -> list[str]:
             left_out.update(f"{page}: no Python module was built" for b in here if b.language == "python")
             here = [b for b in here if b.language != "python"]
         ran += len(here)
+        if runner.blocks is None:
+            left_out.update(f"{page}: its C++ blocks were not built" for b in here if b.language == "cpp")
+            here = [b for b in here if b.language != "cpp"]
         left_out.update(f"{page}: {block.reason}" for block in blocks if block.reason and block.language not in SILENT)
         if here:
             print(f"{page}: {len(here)} blocks, {time.monotonic() - start:.1f} s", flush=True)

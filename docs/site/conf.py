@@ -29,7 +29,7 @@ autoclass_content = "class"
 napoleon_use_ivar = True
 napoleon_use_rtype = False
 python_use_unqualified_type_names = True
-default_role = "code"
+default_role = "py:obj"
 
 # The page: nothing is loaded from elsewhere, and it opens from disk.
 html_theme = "furo"
