@@ -8,10 +8,10 @@
 
 #include "orbitutte/mesh/inspection.h"
 #include "orbitutte/mesh/mesh_io.h"
-#include "orbitutte/mesh/triangulation.h"
-#include "orbitutte/output/embedding_file.h"
+#include "orbitutte/output/cut_triangles.h"
 
 namespace orbitutte::cli {
+
 std::vector<int> parse_cones(const std::string& text) {
   std::vector<int> cones;
   for (std::size_t from = 0; from <= text.size();) {
@@ -35,14 +35,15 @@ WeightKind parse_weights(const std::string& text) {
       fmt::format("--weights is '{}'; it may be standard, cotan, delaunay, mean-value or uniform", text));
 }
 
-Mesh read_in_triangles(const std::string& path, Embedding& embedding) {
+SourceMesh read_source(const std::string& path, Embedding& embedding) {
   PolygonMesh mesh = read_mesh(path);
   require_embeddable(inspect(mesh));
-  if (is_triangle_mesh(mesh)) return to_triangle_mesh(std::move(mesh));
+  Points colours = std::move(mesh.colours);
+  if (is_triangle_mesh(mesh)) return {to_triangle_mesh(std::move(mesh)), std::move(colours)};
   const Triangulation triangulation = triangulate(mesh);
   if (embedding.polygons.start == mesh.face_start)
     embedding.faces = cut_triangles(mesh, triangulation, embedding);
-  return {std::move(mesh.V), on_vertices(triangulation, mesh.corners)};
+  return {{std::move(mesh.V), on_vertices(triangulation, mesh.corners)}, std::move(colours)};
 }
 
 }  // namespace orbitutte::cli

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "command_arguments.h"
 #include "commands.h"
+#include "orbitutte/mesh/inspection.h"
+#include "orbitutte/mesh/mesh_io.h"
 #include "orbitutte/output/export.h"
 #include "orbitutte/output/report.h"
 
@@ -8,20 +9,20 @@ namespace orbitutte::cli {
 
 int export_command(const ExportArguments& arguments) {
   const TextureChart chart = parse_texture_chart(arguments.chart);
-  Embedding embedding = read_embedding(arguments.embedding, read_report(arguments.report));
-  const Mesh triangles = read_in_triangles(arguments.mesh, embedding);
-  const ExportedModel model = exported_model(triangles, embedding, chart);
+  const Embedding embedding = read_embedding(arguments.embedding, read_report(arguments.report));
+  const PolygonMesh mesh = read_mesh(arguments.mesh);
+  require_embeddable(inspect(mesh));
+  const ExportedModel model = exported_model(mesh, embedding, chart);
   write_model(arguments.output, model);
   fmt::print(stderr,
-             "{}: {} vertices, {} texture coordinates, {} triangles; largest area distortion of the {} chart "
+             "{}: {} vertices, {} texture coordinates, {} faces; largest area distortion of the {} chart "
              "{:.3g}\n",
-             arguments.output, model.mesh.V.rows(), model.texture.uv.rows(), model.mesh.F.rows(), name(chart),
-             model.texture.max_area_distortion);
+             arguments.output, model.mesh.V.rows(), model.texture.uv.rows(), model.mesh.face_count(),
+             name(chart), model.texture.max_area_distortion);
   if (model.texture.torn_faces > 0)
-    fmt::print(
-        stderr,
-        "orbitutte: warning: {} triangles lie across the outer edge of the chart; choose another chart\n",
-        model.texture.torn_faces);
+    fmt::print(stderr,
+               "orbitutte: warning: {} faces lie across the outer edge of the chart; choose another chart\n",
+               model.texture.torn_faces);
   return 0;
 }
 

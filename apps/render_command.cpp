@@ -26,7 +26,7 @@ int render_command(const RenderArguments& arguments) {
   RenderOptions options = options_from(arguments);
   const Report report = read_report(arguments.report);
   Embedding embedding = read_embedding(arguments.embedding, report);
-  const Mesh mesh = read_in_triangles(arguments.mesh, embedding);
+  const Mesh mesh = read_source(arguments.mesh, embedding).triangles;
   if (!arguments.view.empty())
     options.view = parse_view(arguments.view, options.up ? *options.up : default_up(mesh));
   const std::string title = std::filesystem::path(arguments.mesh).filename().string();

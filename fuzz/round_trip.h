@@ -36,6 +36,12 @@ inline void check_faces(const PolygonMesh& mesh) {
   require(std::is_sorted(start.begin(), start.end()), "faces follow each other");
 }
 
+inline void check_colours(const PolygonMesh& mesh) {
+  require(mesh.colours.rows() == 0 || mesh.colours.rows() == mesh.V.rows(),
+          "all vertices have colours, or none");
+  require((mesh.colours.array() >= 0 && mesh.colours.array() <= 1).all(), "colours are within 0 .. 1");
+}
+
 inline bool is_indexed_triangle_mesh(const PolygonMesh& mesh) {
   for (int f = 0; f < mesh.face_count(); ++f) {
     if (mesh.face_degree(f) != 3) return false;
@@ -80,6 +86,7 @@ inline void check_ply_round_trip(std::string_view bytes) {
 inline void check_accepted(std::string_view bytes, MeshFormat format) {
   const PolygonMesh polygons = parse_mesh(bytes, format);
   check_faces(polygons);
+  check_colours(polygons);
   if (!is_indexed_triangle_mesh(polygons)) return;
   const Mesh mesh = to_triangle_mesh(polygons);
   const Mesh again = to_triangle_mesh(parse_mesh(serialize_mesh(mesh, format), format));

@@ -5,16 +5,22 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <numbers>
 #include <sstream>
 
+#include "base64_text.h"
+#include "orbitutte/mesh/bytes.h"
 #include "orbitutte/mesh/file.h"
 #include "orbitutte/mesh/mesh_io.h"
 #include "orbitutte/mesh/ply.h"
+#include "orbitutte/mesh/triangulation.h"
 #include "orbitutte/output/export_files.h"
 #include "orbitutte/verify/spherical_triangle.h"
+#include "polygon_meshes.h"
 #include "sample_embeddings.h"
 
 namespace orbitutte {
@@ -152,6 +158,14 @@ class ExportFiles : public ::testing::Test {
 
   std::string path(const std::string& file) const { return (folder_ / file).string(); }
 
+  /// The file holds the input's vertices and faces.
+  void expect_input(const ExportedModel& exported, const std::string& file) const {
+    const PolygonMesh back = read_mesh(path(file));
+    EXPECT_EQ(back.V, exported.mesh.V) << exported.embedding.signature;
+    EXPECT_EQ(back.corners, exported.mesh.corners) << exported.embedding.signature;
+    EXPECT_EQ(back.face_start, exported.mesh.face_start) << exported.embedding.signature;
+  }
+
   std::filesystem::path folder_;
 };
 
@@ -160,9 +174,7 @@ TEST_F(ExportFiles, ObjKeepsTheInputAndTellsSeamsInTextureCoordinatesOnly) {
     for (const TextureChart chart : charts) {
       const ExportedModel exported = model(signature, chart);
       write_model(path("model.obj"), exported);
-      const Mesh back = to_triangle_mesh(read_mesh(path("model.obj")));
-      EXPECT_EQ(back.V, exported.mesh.V) << signature;
-      EXPECT_EQ(back.F, exported.mesh.F) << signature;
+      expect_input(exported, "model.obj");
     }
   }
 }
@@ -179,7 +191,7 @@ TEST_F(ExportFiles, ObjNamesACopyOfTheVertexForEveryCorner) {
       for (char slash = 0; words >> vertex >> slash >> pair; ++corners)
         EXPECT_EQ(exported.embedding.source_vertex[pair - 1], vertex - 1) << signature;
     }
-    EXPECT_EQ(corners, 3 * exported.mesh.F.rows());
+    EXPECT_EQ(corners, 3 * exported.mesh.face_count());
   }
 }
 
@@ -193,9 +205,7 @@ TEST_F(ExportFiles, PlyHoldsTheLogarithmOfTheAreaDistortion) {
     EXPECT_NEAR(std::exp2(quality[f]), exported.of_face[f].area, 1e-5 * exported.of_face[f].area);
   EXPECT_EQ(file.find("vertex")->find("quality")->values.size(),
             static_cast<std::size_t>(exported.mesh.V.rows()));
-  const Mesh back = to_triangle_mesh(read_mesh(path("model.ply")));
-  EXPECT_EQ(back.V, exported.mesh.V);
-  EXPECT_EQ(back.F, exported.mesh.F);
+  expect_input(exported, "model.ply");
 }
 
 TEST_F(ExportFiles, EveryFormatIsWrittenForEveryFamily) {
@@ -211,6 +221,123 @@ TEST_F(ExportFiles, OtherEndingsAndMissingFoldersAreRefused) {
   EXPECT_THROW(write_model(path("m.fbx"), model("532")), ArgumentError);
   EXPECT_THROW(write_model(path("no/m.obj"), model("532")), FileError);
   EXPECT_TRUE(std::filesystem::is_empty(folder_));
+}
+
+// Faces of five corners and more on a sphere, quadrilaterals on a disk and on a projective plane, where some
+// of the cut mesh are turned over.
+PolygonMesh polygons_for(const std::string& signature) {
+  const Orbifold orbifold = parse_orbifold(signature);
+  if (orbifold.topology == Topology::sphere) return test::dual(test::perturbed(test::icosphere(2), 0.03, 7));
+  if (orbifold.topology == Topology::disk)
+    return test::quadrangulated(test::perturbed(test::round_disk(5), 0.02, 7));
+  return test::quadrangulated(test::projective_plane(2));
+}
+
+ExportedModel polygon_model(const std::string& signature, TextureChart chart = TextureChart::stereographic) {
+  const PolygonMesh mesh = polygons_for(signature);
+  const Orbifold orbifold = parse_orbifold(signature);
+  EmbedOptions options;
+  options.weights.kind = WeightKind::uniform;
+  const EmbedResult result = embed(mesh, orbifold, choose_marked_vertices(mesh, orbifold), options);
+  return exported_model(mesh, result.embedding, chart);
+}
+
+const std::vector<std::string> polygon_signatures = {"432", "*223", "2x"};
+
+TEST_F(ExportFiles, PolygonsStayWholeInObjAndPly) {
+  for (const std::string& signature : polygon_signatures) {
+    const ExportedModel exported = polygon_model(signature);
+    for (const std::string file : {"model.obj", "model.ply"}) {
+      write_model(path(file), exported);
+      expect_input(exported, file);
+    }
+  }
+}
+
+TEST_F(ExportFiles, EveryCornerOfAPolygonHasTheTextureOfItsOwnVertex) {
+  bool any_turned = false;
+  for (const std::string& signature : polygon_signatures) {
+    for (const TextureChart chart : charts) {
+      const ExportedModel exported = polygon_model(signature, chart);
+      std::istringstream text(obj_text(exported));
+      std::size_t corner = 0;
+      for (std::string line; std::getline(text, line);) {
+        if (line.rfind("f ", 0) != 0) continue;
+        std::istringstream words(line.substr(2));
+        int vertex = 0, pair = 0;
+        for (char slash = 0; words >> vertex >> slash >> pair; ++corner) {
+          EXPECT_EQ(vertex - 1, exported.mesh.corners[corner]);
+          if (pair <= static_cast<int>(exported.embedding.source_vertex.size()))  // others are a turn further
+            EXPECT_EQ(exported.embedding.source_vertex[pair - 1], vertex - 1) << signature;
+        }
+      }
+      EXPECT_EQ(corner, exported.mesh.corners.size());
+      const Polygons& cut = exported.embedding.polygons;
+      for (std::size_t c = 0; c < cut.corners.size(); ++c)
+        any_turned |= exported.embedding.source_vertex[cut.corners[c]] != exported.mesh.corners[c];
+    }
+  }
+  EXPECT_TRUE(any_turned)
+      << "no face of the projective plane is turned over: the test tests less than it says";
+}
+
+TEST_F(ExportFiles, ThePolygonsOfTheCutMeshAreTheCellsOfVtp) {
+  for (const std::string& signature : polygon_signatures) {
+    const ExportedModel exported = polygon_model(signature);
+    const std::string text = vtp_text(exported);
+    const auto array = [&](const std::string& name) {
+      const std::size_t begin = text.find('>', text.find("Name=\"" + name + "\"")) + 1;
+      return test::from_base64(text.substr(begin, text.find('<', begin) - begin))
+          .substr(sizeof(std::uint64_t));
+    };
+    const auto integers = [&](const std::string& name) {
+      const std::string bytes = array(name);
+      std::vector<int> values;
+      for (std::size_t at = 0; at < bytes.size(); at += sizeof(int))
+        values.push_back(load<int>(bytes.data() + at, std::endian::little));
+      return values;
+    };
+    const Polygons& cut = exported.embedding.polygons;
+    EXPECT_EQ(integers("connectivity"), cut.corners);
+    EXPECT_EQ(integers("offsets"), std::vector<int>(cut.start.begin() + 1, cut.start.end()));
+    EXPECT_THAT(text, HasSubstr("NumberOfPolys=\"" + std::to_string(cut.count()) + "\""));
+    for (const char* name : {"log2_area", "angle"})
+      EXPECT_EQ(array(name).size(), sizeof(double) * static_cast<std::size_t>(cut.count()));
+  }
+}
+
+TEST_F(ExportFiles, GlbHoldsPolygonsInTriangles) {
+  for (const std::string& signature : polygon_signatures) {
+    const ExportedModel exported = polygon_model(signature);
+    const Eigen::Index expected =
+        static_cast<Eigen::Index>(exported.mesh.corners.size()) - 2 * exported.mesh.face_count();
+    EXPECT_EQ(exported.triangles.rows(), expected);
+    EXPECT_THAT(glb_bytes(exported), HasSubstr("\"count\":" + std::to_string(3 * expected)));
+  }
+}
+
+// The ratios of polygons, weighted with their share of the source, are their shares of the tile: in all, one.
+TEST(Export, AreaRatiosOfPolygonsAddUpToTheTile) {
+  for (const std::string& signature : polygon_signatures) {
+    const ExportedModel exported = polygon_model(signature);
+    const Mesh triangles = {
+        exported.mesh.V, on_vertices({exported.triangles, exported.mesh.face_start}, exported.mesh.corners)};
+    std::vector<double> area(exported.mesh.face_count(), 0.0);
+    double total = 0;
+    for (Eigen::Index t = 0, f = 0; t < triangles.F.rows(); ++t) {
+      while (exported.triangles(t, 0) >= exported.mesh.face_start[f + 1]) ++f;
+      const auto corner = [&](int k) { return Vector3(triangles.V.row(triangles.F(t, k))); };
+      area[f] += (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm() / 2;
+    }
+    for (const double a : area) total += a;
+    double share = 0;
+    for (std::size_t f = 0; f < area.size(); ++f) {
+      EXPECT_GT(exported.of_face[f].area, 0);
+      EXPECT_GE(exported.of_face[f].angle, 1);
+      share += exported.of_face[f].area * area[f] / total;
+    }
+    EXPECT_NEAR(share, 1, 1e-9) << signature;
+  }
 }
 
 TEST(Export, AnEmbeddingOfAnotherMeshIsRefused) {

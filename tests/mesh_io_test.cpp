@@ -100,7 +100,7 @@ TEST(Obj, CommentsAndAllOtherLinesArePassedOver) {
   expect_corner(obj(replaced(obj_corner, "\n", "# and so on\n")));
 }
 
-TEST(Obj, FurtherColumnsOfVerticesArePassedOver) {
+TEST(Obj, FurtherColumnsOfVerticesDoNotMoveThem) {
   expect_corner(obj(replaced(obj_corner, "v 0 0 0", "v 0 0 0 0.5 0.25 1")));
   expect_corner(obj(replaced(obj_corner, "v 0 0 0", "v 0 0 0 1")));
 }
@@ -163,9 +163,9 @@ TEST(Off, TheCountOfEdgesMayBeMissingOrWrong) {
 
 TEST(Off, TheKeywordMayBeMissing) { expect_corner(off("4 4 6\n" + off_points + off_faces)); }
 
-TEST(Off, NormalsColoursAndTextureCoordinatesArePassedOver) {
+TEST(Off, NormalsColoursAndTextureCoordinatesDoNotMoveVertices) {
   for (const std::string keyword : {"OFF", "off", "COFF", "NOFF", "STOFF", "CNOFF", "STCNOFF"}) {
-    expect_corner(off(keyword + "\n4 4 6\n" + replaced(off_points, "\n", " 0.5 0.5 0.5 255\n") +
+    expect_corner(off(keyword + "\n4 4 6\n" + replaced(off_points, "\n", " 128 128 128 255 0 0\n") +
                       replaced(off_faces, "\n", " 255 0 0\n")));
   }
 }

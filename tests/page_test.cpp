@@ -11,13 +11,16 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "base64_text.h"
 #include "orbitutte/mesh/bytes.h"
 #include "orbitutte/mesh/sample.h"
+#include "orbitutte/mesh/triangulation.h"
 #include "orbitutte/output/html_text.h"
 #include "orbitutte/output/page_charts.h"
 #include "orbitutte/output/page_scene.h"
 #include "orbitutte/output/report.h"
 #include "orbitutte/verify/distortion.h"
+#include "polygon_meshes.h"
 #include "sample_embeddings.h"
 
 namespace orbitutte {
@@ -42,24 +45,9 @@ std::string page_of(const std::string& signature, const std::string& report,
   return report_page({sample.mesh, sample.embedding(), report}, options);
 }
 
-// The bytes that RFC 4648 encodes so; independent of the encoder.
-std::string decoded(const std::string& text) {
-  const std::string alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string bytes;
-  std::uint32_t bits = 0;
-  int count = 0;
-  for (const char c : text) {
-    if (c == '=') break;
-    bits = bits << 6 | static_cast<std::uint32_t>(alphabet.find(c));
-    if ((count += 6) < 8) continue;
-    bytes += static_cast<char>(bits >> (count -= 8) & 0xff);
-  }
-  return bytes;
-}
-
 template <typename Number>
 std::vector<Number> numbers(const Json& text) {
-  const std::string bytes = decoded(text.get<std::string>());
+  const std::string bytes = test::from_base64(text.get<std::string>());
   std::vector<Number> values;
   for (std::size_t at = 0; at + sizeof(Number) <= bytes.size(); at += sizeof(Number))
     values.push_back(load<Number>(bytes.data() + at, std::endian::little));
@@ -91,13 +79,13 @@ TEST(HtmlText, EscapesWhatHtmlGivesAMeaning) {
 TEST(HtmlText, Base64DecodesToTheSameBytes) {
   std::string bytes;
   for (int length = 0; length < 300; ++length) {
-    EXPECT_EQ(decoded(base64(bytes)), bytes);
+    EXPECT_EQ(test::from_base64(base64(bytes)), bytes);
     EXPECT_EQ(base64(bytes).size() % 4, 0u);
     bytes += static_cast<char>(37 * length);
   }
   EXPECT_EQ(base64("light w"), "bGlnaHQgdw==");
   const std::string large((3 << 20) + 1000, 'x');  // more than the encoder takes at once
-  EXPECT_EQ(decoded(base64(large)), large);
+  EXPECT_EQ(test::from_base64(base64(large)), large);
 }
 
 TEST(HtmlText, SlotsAreFilledOnceAndMustBeKnown) {
@@ -165,7 +153,7 @@ TEST(PageScene, HoldsTheDrawnVerticesInSourceAndImage) {
   for (const char* signature : {"532", "*223", "3*2", "2x"}) {
     const test::SampleEmbedding& sample = test::sample_embedding(signature);
     const Embedding& embedding = sample.embedding();
-    const Json scene = Json::parse(page_scene(sample.mesh, embedding));
+    const Json scene = Json::parse(page_scene(sample.mesh, embedding, {}));
     const auto source = numbers<std::uint16_t>(scene["source"]);
     const auto image = numbers<float>(scene["image"]);
     const auto vertex = numbers<std::uint32_t>(scene["source_vertex"]);
@@ -187,11 +175,25 @@ TEST(PageScene, HoldsTheDrawnVerticesInSourceAndImage) {
   }
 }
 
+TEST(PageScene, HoldsTheColoursOfTheVerticesWhereTheMeshHasThem) {
+  for (const char* signature : {"432", "*223", "2x"}) {
+    const test::SampleEmbedding& sample = test::sample_embedding(signature);
+    const Points colours = (sample.mesh.V.array() * 0.4 + 0.5).cwiseMax(0).cwiseMin(1);
+    const Json scene = Json::parse(page_scene(sample.mesh, sample.embedding(), colours));
+    const auto colour = numbers<std::uint8_t>(scene["colour"]);
+    const auto vertex = numbers<std::uint32_t>(scene["source_vertex"]);
+    ASSERT_EQ(colour.size(), 3 * vertex.size());
+    for (std::size_t i = 0; i < colour.size(); ++i)
+      EXPECT_NEAR(colour[i] / 255.0, colours(vertex[i / 3], static_cast<Eigen::Index>(i % 3)), 0.5 / 255);
+    EXPECT_FALSE(Json::parse(page_scene(sample.mesh, sample.embedding(), {})).contains("colour"));
+  }
+}
+
 TEST(PageScene, NormalsAreUnitVectorsAndAgreeAcrossSeamsUpToSign) {
   for (const char* signature : {"432", "3x"}) {
     const test::SampleEmbedding& sample = test::sample_embedding(signature);
     const auto normal =
-        numbers<std::int8_t>(Json::parse(page_scene(sample.mesh, sample.embedding()))["normal"]);
+        numbers<std::int8_t>(Json::parse(page_scene(sample.mesh, sample.embedding(), {}))["normal"]);
     const auto at = [&](int v) -> Vector3 {
       return Vector3(normal[3 * v], normal[3 * v + 1], normal[3 * v + 2]) / 127;
     };
@@ -214,6 +216,18 @@ TEST(Page, IsWellNestedHtmlThatHoldsEveryCheck) {
     for (const Check& check : test::sample_embedding(signature).result.certificate.checks)
       EXPECT_THAT(page, HasSubstr(check.name));
   }
+}
+
+TEST(Page, SpeaksOfFacesWhereTheyAreNotAllTriangles) {
+  const PolygonMesh mesh = test::dual(test::icosphere(1));
+  const Mesh triangles = {mesh.V, on_vertices(triangulate(mesh), mesh.corners)};
+  const Orbifold orbifold = parse_orbifold("432");
+  const EmbedResult result = embed(mesh, orbifold, choose_marked_vertices(mesh, orbifold));
+  const std::string report = report_json(result, run);
+  const std::string page = report_page({triangles, result.embedding, report});
+  EXPECT_THAT(page, HasSubstr("80 vertices and 42 faces"));
+  EXPECT_THAT(page, HasSubstr("Every face is positively oriented"));
+  EXPECT_THAT(page_of("432", sample_report("432")), HasSubstr("162 vertices and 320 triangles"));
 }
 
 TEST(Page, LoadsNothing) {
@@ -287,6 +301,7 @@ TEST(Page, RefusesAMeshThatWasNotEmbeddedAndAReportThatIsNone) {
   const std::string report = sample_report("432");
   EXPECT_THROW(report_page({test::icosahedron(), sample.embedding(), report}), MeshError);
   EXPECT_THROW(page_of("432", "{"), MeshError);
+  EXPECT_THROW(report_page({sample.mesh, sample.embedding(), report, Points::Zero(3, 3)}), MeshError);
 }
 
 }  // namespace

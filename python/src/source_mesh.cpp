@@ -7,7 +7,7 @@
 
 #include "orbitutte/mesh/inspection.h"
 #include "orbitutte/mesh/triangulation.h"
-#include "orbitutte/output/embedding_file.h"
+#include "orbitutte/output/cut_triangles.h"
 
 namespace orbitutte::python {
 namespace {

@@ -30,11 +30,11 @@ export class Dots {
   /** Called before every picture. The dots stand before the surface, by their radius, so that it does not cut them. */
   fit(camera) {
     const matrix = new Matrix4(), scale = new Vector3(), toEye = new Vector3();
-    const unit = 2 * this.size * Math.tan((camera.fov * Math.PI) / 360);
+    const unit = (2 * this.size * Math.tan((camera.fov * Math.PI) / 360)) / camera.zoom;
     this.dots.forEach(({at, scale: factor = 1}, i) => {
       toEye.subVectors(camera.position, at);
       const radius = factor * unit * toEye.length();
-      toEye.setLength(LIFT * radius / this.size).add(at);
+      toEye.setLength((LIFT * radius) / this.size).add(at);
       matrix.makeScale(...scale.setScalar(radius)).setPosition(toEye);
       this.mesh.setMatrixAt(i, matrix);
     });

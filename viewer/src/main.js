@@ -48,8 +48,14 @@ function connectControls(view) {
     showLegend(view, colouring);
     view.setColouring(colouring);
   });
-  control('squares', 'input', () => view.setSquares(Number(element('squares').value)));
-  control('opacity', 'input', () => view.setOpacity(Number(element('opacity').value) / 100));
+  control('squares', 'input', () => {
+    element('squares-value').textContent = element('squares').value;
+    view.setSquares(Number(element('squares').value));
+  });
+  control('opacity', 'input', () => {
+    element('opacity-value').textContent = `${element('opacity').value}%`;
+    view.setOpacity(Number(element('opacity').value) / 100);
+  });
   control('relief', 'change', () => view.setRelief(element('relief').checked ? 1 : 0));
   control('edges', 'change', () => view.showEdges(element('edges').checked));
   element('reset').addEventListener('click', () => view.reset());
@@ -68,6 +74,7 @@ function start() {
   const scene = readScene(JSON.parse(element('scene').textContent));
   let marks = null;
   element('view-body').hidden = false;
+  if (scene.colour) element('colouring').append(new Option('Vertex colours', 'vertex'));
   const view = new View(scene, {
     canvas: element('canvas'),
     stages: {source: element('source'), tile: element('tile'), tiling: element('tiling')},

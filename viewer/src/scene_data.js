@@ -40,7 +40,7 @@ const level = ({indices, outline}) => ({
 // A transform, given row by row.
 const matrixOf = ([a, b, c, d, e, f, g, h, i]) => new Matrix4().set(a, b, c, 0, d, e, f, 0, g, h, i, 0, 0, 0, 0, 1);
 
-/** The scene as typed arrays: three numbers a vertex for source, image and normal, one for the others. */
+/** The scene as typed arrays: three numbers a vertex for source, image, normal and colour (null where there is none), one for the others. */
 export function readScene(json) {
   return {
     faces: json.faces,
@@ -52,6 +52,7 @@ export function readScene(json) {
     sourceVertex: numbers(Uint32Array, json.source_vertex),
     area: between(...json.area_range, json.area),
     angle: between(...json.angle_range, json.angle),
+    colour: json.colour ? numbers(Uint8Array, json.colour) : null,
     fine: level(json.fine),
     coarse: level(json.coarse),
     copies: json.copies.map(({transform, colour}) => ({matrix: matrixOf(transform), colour})),

@@ -2,14 +2,15 @@
 // The material of all surfaces: one shader, whose colouring the user chooses.
 import {DoubleSide, ShaderMaterial} from 'three';
 
-export const COLOURINGS = {tile: 0, checkerboard: 1, area: 2, angle: 3, normal: 4};
+export const COLOURINGS = {tile: 0, checkerboard: 1, area: 2, angle: 3, normal: 4, vertex: 5};
 
 const vertexShader = /* glsl */ `
 attribute vec3 image;         // on the unit sphere, in the tile itself
 attribute vec3 sourceNormal;
+attribute vec3 sourceColour;
 attribute float area;
 attribute float angle;
-varying vec3 vView, vNormal, vImage, vSourceNormal, vTint;
+varying vec3 vView, vNormal, vImage, vSourceNormal, vSourceColour, vTint;
 varying float vArea, vAngle;
 uniform bool onSphere;
 uniform vec3 tint;
@@ -30,13 +31,14 @@ void main() {
   vNormal = normalMatrix * n;
   vImage = image;
   vSourceNormal = sourceNormal;
+  vSourceColour = sourceColour;
   vArea = area;
   vAngle = angle;
   gl_Position = projectionMatrix * at;
 }`;
 
 const fragmentShader = /* glsl */ `
-varying vec3 vView, vNormal, vImage, vSourceNormal, vTint;
+varying vec3 vView, vNormal, vImage, vSourceNormal, vSourceColour, vTint;
 varying float vArea, vAngle;
 uniform int colouring;
 uniform bool onSphere;
@@ -59,6 +61,7 @@ vec3 colour() {
   if (colouring == 2) return texture2D(areaMap, vec2(0.5 + 0.5 * vArea / areaBound, 0.5)).rgb;
   if (colouring == 3) return texture2D(angleMap, vec2(vAngle / angleBound, 0.5)).rgb;
   if (colouring == 4) return 0.64 + 0.34 * normalize(vSourceNormal);
+  if (colouring == 5) return vSourceColour;
   return vTint;
 }
 

@@ -11,7 +11,7 @@ const X = new Vector3(1, 0, 0), Y = new Vector3(0, 1, 0);
 
 /**
  * Places cameras: one orientation, and one zoom, for all of them. Each `{camera, target, distance}` looks at its
- * target from its distance, times the zoom.
+ * target from its distance; the zoom narrows what it sees.
  */
 export class Turntable {
   constructor(places, orientation = new Quaternion()) {
@@ -42,8 +42,10 @@ export class Turntable {
   apply() {
     for (const {camera, target, distance} of this.places) {
       camera.quaternion.copy(this.orientation);
-      camera.position.set(0, 0, distance * this.zoom).applyQuaternion(this.orientation).add(target);
+      camera.position.set(0, 0, distance).applyQuaternion(this.orientation).add(target);
       camera.updateMatrixWorld();
+      camera.zoom = 1 / this.zoom;  // a nearer camera would end up within the surface
+      camera.updateProjectionMatrix();
     }
     this.onChange();
   }

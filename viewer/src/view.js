@@ -1,129 +1,35 @@
 // SPDX-License-Identifier: MIT
-// The three panels, drawn by one renderer into one canvas that lies behind them.
+// The three panels: what they show, and what the user does to them.
 import {
-  BufferAttribute, BufferGeometry, Color, ColorManagement, InstancedMesh, LineBasicMaterial, LineSegments, LinearSRGBColorSpace,
-  Matrix4, Mesh, MeshBasicMaterial, PerspectiveCamera, Quaternion, Ray, Raycaster, Scene, SphereGeometry, Vector2, Vector3, WebGLRenderer,
+  BufferAttribute, BufferGeometry, Color, ColorManagement, InstancedMesh, LineBasicMaterial, LineSegments, Matrix4, Mesh,
+  MeshBasicMaterial, Quaternion, Ray, SphereGeometry, Vector3,
 } from 'three';
-import {LineMaterial} from 'three/examples/jsm/lines/LineMaterial.js';
-import {LineSegments2} from 'three/examples/jsm/lines/LineSegments2.js';
-import {LineSegmentsGeometry} from 'three/examples/jsm/lines/LineSegmentsGeometry.js';
 import {angleMap, areaMap, robustBound} from './colour_maps.js';
-import {Dots} from './dots.js';
 import {firstView} from './first_view.js';
+import {attributes, edgeIndices, meanLength, surfaceGeometry, thickLines, thinnedChains} from './geometry.js';
 import {MapPoints} from './map_point.js';
+import {outlineCopies} from './outline_copies.js';
+import {Painter} from './painter.js';
+import {Panel} from './panel.js';
 import {tileFrame, vertexPosition} from './scene_data.js';
 import {COLOURINGS, sharedUniforms, surfaceMaterial} from './surface.js';
 import {StageInput, Turntable} from './turntable.js';
 
-const FIELD_OF_VIEW = 24;
 const INK = '#20262d', MARK = '#d6006c', POINT = '#ffffff', FAINT = '#9aa4af';
 const CONE_COLOURS = {2: '#0072b2', 3: '#d55e00', 4: '#009e73', 5: '#7b2d8b'};
+const OUTLINE_STEP = 0.004;  // of the sphere's radius: below a pixel
 const coneColour = (order) => CONE_COLOURS[order] ?? '#5b4636';
 
 ColorManagement.enabled = false;
-
-const distanceFor = (radius) => radius / Math.sin((FIELD_OF_VIEW * Math.PI) / 360);
-
-function attributes(scene) {
-  return {
-    source: new BufferAttribute(scene.source, 3),
-    image: new BufferAttribute(scene.image, 3),
-    sourceNormal: new BufferAttribute(scene.normal, 3, true),
-    area: new BufferAttribute(scene.area, 1),
-    angle: new BufferAttribute(scene.angle, 1),
-  };
-}
-
-function geometry(shared, position, indices) {
-  const result = new BufferGeometry();
-  result.setAttribute('position', shared[position]);
-  for (const name of ['image', 'sourceNormal', 'area', 'angle']) result.setAttribute(name, shared[name]);
-  result.setIndex(new BufferAttribute(indices, 1));
-  return result;
-}
-
-// The edges of triangles: each once, but for those of the outline, which are drawn anyway.
-function edgeIndices(triangles) {
-  const ends = [];
-  for (let f = 0; f < triangles.length; f += 3) {
-    for (let k = 0; k < 3; ++k) {
-      const a = triangles[f + k], b = triangles[f + ((k + 1) % 3)];
-      if (a < b) ends.push(a, b);
-    }
-  }
-  return Uint32Array.from(ends);
-}
-
-// Thick lines along pairs of positions, repeated by every transform.
-function thickLines(positions, ends, matrices, width) {
-  const points = new Float32Array(3 * ends.length * matrices.length), at = new Vector3();
-  matrices.forEach((matrix, g) => {
-    ends.forEach((vertex, i) => at.fromArray(positions, 3 * vertex).applyMatrix4(matrix).toArray(points, 3 * (g * ends.length + i)));
-  });
-  const lines = new LineSegmentsGeometry();
-  lines.setPositions(points);
-  return new LineSegments2(lines, new LineMaterial({color: new Color(INK), linewidth: width}));
-}
-
-/** A panel: what it shows, its camera, and the dots on it. */
-class Panel {
-  constructor(name, stage, {capacity, frame}) {
-    this.name = name;
-    this.stage = stage;
-    this.scene = new Scene();
-    this.frame = frame;
-    this.camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.01, 100);
-    this.cones = new Dots({capacity: capacity.cones, size: 0.014});
-    this.marks = new Dots({capacity: capacity.marks, size: 0.014});
-    this.point = new Dots({capacity: capacity.copies, size: 0.014});
-    this.rim = new Dots({capacity: capacity.copies, size: 0.02, rim: true});
-    for (const dots of this.dots()) this.scene.add(dots.mesh);
-    this.labels = [];
-  }
-
-  dots() {
-    return [this.cones, this.marks, this.rim, this.point];
-  }
-
-  place() {
-    return {camera: this.camera, target: this.frame.target, distance: distanceFor(this.frame.radius)};
-  }
-
-  /** Fits the field of view: what fits a square fits the shorter side of the panel. */
-  resize(aspect) {
-    const half = Math.tan((FIELD_OF_VIEW * Math.PI) / 360) / Math.min(aspect, 1);
-    this.camera.fov = (2 * Math.atan(half) * 180) / Math.PI;
-    this.camera.aspect = aspect;
-    this.camera.updateProjectionMatrix();
-  }
-
-  ray(x, y) {
-    const ndc = new Vector2((2 * x) / this.stage.clientWidth - 1, 1 - (2 * y) / this.stage.clientHeight);
-    const caster = new Raycaster();
-    caster.setFromCamera(ndc, this.camera);
-    return caster.ray;
-  }
-
-  /** Where a position appears, in CSS pixels within the panel. */
-  project(at) {
-    const ndc = at.clone().project(this.camera);
-    return {x: ((ndc.x + 1) / 2) * this.stage.clientWidth, y: ((1 - ndc.y) / 2) * this.stage.clientHeight};
-  }
-}
 
 /** Shows a scene in the stages `{source, tile, tiling}`. Tells `onHover(point or null)` and `onPick(drawn vertex)`. */
 export class View {
   constructor(scene, {canvas, stages, onHover, onPick}) {
     this.scene = scene;
-    this.canvas = canvas;
     this.events = {onHover, onPick};
     this.points = new MapPoints(scene);
     this.front = firstView(scene);
     this.frame = {...tileFrame(scene), sourceLight: new Vector3(-0.35, 0.55, 0.8).normalize().applyQuaternion(this.front)};
-    this.renderer = new WebGLRenderer({canvas, antialias: true, alpha: true});
-    this.renderer.outputColorSpace = LinearSRGBColorSpace;
-    this.renderer.autoClear = false;
-    this.renderer.setClearColor(0x000000, 0);
     this.bounds = {
       area: robustBound(scene.area, {share: 0.1, among: [1, 2, 3, 4, 5, 6, 8]}),
       angle: robustBound(scene.angle, {share: 0.02, among: [1.2, 1.5, 2, 3, 4, 6, 8].map(Math.log2)}),
@@ -131,6 +37,8 @@ export class View {
     const maps = {area: areaMap.texture(), angle: angleMap.texture()};
     this.uniforms = sharedUniforms(this.frame, maps, this.bounds);
     this.makePanels(stages);
+    this.painter = new Painter(canvas, Object.values(this.panels), (panel) => panel.placeLabels((at) => this.isHidden(panel, at)));
+    this.makeTables();
     this.fillPanels();
     this.showCones();
     this.listen(stages);
@@ -150,8 +58,6 @@ export class View {
     const few = {cones: drawn, marks: 256, copies: 2};
     this.panels = Object.fromEntries(Object.entries(stages).map(([name, stage]) =>
       [name, new Panel(name, stage, {capacity: name === 'tiling' ? many : few, frame: frames[name]})]));
-    this.list = Object.values(this.panels);
-    this.makeTables();
   }
 
   // The source turns by itself; tile and tiled sphere turn together, at first with the tile in front.
@@ -161,31 +67,36 @@ export class View {
       new Matrix4().makeBasis(this.frame.east, this.frame.north, this.frame.centre));
     const sphere = new Turntable([tile.place(), tiling.place()], front);
     this.tables = {source: new Turntable([source.place()], this.front), tile: sphere, tiling: sphere};
-    for (const table of Object.values(this.tables)) table.onChange = () => this.draw();
+    this.tables.source.onChange = () => this.draw([source]);
+    sphere.onChange = () => this.draw([tile, tiling]);
   }
 
   fillPanels() {
     const {scene, uniforms} = this, shared = attributes(scene);
     const tint = new Color(scene.copies[0].colour);
-    const identity = [new Matrix4()];
     const surface = (panel, position, level) => {
       const material = surfaceMaterial(uniforms, {onSphere: position === 'image', tint});
-      panel.scene.add(new Mesh(geometry(shared, position, level.indices), material));
-      panel.scene.add(thickLines(scene[position], level.outline, identity, panel.name === 'tiling' ? 3 : 2));
+      panel.scene.add(new Mesh(surfaceGeometry(shared, position, level.indices), material));
+      panel.scene.add(thickLines(scene[position], level.outline, {width: panel.name === 'tiling' ? 3 : 2, colour: INK}));
     };
     surface(this.panels.source, 'source', scene.fine);
     surface(this.panels.tile, 'image', scene.fine);
     surface(this.panels.tiling, 'image', scene.coarse);
     this.shared = shared;
+    this.copyOutline = thinnedChains(scene.image, scene.coarse.outline, OUTLINE_STEP);
     this.addCopies();
     this.addNeighbours();
   }
 
+  // Those of all copies but the tile itself.
+  outlines(panel, colour) {
+    const matrices = this.scene.copies.slice(1).map(({matrix}) => matrix);
+    return outlineCopies(panel, {positions: this.scene.image, ends: this.copyOutline, matrices, width: 1.4, colour});
+  }
+
   // Around the tile, the outlines of the other copies; a ball without colour hides those behind it.
   addNeighbours() {
-    const others = this.scene.copies.slice(1).map(({matrix}) => matrix);
-    const lines = thickLines(this.scene.image, this.scene.coarse.outline, others, 1);
-    lines.material.color.set(FAINT);
+    const lines = this.outlines(this.panels.tile, FAINT);
     lines.scale.setScalar(0.998);  // behind the tile's own outline
     const ball = new Mesh(new SphereGeometry(0.96, 96, 64), new MeshBasicMaterial({colorWrite: false}));
     ball.renderOrder = -1;
@@ -196,13 +107,13 @@ export class View {
     const others = this.scene.copies.slice(1);
     if (others.length === 0) return;
     this.copyMaterial = surfaceMaterial(this.uniforms, {onSphere: true, tint: new Color()});
-    const copies = new InstancedMesh(geometry(this.shared, 'image', this.scene.coarse.indices), this.copyMaterial, others.length);
+    const copies = new InstancedMesh(surfaceGeometry(this.shared, 'image', this.scene.coarse.indices), this.copyMaterial, others.length);
     others.forEach(({matrix, colour}, i) => {
       copies.setMatrixAt(i, matrix);
       copies.setColorAt(i, new Color(colour));
     });
     copies.frustumCulled = false;
-    this.copyLines = thickLines(this.scene.image, this.scene.coarse.outline, others.map(({matrix}) => matrix), 1);
+    this.copyLines = this.outlines(this.panels.tiling, INK);
     this.panels.tiling.scene.add(copies, this.copyLines);
   }
 
@@ -216,18 +127,8 @@ export class View {
     this.panels.source.cones.set(dots.source);
     this.panels.tile.cones.set(dots.tile);
     this.panels.tiling.cones.set(this.copied(dots.tile).map((dot) => ({...dot, scale: 0.8})));
-    this.addLabels(this.panels.source, dots.source);
-    this.addLabels(this.panels.tile, dots.tile);
-  }
-
-  addLabels(panel, dots) {
-    panel.labels = dots.map(({at, label}) => {
-      const element = document.createElement('span');
-      element.className = 'cone-label';
-      element.textContent = label;
-      panel.stage.append(element);
-      return {at, element};
-    });
+    this.panels.source.addLabels(dots.source);
+    this.panels.tile.addLabels(dots.tile);
   }
 
   /** Every dot in all copies of the tile. */
@@ -244,7 +145,6 @@ export class View {
         click: (x, y) => this.click(name, x, y),
       });
     }
-    new ResizeObserver(() => this.draw()).observe(this.canvas.parentElement);
   }
 
   pointAt(name, x, y) {
@@ -327,13 +227,17 @@ export class View {
   }
 
   makeEdges() {
-    const material = new LineBasicMaterial({color: new Color(INK), transparent: true, opacity: 0.35});
     const index = new BufferAttribute(edgeIndices(this.scene.fine.indices), 1);
     this.edges = [['source', 'source'], ['tile', 'image']].map(([panel, position]) => {
       const lines = new BufferGeometry();
       lines.setAttribute('position', this.shared[position]);
       lines.setIndex(index);
-      const segments = new LineSegments(lines, material);
+      const segments = new LineSegments(lines, new LineBasicMaterial({color: new Color(INK), transparent: true}));
+      const length = meanLength(this.scene[position], index.array);
+      // Where they are dense they would hide all colours.
+      segments.onBeforeRender = () => {
+        segments.material.opacity = 0.35 * Math.min(Math.max(this.panels[panel].pixels(length) / 5, 0.1), 1);
+      };
       this.panels[panel].scene.add(segments);
       return segments;
     });
@@ -343,47 +247,8 @@ export class View {
     for (const table of new Set(Object.values(this.tables))) table.reset();
   }
 
-  /** Draws before the next repaint. */
-  draw() {
-    if (this.waiting) return;
-    this.waiting = true;
-    requestAnimationFrame(() => {
-      this.waiting = false;
-      this.drawNow();
-    });
-  }
-
-  drawNow() {
-    const box = this.canvas.parentElement.getBoundingClientRect();
-    this.fitCanvas(box);
-    this.renderer.setScissorTest(false);
-    this.renderer.clear();
-    this.renderer.setScissorTest(true);
-    for (const panel of this.list) this.drawPanel(panel, box);
-  }
-
-  fitCanvas({width, height}) {
-    const ratio = Math.min(window.devicePixelRatio || 1, 2), size = this.renderer.getSize(new Vector2());
-    if (size.x === width && size.y === height && this.renderer.getPixelRatio() === ratio) return;
-    this.renderer.setPixelRatio(ratio);
-    this.renderer.setSize(width, height, false);
-  }
-
-  drawPanel(panel, box) {
-    const stage = panel.stage.getBoundingClientRect();
-    const place = [stage.left - box.left, box.bottom - stage.bottom, stage.width, stage.height];
-    panel.resize(stage.width / stage.height);
-    for (const dots of panel.dots()) dots.fit(panel.camera);
-    this.renderer.setViewport(...place);
-    this.renderer.setScissor(...place);
-    this.renderer.render(panel.scene, panel.camera);
-    for (const label of panel.labels) this.placeLabel(panel, label);
-  }
-
-  placeLabel(panel, {at, element}) {
-    const {x, y} = panel.project(at);
-    element.style.transform = `translate(${x + 9}px, ${y - 22}px)`;
-    element.hidden = this.isHidden(panel, at);
+  draw(panels) {
+    this.painter.draw(panels);
   }
 
   // On the sphere, behind the horizon; in the source, behind another part of it.

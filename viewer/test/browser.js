@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the page's tests need: pages to look at, a browser without network, and pixels.
-import {execFileSync} from 'node:child_process';
-import {mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
+// What the page's tests need: a browser without network, and pixels.
+import {mkdtempSync, rmSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {pathToFileURL} from 'node:url';
@@ -13,37 +12,6 @@ const FLAGS = ['--no-sandbox', '--disable-gpu', '--enable-unsafe-swiftshader', '
 
 // Small, since it is drawn without a graphics card.
 const VIEWPORT = {width: 800, height: 700};
-
-/** A folder with an embedded sample mesh and its page, made by the program under test. */
-export class Workshop {
-  constructor(program) {
-    this.program = program;
-    this.folder = mkdtempSync(join(tmpdir(), 'orbitutte-page-'));
-  }
-
-  path(name) {
-    return join(this.folder, name);
-  }
-
-  run(...words) {
-    execFileSync(this.program, words, {stdio: 'pipe', cwd: this.folder});
-  }
-
-  /** Embeds a sample and writes its page; `editReport` may change the report in between. */
-  makePage(name, {shape = 'figure', faces = 2000, orbifold = '432', editReport = (report) => report} = {}) {
-    const [mesh, map, json, page] = ['ply', 'map.ply', 'json', 'html'].map((ending) => this.path(`${name}.${ending}`));
-    this.run('sample', '--shape', shape, '--faces', String(faces), '-o', mesh);
-    this.run('embed', mesh, '--orbifold', orbifold, '--cones', 'auto', '-o', map, '--report', json, '--quiet');
-    const report = editReport(JSON.parse(readFileSync(json, 'utf8')));
-    writeFileSync(json, JSON.stringify(report));
-    this.run('report', map, json, mesh, '-o', page);
-    return {page, report};
-  }
-
-  close() {
-    rmSync(this.folder, {recursive: true, force: true});
-  }
-}
 
 /** One browser with a fresh profile. */
 export class Browser {
@@ -78,7 +46,7 @@ export class Browser {
 
 /** Waits until the view has drawn everything that it was asked to. */
 export const drawn = (page) => page.evaluate(() => new Promise((done) => {
-  const settle = () => (window.orbitutteView.waiting || window.orbitutteView.hovered ? requestAnimationFrame(settle) : done());
+  const settle = () => (window.orbitutteView.painter.waiting || window.orbitutteView.hovered ? requestAnimationFrame(settle) : done());
   requestAnimationFrame(settle);
 }));
 
@@ -87,19 +55,32 @@ export async function pixels(page, id) {
   await drawn(page);
   return page.evaluate((panel) => {
     const view = window.orbitutteView;
-    view.drawNow();  // the canvas keeps its pixels only until the frame ends
-    const [stage, canvas] = [document.getElementById(panel).getBoundingClientRect(), view.canvas.getBoundingClientRect()];
-    const ratio = view.renderer.getPixelRatio(), copy = document.createElement('canvas');
+    view.painter.drawNow();  // the canvas keeps its pixels only until the frame ends
+    const [stage, canvas] = [document.getElementById(panel).getBoundingClientRect(), view.painter.canvas.getBoundingClientRect()];
+    const ratio = view.painter.renderer.getPixelRatio(), copy = document.createElement('canvas');
     copy.width = 120;
     copy.height = 120;
     const paper = copy.getContext('2d');
-    paper.drawImage(view.canvas, (stage.left - canvas.left) * ratio, (stage.top - canvas.top) * ratio, stage.width * ratio,
+    paper.drawImage(view.painter.canvas, (stage.left - canvas.left) * ratio, (stage.top - canvas.top) * ratio, stage.width * ratio,
       stage.height * ratio, 0, 0, 120, 120);
     const values = new Uint32Array(paper.getImageData(0, 0, 120, 120).data.buffer);
     let sum = 0;
     for (const value of values) sum = (Math.imul(sum, 31) + value) | 0;
     return {colours: new Set(values).size, sum};
   }, id);
+}
+
+/** Red, green and blue at a place in a panel, in CSS pixels. */
+export async function pixelAt(page, id, place) {
+  await drawn(page);
+  return page.evaluate(([panel, {x, y}]) => {
+    const view = window.orbitutteView;
+    view.painter.drawNow();
+    const [stage, canvas] = [document.getElementById(panel).getBoundingClientRect(), view.painter.canvas.getBoundingClientRect()];
+    const ratio = view.painter.renderer.getPixelRatio(), copy = new OffscreenCanvas(1, 1).getContext('2d');
+    copy.drawImage(view.painter.canvas, (stage.left - canvas.left + x) * ratio, (stage.top - canvas.top + y) * ratio, 1, 1, 0, 0, 1, 1);
+    return [...copy.getImageData(0, 0, 1, 1).data.slice(0, 3)];
+  }, [id, place]);
 }
 
 /** Where a panel shows an input vertex, in CSS pixels of the window; for vertices that are in front. */

@@ -3,7 +3,8 @@
 import assert from 'node:assert/strict';
 import {readFileSync, writeFileSync} from 'node:fs';
 import {after, before, test} from 'node:test';
-import {Browser, Workshop, drawn, pixels, placeOf} from './browser.js';
+import {Browser, drawn, pixelAt, pixels, placeOf} from './browser.js';
+import {Workshop} from './workshop.js';
 
 const PANELS = ['source', 'tile', 'tiling'];
 const HOSTILE = `x'"><img src=x onerror=alert(1)></script><script>alert(2)</script>`;
@@ -57,6 +58,27 @@ test('every panel draws, with every colouring, and no two colourings alike', () 
   }
   for (const panel of PANELS) assert.equal(seen[panel].size, colourings.length, panel);
 }));
+
+test('vertex colours are offered where the mesh has them, and shown as they are in all panels', async () => {
+  const {page: file} = workshop.makePage('coloured', {faces: 500, coloured: true});
+  await withPage(file, async (page) => {
+    await page.selectOption('#colouring', 'vertex');
+    const vertex = await visibleVertex(page);
+    const [expected, places] = await page.evaluate((wanted) => {
+      const {scene, panels} = window.orbitutteView, drawn = scene.sourceVertex.indexOf(wanted);
+      const project = (name, numbers) => panels[name].project(panels[name].camera.position.clone().fromArray(numbers, 3 * drawn));
+      return [[...scene.colour.slice(3 * drawn, 3 * drawn + 3)], {source: project('source', scene.source), tile: project('tile', scene.image)}];
+    }, vertex);
+    const line = readFileSync(workshop.path('coloured.obj'), 'utf8').split('\n').filter((row) => row.startsWith('v '))[vertex];
+    assert.deepEqual(expected, line.split(' ').slice(4).map((channel) => Math.round(255 * channel)));
+    for (const [panel, place] of Object.entries(places)) {
+      const seen = await pixelAt(page, panel, place), light = Math.max(...seen) / Math.max(...expected);
+      seen.forEach((channel, k) => assert.ok(Math.abs(channel - light * expected[k]) < 24, `${panel}: ${seen}, not as ${expected}`));
+    }
+    assert.ok((await pixels(page, 'tiling')).colours > 200);
+  });
+  await withPage(figure.page, async (page) => assert.equal(await page.locator('#colouring option[value=vertex]').count(), 0));
+});
 
 test('a click on a vertex marks it in all panels and names it in the --cones line', () => withPage(figure.page, async (page) => {
   const vertex = await visibleVertex(page), place = await placeOf(page, 'source', vertex);
@@ -138,6 +160,41 @@ test('Tab reaches every panel and control; keys turn, zoom, reset and mark', () 
   await page.focus('#tiling');
   await page.keyboard.press('Enter');
   assert.match(await conesLine(page), /^--cones \d+$/);
+}));
+
+test('however near the zoom, the middle of a panel shows the same point, and labels stay within their panels', () => withPage(figure.page, async (page) => {
+  for (const panel of PANELS) {
+    const {points, outside, seen} = await page.evaluate((name) => {
+      const view = window.orbitutteView, stage = document.getElementById(name), box = stage.getBoundingClientRect();
+      const labels = () => [...stage.querySelectorAll('.cone-label:not([hidden])')].map((label) => label.getBoundingClientRect());
+      const found = {points: [], outside: 0, seen: 0};
+      for (let k = 0; k < 20; ++k) {
+        const at = view.pointAt(name, box.width / 2, box.height / 2);
+        found.points.push(at && `${at.face} ${at.copy}`);
+        view.painter.drawNow([view.panels[name]]);
+        found.seen += labels().length;
+        found.outside += labels().filter(({left, right, top}) => left < box.left - 1 || right > box.right + 1 || top < box.top - 1).length;
+        view.tables[name].zoomBy(1.12);
+      }
+      view.reset();
+      return found;
+    }, panel);
+    assert.notEqual(points[0], null, panel);
+    assert.equal(new Set(points).size, 1, `${panel}: ${points}`);
+    assert.equal(outside, 0, `${panel}: labels reach out`);
+    assert.ok(panel === 'tiling' || seen > 0, panel);
+  }
+}));
+
+test('turning the source draws the source alone again', () => withPage(figure.page, async (page) => {
+  await drawn(page);
+  const panels = await page.evaluate(() => new Promise((done) => {
+    const {painter, tables} = window.orbitutteView, seen = [], draw = painter.drawPanel.bind(painter);
+    painter.drawPanel = (panel, box) => { seen.push(panel.name); draw(panel, box); };
+    tables.source.turn(0.1, 0);
+    requestAnimationFrame(() => requestAnimationFrame(() => done(seen)));
+  }));
+  assert.deepEqual(panels, ['source']);
 }));
 
 test('dragging turns a panel and marks nothing', () => withPage(figure.page, async (page) => {

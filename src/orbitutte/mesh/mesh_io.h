@@ -16,13 +16,18 @@ MeshFormat mesh_format(const std::string& path);
 
 /// The polygons in the text or bytes of a mesh file.
 ///
-/// - OBJ: `v`, `f` with v, v/vt, v//vn, v/vt/vn, negative indices; `l`, `p` and all else are passed over.
-/// - OFF: the keyword (OFF, behind any of ST, C, N) may be missing, and behind it the count of edges; other
-///   columns and comments are passed over; binary files and other dimensions than three are refused.
-/// - PLY: ASCII, binary of both byte orders, `face` (vertex_indices or vertex_index) and `tristrips`; other
-///   elements and properties are passed over.
+/// - OBJ: `v`, `f` with v, v/vt, v//vn, v/vt/vn, negative indices; three numbers behind the coordinates are
+///   the vertex's colour; `l`, `p` and all else are passed over.
+/// - OFF: the keyword (OFF, behind any of ST, C, N) may be missing, and behind it the count of edges; with C,
+///   vertices may have colours; other columns and comments are passed over; binary files and other dimensions
+///   than three are refused.
+/// - PLY: ASCII, binary of both byte orders, `face` (vertex_indices or vertex_index) and `tristrips`; colours
+///   are `red`, `green` and `blue` of the vertices; other elements and properties are passed over.
 /// - STL: ASCII with any number of solids, and binary; corners with the same three coordinates are one
 ///   vertex, numbered in order of first use.
+///
+/// Colours are numbers of 0 .. 1 or bytes: the integers of a PLY, and the whole numbers of a text where one
+/// is above 1. The mesh has none where some vertices have none.
 ///
 /// Indices are not compared with the number of vertices, nor coordinates with infinity: `inspect` does both.
 /// Throws MeshError naming the line, element or byte where the data are empty, cut short or make no sense.

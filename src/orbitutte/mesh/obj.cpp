@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "orbitutte/mesh/mesh_formats.h"
+#include "orbitutte/mesh/text_colours.h"
 #include "orbitutte/mesh/text_scanner.h"
 
 namespace orbitutte {
@@ -16,10 +17,15 @@ namespace {
 
 constexpr TextScanner::Syntax obj_syntax = {.comment = '#', .backslash_continues = true};
 
-void read_vertex(TextScanner& in, std::vector<double>& coordinates) {
+/// Behind the coordinates three numbers are a colour. One is a weight; of more than three nobody agrees what
+/// they are.
+bool are_colour(const NextWords& words) { return !words[1].empty() && words[3].empty(); }
+
+void read_vertex(TextScanner& in, std::vector<double>& coordinates, TextColours& colours) {
   const TextItem vertex = {"vertex", coordinates.size() / 3};
   for (int axis = 0; axis < 3; ++axis) coordinates.push_back(in.number<double>(vertex, "coordinate"));
-  in.skip_words();  // a weight, colours
+  const NextWords further = take_next_words(in);
+  if (are_colour(further)) colours.add(in, vertex, further);
 }
 
 /// The part vt, /vn or vt/vn of a corner: up to two indices, each of which may be left out.
@@ -91,12 +97,13 @@ void make_room(std::string_view text, std::vector<double>& coordinates, PolygonM
 PolygonMesh read_obj(std::string_view text) {
   PolygonMesh mesh;
   std::vector<double> coordinates;
+  TextColours colours;
   make_room(text, coordinates, mesh);
   TextScanner in(text, obj_syntax);
   while (in.find_word()) {
     const std::string_view keyword = in.word();
     if (keyword == "v") {
-      read_vertex(in, coordinates);
+      read_vertex(in, coordinates, colours);
     } else if (keyword == "f") {
       read_face(in, coordinates.size() / 3, mesh);
     } else {
@@ -107,6 +114,7 @@ PolygonMesh read_obj(std::string_view text) {
     throw MeshError("no line begins with 'v', so there are no vertices; check that it is an OBJ file");
   }
   mesh.V = to_points(coordinates);
+  mesh.colours = colours.colours(mesh.V.rows());
   return mesh;
 }
 

@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <iterator>
+#include <optional>
 
 #include "orbitutte/mesh/mesh_formats.h"
+#include "orbitutte/mesh/text_colours.h"
 #include "orbitutte/mesh/text_scanner.h"
 
 namespace orbitutte {
@@ -14,17 +16,33 @@ namespace {
 
 constexpr TextScanner::Syntax off_syntax = {.comment = '#'};
 
-struct Counts {
+/// What the keyword says of the columns behind a vertex's coordinates.
+struct Columns {
+  bool has_normals = false;
+  bool has_colours = false;  ///< behind the normals
+};
+
+struct Header {
+  Columns columns;
   int vertices = 0;
   int faces = 0;
 };
 
-/// Whether the word is OFF behind any of the prefixes ST (texture), C (colour) and N (normal), in this order.
-bool is_off_keyword(std::string_view word) {
-  for (const std::string_view prefix : {"ST", "C", "N"}) {
-    if (word.starts_with(prefix)) word.remove_prefix(prefix.size());
-  }
-  return word == "OFF" || word == "off";
+bool take_prefix(std::string_view& word, std::string_view prefix) {
+  if (!word.starts_with(prefix)) return false;
+  word.remove_prefix(prefix.size());
+  return true;
+}
+
+/// The keyword is OFF behind any of the prefixes ST (texture), C (colour) and N (normal), in this order; none
+/// where the word is something else.
+std::optional<Columns> parse_keyword(std::string_view word) {
+  take_prefix(word, "ST");
+  Columns columns;
+  columns.has_colours = take_prefix(word, "C");
+  columns.has_normals = take_prefix(word, "N");
+  if (word != "OFF" && word != "off") return std::nullopt;
+  return columns;
 }
 
 bool names_other_dimension(std::string_view word) {
@@ -39,7 +57,7 @@ int to_count(const TextScanner& in, std::string_view word, std::string_view thin
 }
 
 /// Throws MeshError where the rest of the text cannot hold as much, before memory is taken for it.
-void check_promise(const TextScanner& in, const Counts& counts) {
+void check_promise(const TextScanner& in, const Header& counts) {
   constexpr std::size_t least_vertex = std::string_view("0 0 0\n").size();
   constexpr std::size_t least_face = std::string_view("0\n").size();
   const std::size_t least = counts.vertices * least_vertex + counts.faces * least_face;
@@ -50,23 +68,24 @@ void check_promise(const TextScanner& in, const Counts& counts) {
 
 /// The keyword, which may be missing, and the counts of vertices, faces and edges on its line or the next.
 /// Behind a keyword the count of edges may be missing.
-Counts read_header(TextScanner& in) {
+Header read_header(TextScanner& in) {
   in.find_word();
   std::string_view word = in.word();
   if (names_other_dimension(word)) {
     in.refuse(fmt::format("{} announces points of another dimension than three", in_quotes(word)));
   }
-  const bool has_keyword = is_off_keyword(word);
-  if (has_keyword) {
+  const std::optional<Columns> columns = parse_keyword(word);
+  if (columns) {
     in.find_word();
     word = in.word();
   }
   if (word == "BINARY") in.refuse("binary OFF is not supported, only ASCII");
-  Counts counts;
+  Header counts;
+  counts.columns = columns.value_or(Columns());
   counts.vertices = to_count(in, word, "vertices");
   counts.faces = to_count(in, in.word(), "faces");
   const std::string_view edges = in.word();
-  if (!has_keyword || !edges.empty()) to_count(in, edges, "edges");
+  if (!columns || !edges.empty()) to_count(in, edges, "edges");
   if (in.find_word_in_line()) in.refuse("the header has more than three counts");
   check_promise(in, counts);
   return counts;
@@ -78,15 +97,25 @@ void find_line(TextScanner& in, const TextItem& item, int count) {
   in.refuse(fmt::format("the text ends before {}, but the header promises {}", shown(item), count));
 }
 
-Points read_points(TextScanner& in, int count) {
-  Points V(count, 3);
-  for (int v = 0; v < count; ++v) {
+/// What stands behind the coordinates. Texture coordinates are passed over, as is all that the keyword does
+/// not name.
+void read_columns(TextScanner& in, const TextItem& vertex, const Columns& columns, TextColours& colours) {
+  if (columns.has_normals)
+    for (int axis = 0; axis < 3; ++axis) in.word();
+  const NextWords further = take_next_words(in);
+  if (columns.has_colours && !further[0].empty()) colours.add(in, vertex, further);
+}
+
+void read_vertices(TextScanner& in, const Header& header, PolygonMesh& mesh) {
+  mesh.V.resize(header.vertices, 3);
+  TextColours colours;
+  for (int v = 0; v < header.vertices; ++v) {
     const TextItem vertex = {"vertex", static_cast<std::size_t>(v)};
-    find_line(in, vertex, count);
-    for (int axis = 0; axis < 3; ++axis) V(v, axis) = in.number<double>(vertex, "coordinate");
-    in.skip_words();  // normals, colours, texture coordinates
+    find_line(in, vertex, header.vertices);
+    for (int axis = 0; axis < 3; ++axis) mesh.V(v, axis) = in.number<double>(vertex, "coordinate");
+    read_columns(in, vertex, header.columns, colours);
   }
-  return V;
+  mesh.colours = colours.colours(header.vertices);
 }
 
 void read_faces(TextScanner& in, int count, PolygonMesh& mesh) {
@@ -107,13 +136,13 @@ void read_faces(TextScanner& in, int count, PolygonMesh& mesh) {
 
 PolygonMesh read_off(std::string_view text) {
   TextScanner in(text, off_syntax);
-  const Counts counts = read_header(in);
+  const Header header = read_header(in);
   PolygonMesh mesh;
-  mesh.V = read_points(in, counts.vertices);
-  read_faces(in, counts.faces, mesh);
+  read_vertices(in, header, mesh);
+  read_faces(in, header.faces, mesh);
   if (in.find_word()) {
     in.refuse(fmt::format("{} follows behind the {} vertices and {} faces that the header promises",
-                          in_quotes(in.word()), counts.vertices, counts.faces));
+                          in_quotes(in.word()), header.vertices, header.faces));
   }
   return mesh;
 }

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "orbitutte/mesh/mesh_formats.h"
+#include "orbitutte/mesh/ply_colours.h"
 #include "orbitutte/mesh/ply_header.h"
 #include "orbitutte/mesh/ply_triangles.h"
 
@@ -31,6 +32,15 @@ Points positions(const PlyElement& vertex) {
   for (int k = 0; k < 3; ++k)
     for (Eigen::Index v = 0; v < V.rows(); ++v) V(v, k) = axes[k]->values[v];
   return V;
+}
+
+Points colours(const PlyElement& vertex) {
+  const std::optional<PlyChannels> channels = find_channels(vertex);
+  if (!channels) return Points(0, 3);
+  Points result(static_cast<Eigen::Index>(vertex.count), 3);
+  for (Eigen::Index v = 0; v < result.rows(); ++v)
+    for (int k = 0; k < 3; ++k) result(v, k) = channel_value(*(*channels)[k], (*channels)[k]->values[v], v);
+  return result;
 }
 
 const PlyProperty& index_lists(const PlyElement& element) {
@@ -90,6 +100,7 @@ PolygonMesh to_mesh(const PlyFile& file) {
   if (vertex == nullptr) throw MeshError("there is no element 'vertex'; check that the file holds a mesh");
   PolygonMesh mesh;
   mesh.V = positions(*vertex);
+  mesh.colours = colours(*vertex);
   const PlyElement* faces = file.find("face");
   const PlyElement* strips = file.find("tristrips");
   if (faces != nullptr && faces->count > 0) append_faces(*faces, mesh);

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "orbitutte/mesh/bytes.h"
+#include "orbitutte/mesh/ply_colours.h"
 
 namespace orbitutte {
 
@@ -94,6 +95,22 @@ Points load_points(const TriangleFile& file) {
   return V;
 }
 
+/// The colours of the vertices; none where they have none.
+Points load_colours(const TriangleFile& file, const PlyElement& vertex) {
+  const std::optional<PlyChannels> channels = find_channels(vertex);
+  if (!channels) return Points(0, 3);
+  Points colours(file.vertex_count, 3);
+  for (int k = 0; k < 3; ++k) {
+    const PlyProperty& channel = *(*channels)[k];
+    visit_type(channel.type, [&](auto number) {
+      const char* at = file.vertices + size_before(vertex, &channel);
+      for (std::size_t v = 0; v < file.vertex_count; ++v, at += file.vertex.size)
+        colours(v, k) = channel_value(channel, load<decltype(number)>(at, file.order), v);
+    });
+  }
+  return colours;
+}
+
 /// None where a face is no triangle or an index does not fit into an int.
 template <std::endian order>
 std::optional<std::vector<int>> load_corners(const TriangleFile& file) {
@@ -167,8 +184,10 @@ void check_size(const PlyIntegers& column, std::size_t vertices) {
 std::optional<PolygonMesh> read_ply_triangles(std::string_view bytes, const PlyHeader& header) {
   const std::optional<TriangleFile> file = triangle_file(bytes, header);
   if (!file) return std::nullopt;
-  return file->order == std::endian::little ? load_mesh<std::endian::little>(*file)
-                                            : load_mesh<std::endian::big>(*file);
+  std::optional<PolygonMesh> mesh = file->order == std::endian::little ? load_mesh<std::endian::little>(*file)
+                                                                       : load_mesh<std::endian::big>(*file);
+  if (mesh) mesh->colours = load_colours(*file, header.file.elements.front());
+  return mesh;
 }
 
 std::optional<std::vector<int>> read_ply_integers(std::string_view bytes, const PlyHeader& header,

@@ -14,6 +14,7 @@ struct PolygonMesh {
   Points V;                           ///< n x 3 positions
   std::vector<int> corners;           ///< the vertices of all faces, one face after the other
   std::vector<int> face_start = {0};  ///< face f is corners[face_start[f]] .. corners[face_start[f + 1] - 1]
+  Points colours = Points(0, 3);      ///< n x 3, of the vertices: sRGB, 0 .. 1; or none
 
   int vertex_count() const { return static_cast<int>(V.rows()); }
   int face_count() const { return static_cast<int>(face_start.size()) - 1; }
@@ -23,8 +24,8 @@ struct PolygonMesh {
 /// The same mesh as polygons.
 PolygonMesh to_polygon_mesh(const Mesh& mesh);
 
-/// The same mesh as triangles; vertex and face order are kept. Positions that are moved in are not copied.
-/// Throws MeshError naming the first face that is not a triangle.
+/// The same mesh as triangles, without colours; vertex and face order are kept. Positions that are moved in
+/// are not copied. Throws MeshError naming the first face that is not a triangle.
 Mesh to_triangle_mesh(PolygonMesh mesh);
 
 }  // namespace orbitutte

@@ -24,8 +24,8 @@ struct DisplayMesh {
 
 /// How much is drawn.
 struct DisplayLimits {
-  int faces = 400000;          ///< of the fine level
-  int tiling_faces = 1000000;  ///< of |G| copies of the coarse level
+  int faces = 400000;         ///< of the fine level
+  int tiling_faces = 600000;  ///< of |G| copies of the coarse level
 };
 
 /// A level is the whole cut mesh where that is within the limit, otherwise made by edge collapses (quadric

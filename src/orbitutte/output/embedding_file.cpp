@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "orbitutte/mesh/file.h"
@@ -102,24 +101,6 @@ Embedding read_embedding(const std::string& path) {
   } catch (const MeshError& error) {
     throw MeshError(fmt::format("{}: {}", path, error.what()));
   }
-}
-
-// Where a polygon was turned over, its corners run the other way from the first on, and its triangles do,
-// too.
-Faces cut_triangles(const PolygonMesh& mesh, const Triangulation& triangulation, const Embedding& embedding) {
-  std::vector<int> corners = embedding.polygons.corners;
-  std::vector<char> turned(mesh.face_count(), 0);
-  for (int f = 0; f < mesh.face_count(); ++f) {
-    const int first = mesh.face_start[f];
-    turned[f] = embedding.source_vertex[corners[first + 1]] != mesh.corners[first + 1];
-    if (turned[f]) std::reverse(corners.begin() + first + 1, corners.begin() + mesh.face_start[f + 1]);
-  }
-  Faces triangles = on_vertices(triangulation, corners);
-  int row = 0;
-  for (int f = 0; f < mesh.face_count(); ++f)
-    for (int k = 2; k < mesh.face_degree(f); ++k, ++row)
-      if (turned[f]) std::swap(triangles(row, 1), triangles(row, 2));
-  return triangles;
 }
 
 }  // namespace orbitutte

@@ -5,7 +5,6 @@
 #include <string>
 #include <string_view>
 
-#include "orbitutte/mesh/triangulation.h"
 #include "orbitutte/orbifold/embedding.h"
 
 namespace orbitutte {
@@ -21,9 +20,5 @@ Embedding parse_embedding(std::string_view bytes);
 /// cones) stays empty. Polygons, which are convex, are divided into triangles from their first corners.
 /// Throws FileError, and MeshError naming what is missing or out of range.
 Embedding read_embedding(const std::string& path);
-
-/// The triangles of the embedding's polygons, as those of the mesh that was embedded are divided (T x 3):
-/// what a file does not tell. The polygons must be those of the mesh, in its order.
-Faces cut_triangles(const PolygonMesh& mesh, const Triangulation& triangulation, const Embedding& embedding);
 
 }  // namespace orbitutte

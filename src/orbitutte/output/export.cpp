@@ -10,9 +10,13 @@
 #include <cmath>
 #include <filesystem>
 #include <iterator>
+#include <span>
+#include <utility>
 
 #include "orbitutte/mesh/file.h"
 #include "orbitutte/mesh/ply.h"
+#include "orbitutte/mesh/ply_triangles.h"
+#include "orbitutte/output/cut_triangles.h"
 #include "orbitutte/output/export_files.h"
 #include "orbitutte/output/file_ending.h"
 #include "orbitutte/output/gltf_model.h"
@@ -20,37 +24,48 @@
 namespace orbitutte {
 namespace {
 
-bool is_cut_from(const Mesh& mesh, const Embedding& embedding) {
-  const auto vertices = static_cast<Eigen::Index>(embedding.source_vertex.size());
-  if (embedding.positions.rows() != vertices || vertices < mesh.V.rows()) return false;
-  if (embedding.faces.rows() != mesh.F.rows()) return false;
-  for (Eigen::Index f = 0; f < mesh.F.rows(); ++f) {
-    const auto v = embedding.faces.row(f);
-    if (v.minCoeff() < 0 || v.maxCoeff() >= vertices) return false;
-    std::array<int, 3> sources = {embedding.source_vertex[v[0]], embedding.source_vertex[v[1]],
-                                  embedding.source_vertex[v[2]]};
-    std::array<int, 3> given = {mesh.F(f, 0), mesh.F(f, 1), mesh.F(f, 2)};
-    std::sort(sources.begin(), sources.end());
-    std::sort(given.begin(), given.end());
-    if (sources != given) return false;
-  }
+// Has face f of the cut mesh the corners of the input's, in either direction from the same one on?
+bool is_cut_face(const PolygonMesh& mesh, const Embedding& embedding, int f) {
+  const std::span<const int> cut = embedding.input_faces()[f];
+  const int first = mesh.face_start[f], degree = mesh.face_degree(f);
+  if (static_cast<int>(cut.size()) != degree) return false;
+  const int vertices = static_cast<int>(embedding.source_vertex.size());
+  for (const int v : cut)
+    if (v < 0 || v >= vertices) return false;
+  for (int k = 0; k < degree; ++k)
+    if (embedding.source_vertex[cut[cut_corner(mesh, embedding, f, k)]] != mesh.corners[first + k])
+      return false;
   return true;
 }
 
-// The corner of the embedding's face f at the input's k-th corner: another one only where the face was turned
-// over.
-int corner_of(const ExportedModel& model, Eigen::Index f, int k) {
-  for (int l = 0; l < 3; ++l)
-    if (model.embedding.source_vertex[model.embedding.faces(f, l)] == model.mesh.F(f, k))
-      return static_cast<int>(3 * f) + l;
-  return static_cast<int>(3 * f) + k;
+bool is_cut_from(const PolygonMesh& mesh, const Embedding& embedding) {
+  const auto vertices = static_cast<Eigen::Index>(embedding.source_vertex.size());
+  if (embedding.positions.rows() != vertices || vertices < mesh.V.rows()) return false;
+  if (embedding.input_faces().count() != mesh.face_count()) return false;
+  for (int f = 0; f < mesh.face_count(); ++f)
+    if (!is_cut_face(mesh, embedding, f)) return false;
+  return true;
 }
 
-// The mean of its faces' normals, weighted by their areas, of every input vertex.
-Points vertex_normals(const Mesh& mesh) {
-  Points normals = Points::Zero(mesh.V.rows(), 3);
-  for (const auto& v : mesh.F.rowwise()) {
-    const Vector3 a = mesh.V.row(v[0]), b = mesh.V.row(v[1]), c = mesh.V.row(v[2]);
+// The row of texture coordinates of every corner of the input.
+std::vector<int> texture_rows(const ExportedModel& model) {
+  std::vector<int> rows;
+  rows.reserve(model.mesh.corners.size());
+  for (int f = 0; f < model.mesh.face_count(); ++f) {
+    const int first = model.mesh.face_start[f];
+    for (int k = 0; k < model.mesh.face_degree(f); ++k)
+      rows.push_back(model.texture.of_corner[first + cut_corner(model.mesh, model.embedding, f, k)]);
+  }
+  return rows;
+}
+
+// The mean of the normals of the triangles around every input vertex, weighted by their areas.
+Points vertex_normals(const ExportedModel& model) {
+  const Points& V = model.mesh.V;
+  Points normals = Points::Zero(V.rows(), 3);
+  for (const auto& corners : model.triangles.rowwise()) {
+    const auto v = corners.unaryExpr([&](int corner) { return model.mesh.corners[corner]; }).eval();
+    const Vector3 a = V.row(v[0]), b = V.row(v[1]), c = V.row(v[2]);
     const Vector3 normal = (b - a).cross(c - a);
     for (int k = 0; k < 3; ++k) normals.row(v[k]) += normal.transpose();
   }
@@ -62,14 +77,46 @@ Points vertex_normals(const Mesh& mesh) {
 }
 
 // The source vertex of every row of texture coordinates.
-std::vector<int> source_of_texture_vertex(const ExportedModel& model) {
-  std::vector<int> source(model.texture.uv.rows(), 0);
-  for (std::size_t v = 0; v < model.embedding.source_vertex.size(); ++v)
-    source[v] = model.embedding.source_vertex[v];
-  for (Eigen::Index f = 0; f < model.mesh.F.rows(); ++f)
-    for (int k = 0; k < 3; ++k)
-      source[model.texture.of_corner[3 * f + k]] = model.embedding.source_vertex[model.embedding.faces(f, k)];
+std::vector<int> source_of_texture_vertex(const ExportedModel& model, const std::vector<int>& rows) {
+  std::vector<int> source = model.embedding.source_vertex;
+  source.resize(model.texture.uv.rows(), 0);
+  for (std::size_t corner = 0; corner < rows.size(); ++corner)
+    source[rows[corner]] = model.mesh.corners[corner];
   return source;
+}
+
+double triangle_area(const Mesh& mesh, Eigen::Index t) {
+  const Vector3 a = mesh.V.row(mesh.F(t, 0)), b = mesh.V.row(mesh.F(t, 1)), c = mesh.V.row(mesh.F(t, 2));
+  return (b - a).cross(c - a).norm() / 2;
+}
+
+// The means over a range of triangles, by their areas in the source. What was left out does
+// not count.
+FaceDistortion mean_distortion(const Mesh& mesh, const std::vector<FaceDistortion>& of_triangle,
+                               std::pair<Eigen::Index, Eigen::Index> range) {
+  FaceDistortion mean;
+  double area = 0;
+  for (Eigen::Index t = range.first; t < range.second; ++t) {
+    if (!(of_triangle[t].area > 0)) continue;
+    const double share = triangle_area(mesh, t);
+    mean.area += share * of_triangle[t].area;
+    mean.angle += share * of_triangle[t].angle;
+    area += share;
+  }
+  if (area > 0) mean.area /= area, mean.angle /= area;
+  return mean;
+}
+
+std::vector<FaceDistortion> distortion_of_faces(const PolygonMesh& polygons, const Mesh& mesh,
+                                                const std::vector<FaceDistortion>& of_triangle) {
+  std::vector<FaceDistortion> result;
+  Eigen::Index t = 0;
+  for (int f = 0; f < polygons.face_count(); ++f) {
+    const Eigen::Index end = t + polygons.face_degree(f) - 2;
+    result.push_back(end == t + 1 ? of_triangle[t] : mean_distortion(mesh, of_triangle, {t, end}));
+    t = end;
+  }
+  return result;
 }
 
 // From blue (shrunk) by white to red (stretched), a factor of 8 at the ends: the diverging map of K. Moreland
@@ -90,10 +137,11 @@ PlyProperty doubles(const std::string& name, const Eigen::VectorXd& values) {
   return {name, PlyType::float64, false, PlyType::uint8, {values.begin(), values.end()}, {}};
 }
 
-PlyProperty triangles(const Faces& F) {
-  PlyProperty property = {"vertex_indices", PlyType::int32, true, PlyType::uint8, {}, {}};
-  property.values.assign(F.data(), F.data() + F.size());
-  for (Eigen::Index f = 0; f <= F.rows(); ++f) property.list_start.push_back(3 * static_cast<std::size_t>(f));
+PlyProperty faces_of(const PolygonMesh& mesh) {
+  const PlyType count_type = corner_count_type(FaceView(mesh.corners, mesh.face_start));
+  PlyProperty property = {"vertex_indices", PlyType::int32, true, count_type, {}, {}};
+  property.values.assign(mesh.corners.begin(), mesh.corners.end());
+  property.list_start.assign(mesh.face_start.begin(), mesh.face_start.end());
   return property;
 }
 
@@ -108,11 +156,12 @@ std::vector<double> face_quality(const ExportedModel& model) {
 
 std::vector<double> vertex_quality(const ExportedModel& model) {
   const std::vector<double> of_face = face_quality(model);
-  std::vector<double> sum(model.mesh.V.rows(), 0.0), count(sum);
-  for (Eigen::Index f = 0; f < model.mesh.F.rows(); ++f) {
-    for (const int v : model.mesh.F.row(f)) {
-      sum[v] += of_face[f];
-      ++count[v];
+  const PolygonMesh& mesh = model.mesh;
+  std::vector<double> sum(mesh.vertex_count(), 0.0), count(sum);
+  for (int f = 0; f < mesh.face_count(); ++f) {
+    for (int c = mesh.face_start[f]; c < mesh.face_start[f + 1]; ++c) {
+      sum[mesh.corners[c]] += of_face[f];
+      ++count[mesh.corners[c]];
     }
   }
   for (std::size_t v = 0; v < sum.size(); ++v)
@@ -123,24 +172,24 @@ std::vector<double> vertex_quality(const ExportedModel& model) {
 std::string obj_text(const ExportedModel& model) {
   std::string text = "# texture coordinates: orbitutte embedding " + model.embedding.signature + "\n";
   const auto out = std::back_inserter(text);
+  const PolygonMesh& mesh = model.mesh;
+  const std::vector<int> rows = texture_rows(model);
   // The shortest decimals that read back as the same doubles.
-  for (const auto& p : model.mesh.V.rowwise())
-    fmt::format_to(out, FMT_COMPILE("v {} {} {}\n"), p[0], p[1], p[2]);
+  for (const auto& p : mesh.V.rowwise()) fmt::format_to(out, FMT_COMPILE("v {} {} {}\n"), p[0], p[1], p[2]);
   for (const auto& p : model.texture.uv.rowwise()) fmt::format_to(out, FMT_COMPILE("vt {} {}\n"), p[0], p[1]);
-  for (Eigen::Index f = 0; f < model.mesh.F.rows(); ++f) {
+  for (int f = 0; f < mesh.face_count(); ++f) {
     text += "f";
-    for (int k = 0; k < 3; ++k)
-      fmt::format_to(out, FMT_COMPILE(" {}/{}"), model.mesh.F(f, k) + 1LL,
-                     model.texture.of_corner[corner_of(model, f, k)] + 1LL);
+    for (int c = mesh.face_start[f]; c < mesh.face_start[f + 1]; ++c)
+      fmt::format_to(out, FMT_COMPILE(" {}/{}"), mesh.corners[c] + 1LL, rows[c] + 1LL);
     text += "\n";
   }
   return text;
 }
 
 std::string glb_bytes(const ExportedModel& model) {
-  const std::vector<int> source = source_of_texture_vertex(model);
-  check_glb_size(44 * source.size() + 12 * static_cast<std::size_t>(model.mesh.F.rows()), "the model");
-  const Points normals_of_input = vertex_normals(model.mesh);
+  const std::vector<int> rows = texture_rows(model), source = source_of_texture_vertex(model, rows);
+  check_glb_size(44 * source.size() + 12 * static_cast<std::size_t>(model.triangles.rows()), "the model");
+  const Points normals_of_input = vertex_normals(model);
   const std::vector<double> quality = vertex_quality(model);
   const auto count = static_cast<Eigen::Index>(source.size());
   Points positions(count, 3), normals(count, 3);
@@ -151,9 +200,8 @@ std::string glb_bytes(const ExportedModel& model) {
     colours.push_back(distortion_colour(quality[source[v]]));
   }
   std::vector<std::uint32_t> indices;
-  for (Eigen::Index f = 0; f < model.mesh.F.rows(); ++f)
-    for (int k = 0; k < 3; ++k)
-      indices.push_back(static_cast<std::uint32_t>(model.texture.of_corner[corner_of(model, f, k)]));
+  for (const int corner : model.triangles.reshaped<Eigen::RowMajor>())
+    indices.push_back(static_cast<std::uint32_t>(rows[corner]));
   GltfModel gltf;
   const std::map<std::string, int> attributes = {
       {"POSITION", gltf.add_positions(positions)},
@@ -167,22 +215,32 @@ std::string glb_bytes(const ExportedModel& model) {
 }
 
 std::string ply_bytes(const ExportedModel& model) {
-  const Mesh& mesh = model.mesh;
+  const PolygonMesh& mesh = model.mesh;
   const PlyElement vertex = {"vertex",
                              static_cast<std::size_t>(mesh.V.rows()),
                              {doubles("x", mesh.V.col(0)), doubles("y", mesh.V.col(1)),
                               doubles("z", mesh.V.col(2)), floats("quality", vertex_quality(model))}};
   const PlyElement face = {"face",
-                           static_cast<std::size_t>(mesh.F.rows()),
-                           {triangles(mesh.F), floats("quality", face_quality(model))}};
+                           static_cast<std::size_t>(mesh.face_count()),
+                           {faces_of(mesh), floats("quality", face_quality(model))}};
   return serialize_ply(
       {{"quality: log2 of the area distortion of the orbitutte embedding " + model.embedding.signature},
        {vertex, face}});
 }
 
-ExportedModel exported_model(const Mesh& mesh, const Embedding& embedding, TextureChart chart) {
+ExportedModel exported_model(const PolygonMesh& mesh, const Embedding& embedding, TextureChart chart) {
   if (!is_cut_from(mesh, embedding)) throw MeshError("the embedding is none of this mesh");
-  return {mesh, embedding, texture_coordinates(embedding, chart), measure_faces(mesh, embedding)};
+  const Triangulation triangulation = triangulate(mesh);
+  ExportedModel model = {mesh, triangulation.corners, embedding, texture_coordinates(embedding, chart), {}};
+  model.embedding.faces = cut_triangles(mesh, triangulation, embedding);
+  const Mesh triangles = {mesh.V, on_vertices(triangulation, mesh.corners)};
+  const std::vector<FaceDistortion> of_triangle = measure_faces(triangles, model.embedding);
+  model.of_face = distortion_of_faces(mesh, triangles, of_triangle);
+  return model;
+}
+
+ExportedModel exported_model(const Mesh& mesh, const Embedding& embedding, TextureChart chart) {
+  return exported_model(to_polygon_mesh(mesh), embedding, chart);
 }
 
 void write_model(const std::string& path, const ExportedModel& model) {

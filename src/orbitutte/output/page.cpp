@@ -142,11 +142,15 @@ std::string verdict_sentence(const Judgement& judgement, const Embedding& embedd
          failed_checks(judgement.certificate) + ".";
 }
 
+std::string face_noun(const Embedding& embedding) {
+  return embedding.polygons.count() > 0 ? "face" : "triangle";
+}
+
 std::string summary(const Json& report, const Embedding& embedding, const Judgement& judgement) {
   return fmt::format(
-      "A {} of {} vertices and {} triangles, mapped onto the orbifold <b>{}</b>, whose group has {}. {}",
+      "A {} of {} vertices and {} {}, mapped onto the orbifold <b>{}</b>, whose group has {}. {}",
       figure_html(report, "/mesh/topology"), figure_html(report, "/mesh/vertices"),
-      figure_html(report, "/mesh/faces"), escape_html(embedding.signature),
+      figure_html(report, "/mesh/faces"), face_noun(embedding) + "s", escape_html(embedding.signature),
       plural(embedding.group_order, "element"), verdict_sentence(judgement, embedding));
 }
 
@@ -196,14 +200,14 @@ std::string certificate_table(const Certificate& certificate) {
   return table(head({"Check", "Value", "Bound", ""}), rows);
 }
 
-std::string certificate_intro(const Certificate& certificate) {
+std::string certificate_intro(const Certificate& certificate, const std::string& face) {
   return fmt::format(
       "Computed again from the mesh and the embedding when this page was written, by code that the solver "
       "does not "
       "share. {}; {} of {} checks passed. <code>orbitutte verify</code> repeats it.",
       certificate.nonpositive_faces.empty()
-          ? "Every triangle is positively oriented"
-          : plural(static_cast<long long>(certificate.nonpositive_faces.size()), "triangle") +
+          ? "Every " + face + " is positively oriented"
+          : plural(static_cast<long long>(certificate.nonpositive_faces.size()), face) +
                 " not positively oriented",
       std::count_if(certificate.checks.begin(), certificate.checks.end(),
                     [](const Check& c) { return c.passed; }),
@@ -369,8 +373,8 @@ std::string view(const PageOptions& options) {
 std::string scripts(const PageSubject& subject, const PageOptions& options) {
   if (!is_interactive(options)) return {};
   return "<script type=\"application/json\" id=\"scene\">" +
-         page_scene(subject.mesh, subject.embedding, options.limits) + "</script>\n<script>" +
-         std::string(page_script) + "</script>";
+         page_scene(subject.mesh, subject.embedding, subject.colours, options.limits) +
+         "</script>\n<script>" + std::string(page_script) + "</script>";
 }
 
 std::string licences(const PageOptions& options) {
@@ -404,7 +408,9 @@ Json parse(const std::string& report) {
   }
 }
 
-void require_match(const Mesh& mesh, const Embedding& embedding) {
+void require_match(const PageSubject& subject) {
+  const Mesh& mesh = subject.mesh;
+  const Embedding& embedding = subject.embedding;
   if (embedding.faces.rows() != mesh.F.rows())
     throw MeshError(fmt::format("the embedding has {} faces, the mesh {}: it is not of this mesh",
                                 embedding.faces.rows(), mesh.F.rows()));
@@ -412,6 +418,9 @@ void require_match(const Mesh& mesh, const Embedding& embedding) {
     if (v < 0 || v >= mesh.V.rows())
       throw MeshError(fmt::format(
           "the embedding names vertex {}, but the mesh has {}: it is not of this mesh", v, mesh.V.rows()));
+  if (subject.colours.rows() != 0 && subject.colours.rows() != mesh.V.rows())
+    throw MeshError(fmt::format("there are colours of {} vertices, but the mesh has {}",
+                                subject.colours.rows(), mesh.V.rows()));
 }
 
 /// The last part of the path that the report gives.
@@ -447,7 +456,7 @@ Slots slots(const PageSubject& subject, const PageOptions& options) {
           {"warnings", warnings(report, judgement)},
           {"view", view(options)},
           {"figures", key_figures(report, embedding)},
-          {"certificate_intro", certificate_intro(judgement.certificate)},
+          {"certificate_intro", certificate_intro(judgement.certificate, face_noun(embedding))},
           {"certificate", certificate_table(judgement.certificate)},
           {"histogram", histogram(report)},
           {"distortion", distortion_table(report)},
@@ -467,7 +476,7 @@ Slots slots(const PageSubject& subject, const PageOptions& options) {
 bool has_interactive_view() { return !page_script.empty(); }
 
 std::string report_page(const PageSubject& subject, const PageOptions& options) {
-  require_match(subject.mesh, subject.embedding);
+  require_match(subject);
   return fill_slots(page_template, slots(subject, options));
 }
 

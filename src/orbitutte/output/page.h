@@ -26,7 +26,8 @@ struct PageOptions {
 struct PageSubject {
   const Mesh& mesh;
   const Embedding& embedding;
-  const std::string& report;  ///< JSON, as report_json writes it
+  const std::string& report;      ///< JSON, as report_json writes it
+  Points colours = Points(0, 3);  ///< of the mesh's vertices, n x 3, sRGB, 0 .. 1; or none
 };
 
 /// Whether this build of the library holds the script of the interactive view (Node.js made it).
@@ -35,7 +36,8 @@ bool has_interactive_view();
 /// The page. The certificate is computed again from mesh and embedding, and the page says where the report
 /// claims otherwise; other figures are the report's, those that it lacks a dash. Everything the page shows is
 /// in it, and a content security policy keeps it from loading anything. Throws MeshError where mesh and
-/// embedding do not belong together or the report is no JSON, ArgumentError as tile_sphere does.
+/// embedding do not belong together, there are colours of other vertices, or the report is no JSON,
+/// ArgumentError as tile_sphere does.
 std::string report_page(const PageSubject& subject, const PageOptions& options = {});
 
 }  // namespace orbitutte

@@ -179,9 +179,19 @@ void add_distortion(const Mesh& mesh, const Embedding& embedding, const std::vec
   add("angle", [&](Eigen::Index f) { return faces[f].angle; });
 }
 
+void add_colours(const Points& colours, const Embedding& embedding, const std::vector<int>& cut_vertex,
+                 Json& scene) {
+  if (colours.rows() == 0) return;
+  scene["colour"] = packed(static_cast<Eigen::Index>(3 * cut_vertex.size()), [&](Eigen::Index i) {
+    const double channel = colours(embedding.source_vertex[cut_vertex[i / 3]], i % 3);
+    return static_cast<std::uint8_t>(std::lround(255 * std::clamp(channel, 0.0, 1.0)));
+  });
+}
+
 }  // namespace
 
-std::string page_scene(const Mesh& mesh, const Embedding& embedding, const DisplayLimits& limits) {
+std::string page_scene(const Mesh& mesh, const Embedding& embedding, const Points& colours,
+                       const DisplayLimits& limits) {
   const DisplayMesh display = display_mesh(mesh, embedding, limits);
   Json scene = {{"faces", embedding.faces.rows()},
                 {"shown_faces", display.fine.faces.rows()},
@@ -189,6 +199,7 @@ std::string page_scene(const Mesh& mesh, const Embedding& embedding, const Displ
                 {"vertices", display.cut_vertex.size()}};
   add_positions(mesh, embedding, display.cut_vertex, scene);
   add_distortion(mesh, embedding, display.cut_vertex, scene);
+  add_colours(colours, embedding, display.cut_vertex, scene);
   scene["fine"] = level_json(display.fine);
   scene["coarse"] = level_json(display.coarse);
   scene["copies"] = copies_json(embedding);

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <span>
 
 #include "orbitutte/verify/spherical_triangle.h"
 
@@ -86,14 +87,17 @@ void reach_over_date_line(const Embedding& embedding, TextureCoordinates& result
   std::map<int, int> further;
   std::vector<Eigen::RowVector2d> added;
   const int vertices = static_cast<int>(result.uv.rows());
-  for (Eigen::Index f = 0; f < embedding.faces.rows(); ++f) {
-    const auto v = embedding.faces.row(f);
-    const double right = std::max({result.uv(v[0], 0), result.uv(v[1], 0), result.uv(v[2], 0)});
-    for (int k = 0; k < 3; ++k) {
-      if (right - result.uv(v[k], 0) <= 0.5) continue;
-      const auto [at, is_new] = further.try_emplace(v[k], vertices + static_cast<int>(added.size()));
-      if (is_new) added.emplace_back(result.uv(v[k], 0) + 1, result.uv(v[k], 1));
-      result.of_corner[3 * f + k] = at->second;
+  const FaceView faces = embedding.input_faces();
+  std::size_t corner = 0;
+  for (int f = 0; f < faces.count(); ++f) {
+    double right = 0;
+    for (const int v : faces[f]) right = std::max(right, result.uv(v, 0));
+    for (const int v : faces[f]) {
+      int& row = result.of_corner[corner++];
+      if (right - result.uv(v, 0) <= 0.5) continue;
+      const auto [at, is_new] = further.try_emplace(v, vertices + static_cast<int>(added.size()));
+      if (is_new) added.emplace_back(result.uv(v, 0) + 1, result.uv(v, 1));
+      row = at->second;
     }
   }
   result.uv.conservativeResize(vertices + static_cast<Eigen::Index>(added.size()), 2);
@@ -102,9 +106,9 @@ void reach_over_date_line(const Embedding& embedding, TextureCoordinates& result
 }
 
 // Does the face cross one of the half planes behind the octahedron along which it was unfolded?
-bool is_torn(const std::array<Vector3, 3>& p) {
-  for (int k = 0; k < 3; ++k) {
-    const Vector3 &a = p[k], &b = p[(k + 1) % 3];
+bool is_torn(const Points& seen, std::span<const int> face) {
+  for (std::size_t k = 0; k < face.size(); ++k) {
+    const Vector3 a = seen.row(face[k]), b = seen.row(face[(k + 1) % face.size()]);
     if (std::min(a.z(), b.z()) < 0 && (a.x() * b.x() < 0 || a.y() * b.y() < 0)) return true;
   }
   return false;
@@ -112,25 +116,53 @@ bool is_torn(const std::array<Vector3, 3>& p) {
 
 double plane_area(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
   const Vector2d e = b - a, g = c - a;
-  return std::abs(e.x() * g.y() - e.y() * g.x()) / 2;
+  return (e.x() * g.y() - e.y() * g.x()) / 2;
+}
+
+// Both areas of a face are sums over the fan from its first corner, with signs: what lies outside of it
+// cancels.
+struct FaceAreas {
+  double flat = 0;  // in the square
+  double round = 0;
+};
+
+FaceAreas face_areas(const Embedding& embedding, const Eigen::MatrixX2d& uv, std::span<const int> face,
+                     const int* rows) {
+  const auto on_sphere = [&](std::size_t k) { return Vector3(embedding.positions.row(face[k])); };
+  const auto in_square = [&](std::size_t k) { return Vector2d(uv.row(rows[k])); };
+  FaceAreas areas;
+  for (std::size_t k = 2; k < face.size(); ++k) {
+    areas.flat += plane_area(in_square(0), in_square(k - 1), in_square(k));
+    areas.round += signed_area(on_sphere(0), on_sphere(k - 1), on_sphere(k));
+  }
+  areas.flat = std::abs(areas.flat);
+  return areas;
 }
 
 double max_area_distortion(const Embedding& embedding, const TextureCoordinates& coordinates) {
-  const Eigen::Index m = embedding.faces.rows();
-  Eigen::VectorXd flat(m), round(m);
-  for (Eigen::Index f = 0; f < m; ++f) {
-    const auto [a, b, c] = corners(embedding, f);
-    round[f] = signed_area(a, b, c);
-    const auto at = [&](int k) { return Vector2d(coordinates.uv.row(coordinates.of_corner[3 * f + k])); };
-    flat[f] = plane_area(at(0), at(1), at(2));
+  const FaceView faces = embedding.input_faces();
+  std::vector<FaceAreas> areas;
+  FaceAreas sum;
+  const int* rows = coordinates.of_corner.data();
+  for (int f = 0; f < faces.count(); rows += faces[f].size(), ++f) {
+    areas.push_back(face_areas(embedding, coordinates.uv, faces[f], rows));
+    sum.flat += areas.back().flat;
+    sum.round += areas.back().round;
   }
   double worst = 1;
-  const double scale = flat.sum() / round.sum();
-  for (Eigen::Index f = 0; f < m; ++f) {
-    const double ratio = flat[f] / (scale * round[f]);
+  const double scale = sum.flat / sum.round;
+  for (const FaceAreas& face : areas) {
+    const double ratio = face.flat / (scale * face.round);
     if (ratio > 0 && std::isfinite(ratio)) worst = std::max({worst, ratio, 1 / ratio});
   }
   return worst;
+}
+
+// Of every corner the cut vertex itself.
+std::vector<int> corner_vertices(const FaceView& faces) {
+  std::vector<int> vertices;
+  for (int f = 0; f < faces.count(); ++f) vertices.insert(vertices.end(), faces[f].begin(), faces[f].end());
+  return vertices;
 }
 
 }  // namespace
@@ -165,13 +197,12 @@ TextureCoordinates texture_coordinates(const Embedding& embedding, TextureChart 
                        : chart == TextureChart::equirectangular ? equirectangular(p)
                                                                 : octahedral(p);
   }
-  result.of_corner.assign(embedding.faces.data(), embedding.faces.data() + embedding.faces.size());
+  const FaceView faces = embedding.input_faces();
+  result.of_corner = corner_vertices(faces);
   if (chart == TextureChart::stereographic) fit_into_unit_square(result.of_corner, result.uv);
   if (chart == TextureChart::equirectangular) reach_over_date_line(embedding, result);
-  for (Eigen::Index f = 0; f < embedding.faces.rows() && chart == TextureChart::octahedral; ++f) {
-    const auto v = embedding.faces.row(f);
-    result.torn_faces += is_torn({seen.row(v[0]), seen.row(v[1]), seen.row(v[2])});
-  }
+  for (int f = 0; f < faces.count() && chart == TextureChart::octahedral; ++f)
+    result.torn_faces += is_torn(seen, faces[f]);
   result.max_area_distortion = max_area_distortion(embedding, result);
   return result;
 }

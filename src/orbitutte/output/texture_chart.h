@@ -25,7 +25,7 @@ TextureChart parse_texture_chart(const std::string& text);
 /// A point of the unit square for every corner of every face.
 struct TextureCoordinates {
   Eigen::MatrixX2d uv;         ///< one pair for every cut vertex, then further ones where a face needs them
-  std::vector<int> of_corner;  ///< 3 m: a row of uv for every corner of the embedding's faces
+  std::vector<int> of_corner;  ///< a row of uv for every corner of the embedding's input_faces()
   double max_area_distortion = 1;  ///< of max(A, 1/A), A a face's share of the area in the square over its
                                    ///< share on the sphere
   int torn_faces = 0;  ///< faces across the outer edge of the octahedral chart, whose images are wrong there

@@ -35,11 +35,13 @@ std::string int_array(std::string_view name, const Values& values) {
   return data_array<std::int32_t>("Int32", name, 1, values);
 }
 
-std::string polygons(const Faces& F) {
-  std::vector<int> ends;
-  for (Eigen::Index f = 1; f <= F.rows(); ++f) ends.push_back(static_cast<int>(3 * f));
-  return "<Polys>\n" + int_array("connectivity", std::vector<int>(F.data(), F.data() + F.size())) +
-         int_array("offsets", ends) + "</Polys>\n";
+std::string polygons(const FaceView& faces) {
+  std::vector<int> corners, ends;
+  for (int f = 0; f < faces.count(); ++f) {
+    corners.insert(corners.end(), faces[f].begin(), faces[f].end());
+    ends.push_back(static_cast<int>(corners.size()));
+  }
+  return "<Polys>\n" + int_array("connectivity", corners) + int_array("offsets", ends) + "</Polys>\n";
 }
 
 std::vector<double> flattened(const Points& points) { return {points.data(), points.data() + points.size()}; }
@@ -77,7 +79,7 @@ std::string vtp_text(const ExportedModel& model) {
              "<PolyData>\n<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" "
              "NumberOfStrips=\"0\" "
              "NumberOfPolys=\"{}\">\n",
-             points, model.mesh.F.rows()) +
+             points, model.mesh.face_count()) +
          "<PointData TCoords=\"texture\">\n" +
          float_array("sphere", 3, flattened(model.embedding.positions)) +
          float_array("texture", 2, texture_pairs(model)) +
@@ -85,7 +87,7 @@ std::string vtp_text(const ExportedModel& model) {
          "</PointData>\n<CellData Scalars=\"log2_area\">\n" +
          float_array("log2_area", 1, face_quality(model)) + float_array("angle", 1, angle_distortion(model)) +
          "</CellData>\n<Points>\n" + float_array("Points", 3, source_positions(model)) + "</Points>\n" +
-         polygons(model.embedding.faces) + "</Piece>\n</PolyData>\n</VTKFile>\n";
+         polygons(model.embedding.input_faces()) + "</Piece>\n</PolyData>\n</VTKFile>\n";
 }
 
 }  // namespace orbitutte
