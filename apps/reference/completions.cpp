@@ -20,6 +20,7 @@ std::string quoted(const std::string& text) {
 
 std::vector<std::string> names_of(const std::vector<CommandReference>& commands) {
   std::vector<std::string> names;
+  names.reserve(commands.size());
   for (const CommandReference& command : commands) names.push_back(command.name);
   return names;
 }
