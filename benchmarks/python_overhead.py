@@ -48,7 +48,8 @@ def main():
         cones = [cone["vertex"] for cone in first["cones"]]
         command, python, inside = [], [], []
         for _ in range(arguments.repeat):
-            report = run(arguments.command, "embed", mesh, "--orbifold", arguments.orbifold, "--cones", ",".join(map(str, cones)), "--quiet", "--json")
+            report = run(arguments.command, "embed", mesh, "--orbifold", arguments.orbifold, "--cones", ",".join(map(str, cones)), "--quiet",
+                         "--json")
             command.append(sum(report["timings"][stage] for stage in STAGES))
             call = run(sys.executable, "-c", CALL, mesh, arguments.orbifold, json.dumps(cones))
             python.append(call["total"])

@@ -39,6 +39,7 @@ from ._orbitutte import __version__
 from .errors import ArgumentError, Cancelled, EmbeddingWarning, Error, FileError, MeshError
 
 __all__ = [
-    "ArgumentError", "Cancelled", "Cone", "EdgeWeights", "Embedding", "EmbeddingWarning", "Error", "FileError", "Location", "MeshError", "Seam", "Solver",
-    "Tiling", "__version__", "build", "choose_cones", "distortion", "embed", "info", "keep_freed_memory", "read_mesh", "sample_mesh", "signatures", "tile", "verify", "write_mesh",
+    "ArgumentError", "Cancelled", "Cone", "EdgeWeights", "Embedding", "EmbeddingWarning", "Error", "FileError",
+    "Location", "MeshError", "Seam", "Solver", "Tiling", "__version__", "build", "choose_cones", "distortion", "embed",
+    "info", "keep_freed_memory", "read_mesh", "sample_mesh", "signatures", "tile", "verify", "write_mesh",
 ]

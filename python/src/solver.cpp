@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // The computation: options, progress, and solvers.
-#include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
 #include <atomic>
@@ -46,12 +45,18 @@ class ProgressHook {
   }
 
  private:
-  // Only False stops: a function without `return` goes on.
+  // Only False stops: a function without `return` goes on, and so it does with anything else that is not a
+  // bool.
   bool tell(const Progress& progress) const {
     const py::object answer =
         listener_(progress.stage, progress.iteration, progress.energy, progress.gradient_norm);
-    if (answer.is_none()) return true;
-    return answer.cast<bool>();
+    return !is_bool(answer) || answer.cast<bool>();
+  }
+
+  // Python's or NumPy's.
+  static bool is_bool(const py::object& value) {
+    return PyBool_Check(value.ptr()) ||
+           std::string(Py_TYPE(value.ptr())->tp_name).rfind("numpy.bool", 0) == 0;
   }
 
   py::object listener_;

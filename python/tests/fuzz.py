@@ -3,6 +3,8 @@
 
 By hand, for longer: python3 fuzz.py SEED CASES
 """
+import contextlib
+import os
 import random
 import sys
 import tempfile
@@ -11,9 +13,12 @@ import warnings
 import numpy as np
 import orbitutte
 
-DTYPES = ["?", "i1", "u1", "i2", "u2", "i4", "u4", "i8", "u8", "f2", "f4", "f8", "g", "c8", "c16", "O", "U3", "S2", "M8[s]", ">i4", ">f8", "V4"]
-NUMBERS = [0, 1, 2, -1, 3, 7, 12, 60, 0.5, -0.0, 1e-300, 1e308, 2**31 - 1, 2**31, 2**40, 2**63, 2**64, -(2**31) - 1, float("nan"), float("inf"), True, 1j]
-WORDS = ["", "432", "532", "*432", "2*3", "3x", "22", "polygon", "333", "5,5", "2*", "auto", "cotan", "delaunay", "mean-value", "file", "x", "\0", "é", "a" * 300]
+DTYPES = ["?", "i1", "u1", "i2", "u2", "i4", "u4", "i8", "u8", "f2", "f4", "f8", "g", "c8", "c16", "O", "U3", "S2", "M8[s]", ">i4",
+          ">f8", "V4"]
+NUMBERS = [0, 1, 2, -1, 3, 7, 12, 60, 0.5, -0.0, 1e-300, 1e308, 2**31 - 1, 2**31, 2**40, 2**63, 2**64, -(2**31) - 1, float("nan"),
+           float("inf"), True, 1j]
+WORDS = ["", "432", "532", "*432", "2*3", "3x", "22", "polygon", "333", "5,5", "2*", "auto", "cotan", "delaunay", "mean-value", "file", "x",
+         "\0", "é", "a" * 300]
 ALLOWED = (orbitutte.Error, TypeError, ValueError)
 
 
@@ -40,7 +45,8 @@ class Arguments:
 
     def anything(self):
         return self.one_of([
-            self.array, lambda: self.one_of(NUMBERS), lambda: self.one_of(WORDS), lambda: None, lambda: object(), lambda: [[1, 2], [3]], lambda: {},
+            self.array, lambda: self.one_of(NUMBERS), lambda: self.one_of(WORDS), lambda: None, lambda: object(), lambda: [[1, 2], [3]],
+            lambda: {},
             lambda: b"\xff", lambda: [self.one_of(NUMBERS) for _ in range(3)], lambda: (x for x in range(3)), lambda: [[0, 1, 2], "abc", None],
             lambda: lambda *_: self.one_of([True, False, None])])()
 
@@ -77,11 +83,14 @@ class Arguments:
 
     def cones(self):
         kind = self.random.random()
-        return "auto" if kind < 0.5 else [self.random.randrange(60) for _ in range(self.one_of([1, 2, 3]))] if kind < 0.85 else self.anything()
+        if kind < 0.5:
+            return "auto"
+        return [self.random.randrange(60) for _ in range(self.one_of([1, 2, 3]))] if kind < 0.85 else self.anything()
 
     def options(self):
         made = {}
-        for name in ("weights", "clamp", "cut_seed", "spread", "tolerance", "max_iterations", "threads", "progress", "polygon", "geometry", "weights_file"):
+        for name in ("weights", "clamp", "cut_seed", "spread", "tolerance", "max_iterations", "threads", "progress", "polygon", "geometry",
+                     "weights_file"):
             if self.random.random() < 0.06:
                 made[name] = self.anything()
         if self.random.random() < 0.2:
@@ -93,8 +102,8 @@ class Arguments:
 def calls(arguments, embeddings, folder):
     """The calls that are made, as names and functions without arguments."""
     a, embedding = arguments, arguments.one_of(embeddings)
-    path = lambda: a.one_of([folder + "/x.obj", folder + "/x.ply", folder + "/x.off", folder + "/x.stl", folder + "/x.json", folder + "/none/x.ply", folder,
-                             a.anything()])
+    names = ["/x.obj", "/x.ply", "/x.off", "/x.stl", "/x.json", "/none/x.ply", ""]
+    path = lambda: a.one_of([folder + a.one_of(names), folder + a.one_of(names), a.anything()])
     return [
         lambda: orbitutte.embed(*a.mesh_or_not(), a.signature(), a.cones(), **a.options()),
         lambda: orbitutte.embed(*a.mesh_or_not(), a.signature(), a.cones()),
@@ -106,21 +115,25 @@ def calls(arguments, embeddings, folder):
         lambda: embedding.with_mesh(*a.mesh_or_not()).weights,
         lambda: embedding.with_mesh(*a.mesh_or_not()).source_points(a.anything(), a.anything()),
         lambda: orbitutte.tile(a.one_of([embedding, a.anything()])),
-        lambda: embedding.map_points(a.one_of([0, [0, 1], a.anything()]), a.one_of([[1, 0, 0], a.anything()]), a.one_of([None, 0, a.anything()])),
+        lambda: embedding.map_points(a.one_of([0, [0, 1], a.anything()]), a.one_of([[1, 0, 0], a.anything()]),
+                                     a.one_of([None, 0, a.anything()])),
         lambda: embedding.locate(a.anything()),
         lambda: orbitutte.write_mesh(path(), *a.mesh_or_not()),
         lambda: orbitutte.read_mesh(path()),
         lambda: embedding.save(path(), a.one_of([None, path()])),
         lambda: orbitutte.Embedding.load(path(), path(), a.one_of([None, path(), a.mesh()])),
         lambda: embedding.write_tiling(path()),
-        lambda: orbitutte.sample_mesh(a.one_of(["figure", "mask", "boy", a.anything()]), a.one_of([100, 130, 50, a.one_of([-1, 2.5, None, True])])),
+        lambda: orbitutte.sample_mesh(a.one_of(["figure", "mask", "boy", a.anything()]), a.one_of([100, 130, 50, -1, 2.5, None, True])),
         lambda: embedding.with_mesh(*a.mesh_or_not()).area_distortion,
     ]
 
 
 def run_fuzz(seed, cases):
     """How many calls returned, of those that were made. Raises AssertionError with the first that ended as none may."""
-    with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings(), np.errstate(all="ignore"):
+    here = os.getcwd()
+    with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings(), np.errstate(all="ignore"), contextlib.ExitStack() as stack:
+        stack.callback(os.chdir, here)
+        os.chdir(folder)  # words may be names of files, too
         warnings.simplefilter("ignore")
         meshes = [orbitutte.sample_mesh("figure", 124), orbitutte.sample_mesh("mask", 100), orbitutte.sample_mesh("boy", 100)]
         embeddings = [orbitutte.embed(*meshes[0], "22"), orbitutte.embed(*meshes[1], "*222"), orbitutte.embed(*meshes[2], "2x")]
