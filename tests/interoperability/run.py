@@ -8,9 +8,10 @@
   meshio        meshes, embeddings and tilings (OBJ, PLY, STL) read by the Python package, and its PLY read back. (Version 5
                 refuses an OBJ with other texture coordinates than one for every vertex, and so every model with seams; it misreads
                 binary PLY whose faces have further properties, such as the quality of models.)
+  open3d        models (OBJ, PLY) read by the Python package
 
 Not part of ./test.sh, since these programs are large: on Debian 12, 'apt-get install --no-install-recommends blender
-python3-paraview meshlab xvfb python3-meshio'. Whatever is missing is skipped, saying so. Needs numpy.
+python3-paraview meshlab xvfb python3-meshio python3-open3d'. Whatever is missing is skipped, saying so. Needs numpy.
 """
 import argparse
 import json
@@ -211,6 +212,21 @@ def meshio(files):
     return '6 files, and 2 of its own read back'
 
 
+def open3d(files):
+    try:
+        from open3d import io as package
+    except ImportError:
+        raise Skipped('the Python package open3d is not installed')
+    V, faces, _ = files.mesh('triangles')
+    ply = package.read_triangle_mesh(str(files.folder / 'triangles-model.ply'))
+    same(ply.vertices, V, 1e-15, 'positions in the PLY')
+    assert np.asarray(ply.triangles).tolist() == faces, 'other faces in the PLY'
+    obj = package.read_triangle_mesh(str(files.folder / 'triangles-model.obj'))  # with vertices of its own along the seams
+    same(np.asarray(obj.vertices)[np.asarray(obj.triangles)], V[faces], 1e-6, 'corners in the OBJ')
+    same(obj.triangle_uvs, [uv for face in files.model('triangles')[2] for uv in face], 1e-6, 'texture coordinates in the OBJ')
+    return '2 files'
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument('--program', type=pathlib.Path, default=REPOSITORY / 'build/orbitutte')
@@ -218,7 +234,7 @@ def main():
     counts = {'passed': 0, 'failed': 0, 'skipped': 0}
     with tempfile.TemporaryDirectory() as folder:
         files = Files(arguments.program.resolve(), pathlib.Path(folder))
-        for test in (blender, paraview, meshlab, meshio):
+        for test in (blender, paraview, meshlab, meshio, open3d):
             try:
                 kind, words = 'passed', test(files)
             except Skipped as reason:
