@@ -185,8 +185,9 @@ Embedding a mesh
 ----------------
 
 .. autofunction:: embed
-.. autoclass:: Solver
+.. autoclass:: Solver(V, F, **options)
    :members:
+   :exclude-members: __init__, __new__
 
 Meshes
 ------
@@ -203,18 +204,19 @@ The result
 
 .. autoclass:: Embedding
    :members:
+   :exclude-members: __init__, __new__
 .. autoclass:: Cone
    :members:
-   :exclude-members: count, index
+   :exclude-members: count, index, __init__, __new__
 .. autoclass:: Seam
    :members:
-   :exclude-members: count, index
+   :exclude-members: count, index, __init__, __new__
 .. autoclass:: EdgeWeights
    :members:
-   :exclude-members: count, index
+   :exclude-members: count, index, __init__, __new__
 .. autoclass:: Location
    :members:
-   :exclude-members: count, index
+   :exclude-members: count, index, __init__, __new__
 
 Judging and tiling
 ------------------
@@ -224,7 +226,7 @@ Judging and tiling
 .. autofunction:: tile
 .. autoclass:: Tiling
    :members:
-   :exclude-members: count, index
+   :exclude-members: count, index, __init__, __new__
 
 Exceptions and warnings
 -----------------------

@@ -26,6 +26,7 @@ breathe_show_include = False
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"  # the docstrings say them
 autoclass_content = "class"
+autodoc_class_signature = "separated"
 napoleon_use_ivar = True
 napoleon_use_rtype = False
 python_use_unqualified_type_names = True
