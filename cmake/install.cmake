@@ -7,9 +7,10 @@ include(CheckLinkerFlag)
 
 # The public headers are these and what they include.
 set(ORBITUTTE_HEADERS embed memory types
+    map/point_map map/spherical_coordinates
     mesh/corner_file mesh/extremities mesh/file mesh/inspection mesh/mesh_io mesh/sample mesh/triangulation mesh/weak_places mesh/weights
     orbifold/families orbifold/polygon orbifold/signature orbifold/symmetry_group orbifold/tile
-    map/point_map output/comparison output/cut_triangles output/embedding_file output/export output/inspection_json output/page output/report output/tiling
+    output/comparison output/cut_triangles output/embedding_file output/export output/inspection_json output/page output/report output/tiling
     output/verification
     solve/sparse_factor verify/certificate verify/distortion verify/energy verify/theorem2)
 if(ORBITUTTE_RENDER)
