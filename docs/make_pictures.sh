@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Makes docs/pictures/. Needs build/orbitutte and pngquant. Those of real meshes need ../shared beside the repository: where it is
+# Makes docs/pictures/. Needs build/orbitutte, the Python module in build/python, and pngquant. Those of real meshes need ../shared beside the repository: where it is
 # missing they stay as they are. Only meshes whose licences allow pictures of them are drawn.
 # usage: docs/make_pictures.sh [PROGRAM]
 set -euo pipefail
@@ -48,6 +48,10 @@ compare() {
   "$orbitutte" compare "$2" --cones "$3" --weights cotan -o full.png >/dev/null
   keep "$1" full.png
 }
+
+# examples.md
+PYTHONPATH=$(dirname "$orbitutte")/python /usr/bin/python3 "$root/examples/distortion_of_orders.py" >/dev/null
+cp orders.svg "$out"
 
 # README.md, rendering.md, comparison.md, projective-planes.md
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# From arrays to a certified embedding, a closed mesh of its copies, and pictures: PYTHONPATH=build/python python3 examples/first_steps.py
+# From arrays to a certified embedding, a closed mesh of its copies, and a picture: PYTHONPATH=build/python python3 examples/first_steps.py
 import numpy as np
 import orbitutte
 
@@ -17,3 +17,4 @@ north = embedding.locate([0, 0, 1])  # what lies at the north pole?
 print("north pole: face", north.face, "of copy", north.element, "at", embedding.source_points(north.face, north.barycentric))
 
 embedding.save("map.ply", "map.json")  # as the command line writes them
+embedding.render("map.png", size=(800, 614))  # mesh, sphere, distortion and more on one sheet

@@ -84,18 +84,25 @@ class Embedding:
         Conway's symbol, or "polygon".
     energy : float
         The Dirichlet energy: the sum over undirected edges of w d^2, d the length of the edge's arc.
-    converged, bijective : bool
-        What the optimiser and the certificate say. Only converged maps are ever called bijective.
-    certificate, distortion : dict
+    converged : bool
+        What the optimiser says.
+    bijective : bool
+        What the certificate says. Only converged maps are ever called bijective.
+    certificate : dict
+        As in the report.
+    distortion : dict
         As in the report.
     history : (k,) structured array
         Fields ``energy``, ``gradient_norm`` and ``step``, for the start and every iteration.
     warnings : list of str
+        Sentences about what deserves a look.
     weights : EdgeWeights
         ``i``, ``j``, ``w``, and ``to_sparse()``.
-    area_distortion, angle_distortion : (t,) float64
+    area_distortion : (t,) float64
         Of every triangle: its share of the tile's area over its share of the source's (a ratio A; the report's
-        statistics are of max(A, 1/A)), and the ratio of the singular values of its map. 0 where a triangle is not measured.
+        statistics are of max(A, 1/A)). 0 where a triangle is not measured.
+    angle_distortion : (t,) float64
+        Of every triangle: the ratio of the singular values of its map. 0 where it is not measured.
     report : dict
         The JSON report, with the same keys and meanings as the command line's file.
     """

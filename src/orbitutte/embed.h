@@ -20,6 +20,7 @@
 
 namespace orbitutte {
 
+/// How to embed.
 struct EmbedOptions {
   WeightOptions weights;
   std::string weights_file;            ///< lines `i j w` (read_weights); when not empty, instead of `weights`
@@ -32,6 +33,7 @@ struct EmbedOptions {
   ProgressCallback progress;
 };
 
+/// The embedding, and all that is known of it.
 struct EmbedResult {
   Embedding embedding;
   EdgeWeights weights;

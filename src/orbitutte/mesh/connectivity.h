@@ -23,6 +23,7 @@ struct Neighbors {
   std::vector<int> edge;
 };
 
+/// Which half-edges lie opposite to each other, and the undirected edges.
 struct Connectivity {
   std::vector<std::array<int, 2>> edges;  ///< undirected edges (i, j) with i < j, in lexicographic order
   std::vector<int> edge_of;               ///< 3 m: the undirected edge of every half-edge; -1 for a diagonal

@@ -26,6 +26,7 @@ struct CutMesh {
   int vertex_count() const { return static_cast<int>(source_vertex.size()); }
 };
 
+/// Which of all cuts through the same marked vertices.
 struct CutOptions {
   std::uint64_t seed = 0;  ///< another seed takes another cut through the same marks; 0 takes the shortest
 };

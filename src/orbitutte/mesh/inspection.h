@@ -37,6 +37,7 @@ struct Defect {
       1;  ///< how many vertices, edges, faces, components, boundary curves or handles are concerned
 };
 
+/// What was found out about a mesh.
 struct Inspection {
   int vertices = 0;
   int unreferenced_vertices = 0;  ///< allowed: they keep their index

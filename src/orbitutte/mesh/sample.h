@@ -30,6 +30,7 @@ SampleShape sample_shape(const std::string& name);
 /// weld them.
 bool passes_through_itself(SampleShape shape);
 
+/// Which mesh to make.
 struct SampleOptions {
   SampleShape shape = SampleShape::figure;
   int faces = 20000;  ///< 100 .. 20 million; for projective planes 10 .. 20 million

@@ -30,6 +30,7 @@ struct WeightedEdge {
   double weight = 0;
 };
 
+/// Which weights the energy has.
 struct WeightOptions {
   WeightKind kind = WeightKind::standard;
   double clamp = 0.01;                   ///< of cotangents that are not positive, > 0: the paper's value
@@ -37,6 +38,7 @@ struct WeightOptions {
   std::vector<WeightedEdge> given = {};  ///< of kind `file`: every edge once, w >= 0
 };
 
+/// A weight for every edge of the mesh, or of an intrinsic triangulation of its surface.
 struct EdgeWeights {
   WeightKind kind = WeightKind::cotan;
   double clamp = 0.01;

@@ -39,6 +39,7 @@ struct ConeCopies {
   std::vector<int> copies;  ///< its cut vertices
 };
 
+/// The cut mesh on the sphere, and how its boundary is glued.
 struct Embedding {
   std::string signature;  ///< Conway's symbol
   int group_order = 1;    ///< |G|; 0 in the plane, where it is infinite

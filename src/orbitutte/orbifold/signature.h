@@ -31,6 +31,7 @@ struct Mark {
   ConeKind kind = ConeKind::rotation;
 };
 
+/// A quotient of the sphere by a group of symmetries: what an embedding aims at.
 struct Orbifold {
   std::string signature;  ///< canonical text, the orders in the arrangement that was given
   ConwaySymbol symbol;

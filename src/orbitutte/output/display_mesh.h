@@ -15,12 +15,14 @@ struct DisplayLevel {
   std::vector<std::array<int, 2>> outline;
 };
 
+/// A mesh to be drawn, coarsened where it is large.
 struct DisplayMesh {
   std::vector<int> cut_vertex;  ///< of every display vertex, ascending; the positions are exactly its own
   DisplayLevel fine;            ///< for the source and the tile
   DisplayLevel coarse;          ///< for the copies of the tile, which are small
 };
 
+/// How much is drawn.
 struct DisplayLimits {
   int faces = 400000;         ///< of the fine level
   int tiling_faces = 600000;  ///< of |G| copies of the coarse level

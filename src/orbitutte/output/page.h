@@ -15,6 +15,7 @@ struct PagePicture {
   std::string png;  ///< the bytes
 };
 
+/// What the page has besides figures.
 struct PageOptions {
   bool interactive = true;  ///< with the view that needs JavaScript and WebGL, where this build has it
   std::vector<PagePicture> pictures;  ///< shown where the page has no interactive view, or it cannot run

@@ -19,6 +19,7 @@ std::string name(Panel panel);
 /// The panel of this name. Throws ArgumentError naming all of them.
 Panel parse_panel(const std::string& text);
 
+/// What a picture shows, from where, and how large.
 struct RenderOptions {
   Panel panel = Panel::sheet;
   int width = 0;  ///< pixels, 64 .. 10,000; 0: what suits the panel

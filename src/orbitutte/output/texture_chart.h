@@ -22,6 +22,7 @@ std::string name(TextureChart chart);
 /// The chart that a name tells. Throws ArgumentError naming all.
 TextureChart parse_texture_chart(const std::string& text);
 
+/// A point of the unit square for every corner of every face.
 struct TextureCoordinates {
   Eigen::MatrixX2d uv;         ///< one pair for every cut vertex, then further ones where a face needs them
   std::vector<int> of_corner;  ///< a row of uv for every corner of the embedding's input_faces()

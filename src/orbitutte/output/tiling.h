@@ -20,6 +20,7 @@ struct TileCopy {
 /// generate the group.
 std::vector<TileCopy> tile_copies(const Embedding& embedding);
 
+/// The copies, welded.
 struct Tiling {
   Mesh mesh;              ///< closed, on the unit sphere, every triangle counterclockwise from outside
   std::vector<int> tile;  ///< m |G|: the copy of the tile that holds the triangle, an index into copies

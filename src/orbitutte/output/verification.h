@@ -11,6 +11,7 @@
 
 namespace orbitutte {
 
+/// What to look at besides the certificate.
 struct VerificationOptions {
   std::string
       weights_file;  ///< the weights that the embedding was computed with, where they came from a file
@@ -18,6 +19,7 @@ struct VerificationOptions {
   bool theorem2 = false;               ///< also theorem 2's conditions, which can take long
 };
 
+/// What holds, check by check.
 struct Verdict {
   std::vector<Check> checks;  ///< of the certificate, then whether the report says the same, then the energy
   bool sound = false;         ///< all of them passed

@@ -13,6 +13,7 @@ namespace orbitutte {
 
 class LaplacianReuse;
 
+/// How the linear systems are solved.
 struct LaplacianOptions {
   Backend backend = available_backends().front();
 

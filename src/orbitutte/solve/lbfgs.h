@@ -25,6 +25,7 @@ struct Iteration {
 /// Called after every iteration; returning false cancels (the optimiser throws Cancelled).
 using IterationCallback = std::function<bool(int iteration, const Iteration&)>;
 
+/// When to stop.
 struct LbfgsOptions {
   /// Converged when |grad_i E| <= max(tolerance, its rounding floor) at every vertex, and the next
   /// quasi-Newton step would move no vertex by more than max(tolerance, 1e-12) radians.
@@ -34,6 +35,7 @@ struct LbfgsOptions {
   IterationCallback callback;
 };
 
+/// Where the optimiser ended, and why.
 struct Minimum {
   Points positions;  ///< n x 3, unit
   double energy = 0;

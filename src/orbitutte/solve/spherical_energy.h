@@ -19,6 +19,7 @@ struct GluedEdge {
   int t = 0;  ///< an index into GluedEdges::transforms; 0 is the identity
 };
 
+/// The edges of the energy, each with the group element that is applied to its second end.
 struct GluedEdges {
   std::vector<GluedEdge> edges;     ///< in the order of Connectivity::edges
   std::vector<Matrix3> transforms;  ///< distinct elements of G; the first is the identity

@@ -20,6 +20,7 @@ struct Check {
   std::string detail;  ///< what failed, with the vertex, face or seam; empty where it passed
 };
 
+/// The verdict on an embedding, and the numbers that it rests on.
 struct Certificate {
   bool bijective = false;              ///< all checks passed
   std::vector<int> nonpositive_faces;  ///< faces with det[a b c] <= 0, exact in sign; polygons that are not

@@ -8,6 +8,7 @@
 
 namespace orbitutte {
 
+/// Statistics of area and angle distortion over the faces (section 6.3).
 struct Distortion {
   struct Area {
     double mean = 0, std = 0, median = 0, max = 0;

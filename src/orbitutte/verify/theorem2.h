@@ -12,6 +12,7 @@
 
 namespace orbitutte {
 
+/// How the eigenvalues are counted.
 struct Theorem2Options {
   InertiaMethod method = available_inertia_methods().front();
   int max_group_order = 480;  ///< the representations of larger groups take too long: |G|^3
@@ -28,6 +29,7 @@ struct RepresentationInertia {
   double shift = 0;
 };
 
+/// What was found of the two conditions.
 struct Theorem2 {
   enum class Status { measured, inconclusive, not_run };
   Status status = Status::not_run;
