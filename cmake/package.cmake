@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Debian packages by `cpack` in the build folder: orbitutte, the command, and liborbitutte-dev, which is for programs that use it.
+# Debian packages by `cpack` in the build folder: orbitutte, the command; liborbitutte-dev, which is for programs that use it; and
+# python3-orbitutte, where the module was built for the system's Python.
 # Such packages are passed on, so the preset `package` leaves out what may not be (docs/licences.md), and installs into /usr.
 set(ORBITUTTE_PACKAGE_CONTACT "The orbitutte authors <orbitutte@orbitutte.invalid>" CACHE STRING "Maintainer of the packages that cpack makes")
 
@@ -67,6 +68,31 @@ set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "${description}
 This package has the headers, the static library, and what find_package()
 of CMake and pkg-config need to find them.")
 
+# The system's Python has one folder for packages, whatever the prefix of `cmake --install` asks for.
+get_property(python GLOBAL PROPERTY ORBITUTTE_PYTHON_EXECUTABLE)
+set(python_components "")
+if(python MATCHES "^/usr/bin/python3")
+  get_property(version GLOBAL PROPERTY ORBITUTTE_PYTHON_VERSION)
+  get_property(sources GLOBAL PROPERTY ORBITUTTE_PYTHON_SOURCES)
+  set(folder lib/python3/dist-packages/orbitutte)
+  install(TARGETS orbitutte_python LIBRARY DESTINATION ${folder} COMPONENT debian_python EXCLUDE_FROM_ALL)
+  install(FILES ${sources} DESTINATION ${folder} COMPONENT debian_python EXCLUDE_FROM_ALL)
+  install(FILES ${ORBITUTTE_GENERATED_DIR}/changelog.gz ${ORBITUTTE_GENERATED_DIR}/copyright
+          DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/python3-orbitutte COMPONENT debian_python EXCLUDE_FROM_ALL)
+  string(REPLACE "." ";" parts ${version})
+  list(GET parts 0 major)
+  list(GET parts 1 minor)
+  math(EXPR next "${minor} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-orbitutte)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= ${version}~), python3 (<< ${major}.${next}), python3-numpy")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS python3-scipy)
+  set(CPACK_COMPONENT_PYTHON_DESCRIPTION "${description}
+This package has the Python module orbitutte.")
+  set(python_components debian_python)
+endif()
+
 # What every Debian package brings; not part of `cmake --install`.
 configure_file(packaging/changelog ${ORBITUTTE_GENERATED_DIR}/changelog @ONLY)
 execute_process(COMMAND ${GZIP_EXECUTABLE} -9nkf ${ORBITUTTE_GENERATED_DIR}/changelog COMMAND_ERROR_IS_FATAL ANY)
@@ -74,7 +100,7 @@ install(FILES ${ORBITUTTE_GENERATED_DIR}/changelog.gz DESTINATION ${CMAKE_INSTAL
         COMPONENT debian_runtime EXCLUDE_FROM_ALL)
 install(FILES ${ORBITUTTE_GENERATED_DIR}/changelog.gz ${ORBITUTTE_GENERATED_DIR}/copyright
         DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/liborbitutte-dev COMPONENT debian_development EXCLUDE_FROM_ALL)
-set(CPACK_COMPONENTS_ALL runtime debian_runtime development debian_development)
+set(CPACK_COMPONENTS_ALL runtime debian_runtime development debian_development ${python_components})
 set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)
 include(CPack)
 cpack_add_component_group(command)
@@ -83,3 +109,7 @@ cpack_add_component(runtime GROUP command)
 cpack_add_component(debian_runtime GROUP command)
 cpack_add_component(development GROUP development)
 cpack_add_component(debian_development GROUP development)
+if(python_components)
+  cpack_add_component_group(python)
+  cpack_add_component(debian_python GROUP python)
+endif()

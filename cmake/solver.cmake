@@ -6,7 +6,8 @@ endif()
 if(ORBITUTTE_SOLVER STREQUAL "cholmod")
   find_path(CHOLMOD_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse REQUIRED)
   orbitutte_import_library(CHOLMOD REQUIRED)
-  target_include_directories(orbitutte SYSTEM PRIVATE ${CHOLMOD_INCLUDE_DIR})
   target_link_libraries(orbitutte PRIVATE orbitutte::CHOLMOD)
-  target_compile_definitions(orbitutte PRIVATE ORBITUTTE_HAS_CHOLMOD)
+  # Of these files only, so that few are compiled again where the solver changes.
+  set_source_files_properties(src/orbitutte/solve/cholmod_factor.cpp src/orbitutte/solve/sparse_factor.cpp PROPERTIES
+    COMPILE_DEFINITIONS ORBITUTTE_HAS_CHOLMOD INCLUDE_DIRECTORIES ${CHOLMOD_INCLUDE_DIR})
 endif()

@@ -48,7 +48,11 @@ inside sh -ec 'cd /tmp
   orbitutte report map.ply map.json figure.ply -o page.html
   ls -l'
 inside dpkg --verify orbitutte || fail "dpkg --verify finds the above"
-inside sh -c 'apt-get purge -y --auto-remove orbitutte' >"$scratch/log" 2>&1 || { cat "$scratch/log"; fail "apt could not remove it"; }
+if compgen -G "$debs/python3-orbitutte_*.deb" >/dev/null; then
+  inside sh -c 'apt-get install -y /debs/python3-orbitutte_*.deb' >"$scratch/log" 2>&1 || { cat "$scratch/log"; fail "apt could not install the module"; }
+  inside python3 -c 'import orbitutte; print(orbitutte.embed(*orbitutte.sample_mesh("figure", 20000), "432", "auto"))'
+fi
+inside sh -c 'apt-get purge -y --auto-remove orbitutte python3-orbitutte' >"$scratch/log" 2>&1 || { cat "$scratch/log"; fail "apt could not remove it"; }
 ! inside sh -c 'command -v orbitutte' || fail "the command is still there"
 listing >"$scratch/after"
 left=$(comm -13 "$scratch/before" "$scratch/after" | grep -i orbitutte || true)

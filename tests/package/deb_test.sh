@@ -34,12 +34,28 @@ has orbitutte bin/orbitutte share/man/man1/orbitutte.1.gz share/bash-completion/
 has liborbitutte-dev include/orbitutte/embed.h include/orbitutte/version.h 'lib*/liborbitutte.a' 'lib*/pkgconfig/orbitutte.pc' \
     'lib*/cmake/orbitutte/orbitutteConfig.cmake' 'lib*/cmake/orbitutte/orbitutteConfigVersion.cmake'
 
+
+# The Python module, where it was built for the system's Python.
+if grep -q '"debian_python"\|;debian_python' "$build/CPackConfig.cmake"; then
+  has python3-orbitutte lib/python3/dist-packages/orbitutte/__init__.py lib/python3/dist-packages/orbitutte/py.typed \
+      'lib/python3/dist-packages/orbitutte/_orbitutte.*.so'
+  PYTHONPATH=$scratch/python3-orbitutte/usr/lib/python3/dist-packages /usr/bin/python3 -c 'import orbitutte
+assert orbitutte.__file__.startswith("'"$scratch"'/"), orbitutte.__file__
+V, F = orbitutte.sample_mesh("figure", 1000)
+assert orbitutte.embed(V, F, "332", "auto").bijective'
+  depends=$(dpkg-deb --field "$(archive python3-orbitutte)" Depends)
+  for package in python3-numpy "python3 (<< 3." libtbb; do
+    [[ ", $depends" == *", $package"* ]] || fail "python3-orbitutte depends on $depends only"
+  done
+fi
+
 # Each library that the command loads comes from a package that it depends on; a BLAS from whichever of those that can replace each other.
 command=$scratch/orbitutte/usr/bin/orbitutte
 depends=$(dpkg-deb --field "$(archive orbitutte)" Depends)
 dependencies=$(tr ',|' '\n\n' <<<"$depends" | awk '{print $1}')
 for library in $(readelf -d "$command" | sed -n 's/.*(NEEDED).*\[\(.*\)\]/\1/p'); do
   path=$(ldd "$command" | awk -v library="$library" '$1 == library {print $3}')
+  [ -n "$path" ] || continue  # the dynamic linker, which needs no looking for
   packages=$(dpkg-query --search "$(readlink -f "$path")" "$path" "/usr$path" 2>/dev/null | sed 's/:.*//' | sort -u || true)
   case $library in lib*blas* | liblapack*) packages="libopenblas0 libblas3 liblapack3" ;; esac
   [ -z "$packages" ] || grep -qFxf <(tr ' ' '\n' <<<"$packages") <<<"$dependencies" ||
