@@ -29,7 +29,7 @@ std::string_view trimmed(std::string_view text) {
 
 /// The size of the header up to and including the line break behind `end_header`. Lines end with what ends
 /// the first one, so that data beginning with the byte of a line break stay whole.
-std::size_t header_size(std::string_view bytes) {
+std::size_t size_of_header(std::string_view bytes) {
   const std::size_t first_end = bytes.find_first_of("\r\n");
   if (first_end == bytes.npos || trimmed(bytes.substr(0, first_end)) != "ply") {
     throw MeshError("line 1: the file does not begin with a line 'ply'; check that it is a PLY file");
@@ -155,7 +155,7 @@ std::string_view name(PlyType type) { return types[static_cast<int>(type)].name;
 
 PlyHeader parse_ply_header(std::string_view bytes) {
   PlyHeader header;
-  header.size = header_size(bytes);
+  header.size = size_of_header(bytes);
   bool has_format = false;
   TextScanner in(bytes.substr(0, header.size), {});
   while (in.find_word()) {

@@ -10,13 +10,6 @@ struct System {
   std::unique_ptr<SparseFactor> factor;
 };
 
-std::vector<std::array<int, 2>> ends(const GluedEdges& glued) {
-  std::vector<std::array<int, 2>> result;
-  result.reserve(glued.edges.size());
-  for (const GluedEdge& edge : glued.edges) result.push_back({edge.i, edge.j});
-  return result;
-}
-
 // Of the nodes, those in place in the order of the vertices.
 System disk_system(const LaplacianProblem& problem, Backend backend) {
   const DiskGraph& graph = problem.graph;

@@ -9,13 +9,6 @@
 namespace orbitutte {
 namespace {
 
-std::vector<std::array<int, 2>> ends(const GluedEdges& glued) {
-  std::vector<std::array<int, 2>> result;
-  result.reserve(glued.edges.size());
-  for (const GluedEdge& edge : glued.edges) result.push_back({edge.i, edge.j});
-  return result;
-}
-
 // The banks' dense matrix has up to three rows per bank vertex. It stays cheap beside the sparse factor while
 // the banks are, like shortest paths and ordinary boundaries, no longer than some multiple of the square root
 // of the mesh.
@@ -24,6 +17,13 @@ bool banks_are_short(const CutMesh& cut, std::size_t vertex_count) {
 }
 
 }  // namespace
+
+std::vector<std::array<int, 2>> ends(const GluedEdges& glued) {
+  std::vector<std::array<int, 2>> result;
+  result.reserve(glued.edges.size());
+  for (const GluedEdge& edge : glued.edges) result.push_back({edge.i, edge.j});
+  return result;
+}
 
 LaplacianSolver::LaplacianSolver(const CutMesh& cut, const GluedEdges& glued, const EdgeWeights& weights,
                                  const BoundaryConditions& boundary, const LaplacianOptions& options)

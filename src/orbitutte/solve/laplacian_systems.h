@@ -2,7 +2,9 @@
 // Two ways to the two linear systems of LaplacianSolver. Private to solve/.
 #pragma once
 
+#include <array>
 #include <memory>
+#include <vector>
 
 #include "orbitutte/solve/disk_graph.h"
 #include "orbitutte/solve/dissection.h"
@@ -30,6 +32,9 @@ struct LaplacianProblem {
   const BoundaryConditions& boundary;
   const Dissection& dissection;  ///< of the graph of the vertices
 };
+
+/// The two vertices of every edge.
+std::vector<std::array<int, 2>> ends(const GluedEdges& glued);
 
 /// In the start, a node on a bank that is not given is tied to the origin by this fraction of its weights:
 /// where every edge of a few vertices crosses the cut, nothing else holds them.
