@@ -9,7 +9,7 @@
 namespace orbitutte {
 namespace {
 
-double distance(const Vector3& p, const Vector3& q) { return (p - q).norm(); }
+double plane_distance(const Vector3& p, const Vector3& q) { return (p - q).norm(); }
 
 double plane_area(const Vector3& a, const Vector3& b, const Vector3& c) {
   return 0.5 * (b - a).cross(c - a).z();
@@ -24,7 +24,7 @@ double plane_angle(const Vector3& p, const Vector3& q, const Vector3& r) {
 
 const Metric& metric_of(Geometry geometry) {
   static const Metric sphere = {arc_length, signed_area, angle_at},
-                      plane = {distance, plane_area, plane_angle};
+                      plane = {plane_distance, plane_area, plane_angle};
   return geometry == Geometry::spherical ? sphere : plane;
 }
 
