@@ -114,38 +114,45 @@ struct PointLocator::State {
     return bg::covered_by(TreePoint(point.x(), point.y(), point.z()), bounds);
   }
 
-  // The first triangle of the first copy that holds the point.
-  Location locate(const Vector3& point, std::vector<int>& near) const {
+  // visit(f, g, here): the triangles f near `here`, which is where copy g has the point. Returning true ends
+  // it.
+  template <typename Visit>
+  void visit_near(const Vector3& point, std::vector<int>& near, const Visit& visit) const {
     for (std::size_t g = 0; g < elements.size(); ++g) {
       const Vector3 here = elements[g].transpose() * point;
       if (!may_hold(here)) continue;
       find_near(here, near);
-      for (const int f : near) {
-        const SphericalCorners corners = corners_of(embedding, f);
-        if (contains(corners, here)) return {f, static_cast<int>(g), spherical_coordinates(corners, here)};
-      }
+      for (const int f : near)
+        if (visit(f, static_cast<int>(g), here)) return;
     }
-    return nearest(point, near);
+  }
+
+  // The first triangle of the first copy that holds the point.
+  Location locate(const Vector3& point, std::vector<int>& near) const {
+    Location found;
+    visit_near(point, near, [&](int f, int g, const Vector3& here) {
+      const SphericalCorners corners = corners_of(embedding, f);
+      if (!contains(corners, here)) return false;
+      found = {f, g, spherical_coordinates(corners, here)};
+      return true;
+    });
+    return found.face >= 0 ? found : nearest(point, near);
   }
 
   // For points in gaps between banks.
   Location nearest(const Vector3& point, std::vector<int>& near) const {
     Location best;
     double least = largest_gap;
-    for (std::size_t g = 0; g < elements.size(); ++g) {
-      const Vector3 here = elements[g].transpose() * point;
-      if (!may_hold(here)) continue;
-      find_near(here, near);
-      for (const int f : near) {
-        const SphericalCorners corners = corners_of(embedding, f);
-        const Vector3 coordinates = nearest_on_edges(corners, here);
-        const double away = (spherical_point(corners, coordinates) - here).norm();
-        if (away < least) {
-          least = away;
-          best = {f, static_cast<int>(g), coordinates};
-        }
+    visit_near(point, near, [&](int f, int g, const Vector3& here) {
+      const SphericalCorners corners = corners_of(embedding, f);
+      const Vector3 coordinates = nearest_on_edges(corners, here);
+      const double away = (spherical_point(corners, coordinates) - here).norm();
+      if (away < least) {
+        least = away;
+        best = {f, g, coordinates};
       }
-    }
+      return false;
+    });
     return best;
   }
 };

@@ -32,15 +32,8 @@ struct Sphere {
             std::cos(colatitude)};
   }
 
-  // The shorter great arc between two points that are not antipodal.
   static TileSide segment(const Vector3& from, const Vector3& to, int mark) {
-    const Vector3 across = from.cross(to);
-    TileSide side;
-    side.start = from;
-    side.direction = across.cross(from).normalized();
-    side.length = std::atan2(across.norm(), from.dot(to));
-    side.mark = mark;
-    return side;
+    return great_arc(from, to, mark);
   }
 
   static Matrix3 rotation_about(const Vector3& point, double angle) { return rotation(point, angle); }

@@ -141,17 +141,6 @@ void require_one_round(const Corners& corners) {
   }
 }
 
-// The shorter great arc between two points, held.
-TileSide held_side(const Vector3& from, const Vector3& to, int mark) {
-  const Vector3 across = from.cross(to);
-  TileSide side;
-  side.start = from;
-  side.direction = across.cross(from).normalized();
-  side.length = std::atan2(across.norm(), from.dot(to));
-  side.mark = mark;
-  return side;
-}
-
 Vector3 position_of(const ConeCopies& cone, const Points& positions) {
   if (cone.copies.size() != 1 || cone.copies[0] < 0 || cone.copies[0] >= positions.rows())
     throw MeshError(fmt::format("the corner at vertex {} is not one vertex of the cut mesh", cone.vertex));
@@ -190,7 +179,7 @@ Tile polygon_tile(const std::vector<PolygonCorner>& corners, const std::vector<i
                       "left, meets their vertices",
                       corners[k].vertex));
     tile.sides.push_back(
-        held_side(corners[k].position, corner_after(corners, k).position, static_cast<int>(k)));
+        great_arc(corners[k].position, corner_after(corners, k).position, static_cast<int>(k)));
   }
   return tile;
 }

@@ -15,6 +15,16 @@ Vector3 TileSide::point(double s) const {
   return std::cos(s) * start + std::sin(s) * direction;
 }
 
+TileSide great_arc(const Vector3& from, const Vector3& to, int mark) {
+  const Vector3 across = from.cross(to);
+  TileSide side;
+  side.start = from;
+  side.direction = across.cross(from).normalized();
+  side.length = std::atan2(across.norm(), from.dot(to));
+  side.mark = mark;
+  return side;
+}
+
 Vector3 Tile::centroid() const {
   Vector3 sum = Vector3::Zero();
   for (const TileSide& side : sides) sum += 0.5 * side.length * side.pole();

@@ -41,6 +41,10 @@ struct TileSide {
   }  ///< the unit normal of the arc's plane, towards the tile; in the plane, pole . p = 0 is the side's line
 };
 
+/// The shorter great arc between two points of the sphere that are not antipodal, as a side without a
+/// partner.
+TileSide great_arc(const Vector3& from, const Vector3& to, int mark);
+
 /// A spherical polygon; corner k is where side k begins. Counterclockwise from outside.
 struct Tile {
   std::vector<TileSide> sides;
