@@ -88,6 +88,8 @@ if(python MATCHES "^/usr/bin/python3")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= ${version}~), python3 (<< ${major}.${next}), python3-numpy")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS python3-scipy)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/packaging/python3-orbitutte/postinst
+                                                ${PROJECT_SOURCE_DIR}/packaging/python3-orbitutte/prerm)
   set(CPACK_COMPONENT_PYTHON_DESCRIPTION "${description}
 This package has the Python module orbitutte.")
   set(python_components debian_python)
