@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <charconv>
 
-#include "orbitutte/mesh/inspection.h"
-#include "orbitutte/mesh/mesh_io.h"
-#include "orbitutte/output/cut_triangles.h"
+#include "orbitutte/export/cut_triangles.h"
+#include "orbitutte/inspect/inspection.h"
+#include "orbitutte/io/mesh_io.h"
 
 namespace orbitutte::cli {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "orbitutte/mesh/weights.h"
 #include "orbitutte/orbifold/embedding.h"
+#include "orbitutte/weights/weights.h"
 
 namespace orbitutte::cli {
 

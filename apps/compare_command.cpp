@@ -9,9 +9,9 @@
 #include "command_arguments.h"
 #include "commands.h"
 #include "orbitutte/embed.h"
-#include "orbitutte/mesh/inspection.h"
-#include "orbitutte/mesh/mesh_io.h"
-#include "orbitutte/output/comparison.h"
+#include "orbitutte/inspect/inspection.h"
+#include "orbitutte/io/mesh_io.h"
+#include "orbitutte/report/comparison.h"
 
 namespace orbitutte::cli {
 namespace {

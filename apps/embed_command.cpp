@@ -11,14 +11,14 @@
 #include "command_arguments.h"
 #include "commands.h"
 #include "orbitutte/embed.h"
-#include "orbitutte/mesh/corner_file.h"
-#include "orbitutte/mesh/file.h"
-#include "orbitutte/mesh/inspection.h"
-#include "orbitutte/mesh/mesh_io.h"
+#include "orbitutte/inspect/inspection.h"
+#include "orbitutte/io/corner_file.h"
+#include "orbitutte/io/file.h"
+#include "orbitutte/io/mesh_io.h"
 #include "orbitutte/mesh/triangulation.h"
 #include "orbitutte/orbifold/polygon.h"
-#include "orbitutte/output/embedding_file.h"
-#include "orbitutte/output/report.h"
+#include "orbitutte/report/embedding_file.h"
+#include "orbitutte/report/report.h"
 
 namespace orbitutte::cli {
 namespace {

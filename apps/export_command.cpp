@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "commands.h"
-#include "orbitutte/mesh/inspection.h"
-#include "orbitutte/mesh/mesh_io.h"
-#include "orbitutte/output/export.h"
-#include "orbitutte/output/report.h"
+#include "orbitutte/export/export.h"
+#include "orbitutte/inspect/inspection.h"
+#include "orbitutte/io/mesh_io.h"
+#include "orbitutte/report/report.h"
 
 namespace orbitutte::cli {
 

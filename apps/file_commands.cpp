@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include "commands.h"
-#include "orbitutte/mesh/mesh_io.h"
-#include "orbitutte/mesh/sample.h"
-#include "orbitutte/output/report.h"
-#include "orbitutte/output/tiling.h"
-#include "orbitutte/output/verification.h"
-#include "orbitutte/solve/sparse_factor.h"
+#include "orbitutte/export/tiling.h"
+#include "orbitutte/io/mesh_io.h"
+#include "orbitutte/linear/sparse_factor.h"
+#include "orbitutte/report/report.h"
+#include "orbitutte/report/verification.h"
+#include "orbitutte/samples/sample.h"
 #include "orbitutte/version.h"
 
 namespace orbitutte::cli {

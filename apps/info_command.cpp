@@ -4,9 +4,9 @@
 #include <numbers>
 
 #include "commands.h"
-#include "orbitutte/mesh/mesh_io.h"
+#include "orbitutte/io/mesh_io.h"
 #include "orbitutte/orbifold/signature.h"
-#include "orbitutte/output/inspection_json.h"
+#include "orbitutte/report/inspection_json.h"
 
 namespace orbitutte::cli {
 namespace {

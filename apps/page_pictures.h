@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "orbitutte/output/page.h"
-#include "orbitutte/output/report.h"
+#include "orbitutte/page/page.h"
+#include "orbitutte/report/report.h"
 
 namespace orbitutte::cli {
 

@@ -3,7 +3,7 @@
 
 #include "command_arguments.h"
 #include "commands.h"
-#include "orbitutte/output/render.h"
+#include "orbitutte/render/render.h"
 #include "page_pictures.h"
 
 namespace orbitutte::cli {

@@ -3,9 +3,9 @@
 
 #include "command_arguments.h"
 #include "commands.h"
-#include "orbitutte/mesh/file.h"
-#include "orbitutte/output/page.h"
-#include "orbitutte/output/report.h"
+#include "orbitutte/io/file.h"
+#include "orbitutte/page/page.h"
+#include "orbitutte/report/report.h"
 #include "page_pictures.h"
 
 namespace orbitutte::cli {

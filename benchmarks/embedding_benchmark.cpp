@@ -10,10 +10,10 @@
 #include <nlohmann/json.hpp>
 
 #include "orbitutte/embed.h"
+#include "orbitutte/io/mesh_io.h"
 #include "orbitutte/memory.h"
 #include "orbitutte/mesh/connectivity.h"
-#include "orbitutte/mesh/mesh_io.h"
-#include "orbitutte/mesh/sample.h"
+#include "orbitutte/samples/sample.h"
 #include "yardstick.h"
 
 namespace {

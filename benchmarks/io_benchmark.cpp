@@ -15,11 +15,11 @@
 #include <malloc.h>
 #endif
 
-#include "orbitutte/mesh/file.h"
-#include "orbitutte/mesh/mesh_io.h"
-#include "orbitutte/mesh/sample.h"
-#include "orbitutte/output/embedding_file.h"
-#include "orbitutte/output/report.h"
+#include "orbitutte/io/file.h"
+#include "orbitutte/io/mesh_io.h"
+#include "orbitutte/report/embedding_file.h"
+#include "orbitutte/report/report.h"
+#include "orbitutte/samples/sample.h"
 
 namespace {
 

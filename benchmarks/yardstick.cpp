@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "orbitutte/mesh/connectivity.h"
-#include "orbitutte/mesh/weights.h"
+#include "orbitutte/weights/weights.h"
 
 namespace orbitutte::benchmarks {
 namespace {

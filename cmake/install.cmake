@@ -7,14 +7,14 @@ include(CheckLinkerFlag)
 
 # The public headers are these and what they include.
 set(ORBITUTTE_HEADERS embed memory types
-    map/point_map map/spherical_coordinates
-    mesh/corner_file mesh/extremities mesh/file mesh/inspection mesh/mesh_io mesh/sample mesh/triangulation mesh/weak_places mesh/weights
+    map/point_map geometry/spherical_coordinates
+    io/corner_file cones/extremities io/file inspect/inspection io/mesh_io samples/sample mesh/triangulation inspect/weak_places weights/weights
     orbifold/families orbifold/polygon orbifold/signature orbifold/symmetry_group orbifold/tile
-    output/comparison output/cut_triangles output/embedding_file output/export output/inspection_json output/page output/report output/tiling
-    output/verification
-    solve/sparse_factor verify/certificate verify/distortion verify/energy verify/theorem2)
+    report/comparison export/cut_triangles report/embedding_file export/export report/inspection_json page/page report/report export/tiling
+    report/verification
+    linear/sparse_factor verify/certificate verify/distortion verify/energy verify/theorem2)
 if(ORBITUTTE_RENDER)
-  list(APPEND ORBITUTTE_HEADERS output/render)
+  list(APPEND ORBITUTTE_HEADERS render/render)
 endif()
 list(TRANSFORM ORBITUTTE_HEADERS PREPEND orbitutte/)
 list(TRANSFORM ORBITUTTE_HEADERS APPEND .h)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# The sparse direct solvers behind solve/sparse_factor.h. Eigen's is always there; CHOLMOD's (supernodal module: GPL) when chosen.
+# The sparse direct solvers behind linear/sparse_factor.h. Eigen's is always there; CHOLMOD's (supernodal module: GPL) when chosen.
 if(NOT ORBITUTTE_SOLVER MATCHES "^(cholmod|eigen)$")
   message(FATAL_ERROR "ORBITUTTE_SOLVER is '${ORBITUTTE_SOLVER}': choose cholmod or eigen")
 endif()
@@ -8,6 +8,6 @@ if(ORBITUTTE_SOLVER STREQUAL "cholmod")
   orbitutte_import_library(CHOLMOD REQUIRED)
   target_link_libraries(orbitutte PRIVATE orbitutte::CHOLMOD)
   # Of these files only, so that few are compiled again where the solver changes.
-  set_source_files_properties(src/orbitutte/solve/cholmod_factor.cpp src/orbitutte/solve/sparse_factor.cpp PROPERTIES
+  set_source_files_properties(src/orbitutte/linear/cholmod_factor.cpp src/orbitutte/linear/sparse_factor.cpp PROPERTIES
     COMPILE_DEFINITIONS ORBITUTTE_HAS_CHOLMOD INCLUDE_DIRECTORIES ${CHOLMOD_INCLUDE_DIR})
 endif()

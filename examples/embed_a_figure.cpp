@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "orbitutte/embed.h"
-#include "orbitutte/mesh/sample.h"
+#include "orbitutte/samples/sample.h"
 
 int main() {
   using namespace orbitutte;

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "orbitutte/embed.h"
-#include "orbitutte/mesh/sample.h"
 #include "orbitutte/orbifold/polygon.h"
+#include "orbitutte/samples/sample.h"
 
 using namespace orbitutte;
 

@@ -6,9 +6,9 @@
 #include <cstdio>
 
 #include "orbitutte/embed.h"
+#include "orbitutte/io/mesh_io.h"
 #include "orbitutte/map/point_map.h"
-#include "orbitutte/mesh/mesh_io.h"
-#include "orbitutte/mesh/sample.h"
+#include "orbitutte/samples/sample.h"
 
 using namespace orbitutte;
 

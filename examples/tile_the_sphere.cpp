@@ -3,8 +3,8 @@
 #include <cstdio>
 
 #include "orbitutte/embed.h"
-#include "orbitutte/mesh/sample.h"
-#include "orbitutte/output/tiling.h"
+#include "orbitutte/export/tiling.h"
+#include "orbitutte/samples/sample.h"
 
 int main() {
   using namespace orbitutte;

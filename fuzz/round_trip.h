@@ -12,8 +12,8 @@
 #include <string>
 #include <string_view>
 
-#include "orbitutte/mesh/mesh_io.h"
-#include "orbitutte/mesh/ply.h"
+#include "orbitutte/io/mesh_io.h"
+#include "orbitutte/io/ply.h"
 
 namespace orbitutte::fuzz {
 

@@ -16,7 +16,7 @@
 #include <set>
 
 #include "hand_made.h"
-#include "orbitutte/output/tiling.h"
+#include "orbitutte/export/tiling.h"
 #include "sample_embeddings.h"
 
 namespace orbitutte {

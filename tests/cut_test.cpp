@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "orbitutte/mesh/cut.h"
+#include "orbitutte/cut/cut.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

@@ -233,7 +233,7 @@ def run(runner: Runner, root: Path = ROOT) -> list[str]:
 # The map from the paper to the code (docs/paper.md)
 
 CITATION = re.compile(r"\bequations? \(|\bappendix [AB]\b|\balgorithm 1\b|\btheorem [12]\b|\bsection [46](\.\d)?\b", re.IGNORECASE)
-OTHER_SECTIONS = {"src/orbitutte/mesh/off.cpp"}  # cites the manual of a file format
+OTHER_SECTIONS = {"src/orbitutte/io/off.cpp"}  # cites the manual of a file format
 
 
 def check_map(root: Path = ROOT) -> list[str]:

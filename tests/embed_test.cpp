@@ -14,7 +14,7 @@
 #include <numbers>
 
 #include "hand_made.h"
-#include "orbitutte/output/embedding_file.h"
+#include "orbitutte/report/embedding_file.h"
 #include "random_spheres.h"
 #include "sample_embeddings.h"
 

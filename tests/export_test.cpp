@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "orbitutte/output/export.h"
+#include "orbitutte/export/export.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,13 +13,13 @@
 #include <sstream>
 
 #include "base64_text.h"
-#include "orbitutte/mesh/bytes.h"
-#include "orbitutte/mesh/file.h"
-#include "orbitutte/mesh/mesh_io.h"
-#include "orbitutte/mesh/ply.h"
+#include "orbitutte/export/export_files.h"
+#include "orbitutte/geometry/spherical_triangle.h"
+#include "orbitutte/io/bytes.h"
+#include "orbitutte/io/file.h"
+#include "orbitutte/io/mesh_io.h"
+#include "orbitutte/io/ply.h"
 #include "orbitutte/mesh/triangulation.h"
-#include "orbitutte/output/export_files.h"
-#include "orbitutte/verify/spherical_triangle.h"
 #include "polygon_meshes.h"
 #include "sample_embeddings.h"
 

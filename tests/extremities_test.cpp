@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "orbitutte/mesh/extremities.h"
+#include "orbitutte/cones/extremities.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "orbitutte/mesh/cut.h"
+#include "orbitutte/cut/cut.h"
 #include "random_spheres.h"
 
 namespace orbitutte {

@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <numeric>
 
-#include "orbitutte/solve/dense_factor.h"
-#include "orbitutte/solve/dissection.h"
-#include "orbitutte/solve/sparse_factor.h"
-#include "orbitutte/solve/substructure.h"
+#include "orbitutte/linear/dense_factor.h"
+#include "orbitutte/linear/dissection.h"
+#include "orbitutte/linear/sparse_factor.h"
+#include "orbitutte/linear/substructure.h"
 #include "test_meshes.h"
 
 namespace orbitutte {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "orbitutte/mesh/file.h"
+#include "orbitutte/io/file.h"
 
 #include <fcntl.h>
 #include <gmock/gmock.h>

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "../fuzz/round_trip.h"
-#include "orbitutte/mesh/file.h"
+#include "orbitutte/io/file.h"
 
 namespace orbitutte {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "orbitutte/mesh/inspection.h"
+#include "orbitutte/inspect/inspection.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "orbitutte/mesh/mesh_io.h"
+#include "orbitutte/io/mesh_io.h"
 #include "test_meshes.h"
 
 namespace orbitutte {

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "orbitutte/mesh/bytes.h"
-#include "orbitutte/mesh/mesh_io.h"
+#include "orbitutte/io/bytes.h"
+#include "orbitutte/io/mesh_io.h"
 
 namespace orbitutte {
 namespace {

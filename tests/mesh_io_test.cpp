@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "orbitutte/mesh/mesh_io.h"
+#include "orbitutte/io/mesh_io.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-#include "orbitutte/mesh/file.h"
+#include "orbitutte/io/file.h"
 #include "test_meshes.h"
 
 namespace orbitutte {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "orbitutte/verify/orientation.h"
+#include "orbitutte/geometry/orientation.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "orbitutte/output/page.h"
+#include "orbitutte/page/page.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,13 +12,13 @@
 #include <set>
 
 #include "base64_text.h"
-#include "orbitutte/mesh/bytes.h"
-#include "orbitutte/mesh/sample.h"
+#include "orbitutte/export/html_text.h"
+#include "orbitutte/io/bytes.h"
 #include "orbitutte/mesh/triangulation.h"
-#include "orbitutte/output/html_text.h"
-#include "orbitutte/output/page_charts.h"
-#include "orbitutte/output/page_scene.h"
-#include "orbitutte/output/report.h"
+#include "orbitutte/page/page_charts.h"
+#include "orbitutte/page/page_scene.h"
+#include "orbitutte/report/report.h"
+#include "orbitutte/samples/sample.h"
 #include "orbitutte/verify/distortion.h"
 #include "polygon_meshes.h"
 #include "sample_embeddings.h"

@@ -10,9 +10,9 @@
 #include <numbers>
 
 #include "orbitutte/embed.h"
+#include "orbitutte/geometry/metric.h"
 #include "orbitutte/orbifold/polygon.h"
 #include "orbitutte/orbifold/tile.h"
-#include "orbitutte/verify/metric.h"
 #include "test_meshes.h"
 
 namespace orbitutte {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "orbitutte/mesh/ply.h"
+#include "orbitutte/io/ply.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

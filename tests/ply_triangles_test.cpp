@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "orbitutte/mesh/ply_triangles.h"
+#include "orbitutte/io/ply_triangles.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -8,10 +8,10 @@
 #include <random>
 #include <set>
 
-#include "orbitutte/map/spherical_coordinates.h"
+#include "orbitutte/geometry/orientation.h"
+#include "orbitutte/geometry/spherical_coordinates.h"
 #include "orbitutte/orbifold/polygon.h"
 #include "orbitutte/orbifold/symmetry_group.h"
-#include "orbitutte/verify/orientation.h"
 #include "sample_embeddings.h"
 
 namespace orbitutte {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "orbitutte/mesh/mesh_io.h"
+#include "orbitutte/io/mesh_io.h"
 
 namespace orbitutte {
 namespace {

@@ -16,9 +16,9 @@
 
 #include "hand_made.h"
 #include "orbitutte/embed.h"
-#include "orbitutte/mesh/corner_file.h"
-#include "orbitutte/mesh/file.h"
-#include "orbitutte/output/tiling.h"
+#include "orbitutte/export/tiling.h"
+#include "orbitutte/io/corner_file.h"
+#include "orbitutte/io/file.h"
 #include "sample_embeddings.h"
 
 namespace orbitutte {

@@ -9,10 +9,10 @@
 #include <random>
 #include <set>
 
+#include "orbitutte/inspect/inspection.h"
 #include "orbitutte/mesh/connectivity.h"
-#include "orbitutte/mesh/inspection.h"
-#include "orbitutte/mesh/projective_mesh.h"
-#include "orbitutte/mesh/sample.h"
+#include "orbitutte/samples/projective_mesh.h"
+#include "orbitutte/samples/sample.h"
 
 namespace orbitutte {
 namespace {

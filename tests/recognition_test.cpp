@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The quick look at a mesh accepts exactly the spheres and disks in which the thorough one finds no defect.
-#include "orbitutte/mesh/recognition.h"
+#include "orbitutte/inspect/recognition.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <limits>
 
-#include "orbitutte/mesh/inspection.h"
+#include "orbitutte/inspect/inspection.h"
 #include "random_spheres.h"
 #include "test_meshes.h"
 

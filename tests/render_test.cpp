@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "orbitutte/output/render.h"
+#include "orbitutte/render/render.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,14 +12,14 @@
 #include <numeric>
 #include <regex>
 
-#include "orbitutte/mesh/file.h"
-#include "orbitutte/output/comparison.h"
-#include "orbitutte/output/render/area_histogram.h"
-#include "orbitutte/output/render/checkerboard.h"
-#include "orbitutte/output/render/default_view.h"
-#include "orbitutte/output/render/scales.h"
-#include "orbitutte/output/render/sphere_figure.h"
+#include "orbitutte/io/file.h"
 #include "orbitutte/parallel.h"
+#include "orbitutte/render/area_histogram.h"
+#include "orbitutte/render/checkerboard.h"
+#include "orbitutte/render/default_view.h"
+#include "orbitutte/render/scales.h"
+#include "orbitutte/render/sphere_figure.h"
+#include "orbitutte/report/comparison.h"
 #include "sample_embeddings.h"
 
 #define STB_IMAGE_IMPLEMENTATION

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "orbitutte/output/report.h"
+#include "orbitutte/report/report.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,9 +13,9 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "orbitutte/mesh/file.h"
-#include "orbitutte/mesh/ply.h"
-#include "orbitutte/output/embedding_file.h"
+#include "orbitutte/io/file.h"
+#include "orbitutte/io/ply.h"
+#include "orbitutte/report/embedding_file.h"
 #include "sample_embeddings.h"
 
 namespace orbitutte {

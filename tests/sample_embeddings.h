@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "orbitutte/embed.h"
-#include "orbitutte/verify/spherical_triangle.h"
+#include "orbitutte/geometry/spherical_triangle.h"
 #include "test_meshes.h"
 
 namespace orbitutte::test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "orbitutte/mesh/sample.h"
+#include "orbitutte/samples/sample.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "orbitutte/inspect/inspection.h"
 #include "orbitutte/mesh/connectivity.h"
-#include "orbitutte/mesh/inspection.h"
 
 namespace orbitutte {
 namespace {

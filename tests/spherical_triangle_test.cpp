@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "orbitutte/verify/spherical_triangle.h"
+#include "orbitutte/geometry/spherical_triangle.h"
 
 #include <gtest/gtest.h>
 

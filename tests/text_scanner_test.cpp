@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "orbitutte/mesh/text_scanner.h"
+#include "orbitutte/io/text_scanner.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

@@ -11,7 +11,7 @@
 #include <random>
 
 #include "hand_made.h"
-#include "orbitutte/output/tiling.h"
+#include "orbitutte/export/tiling.h"
 #include "sample_embeddings.h"
 #include "solve_cases.h"
 

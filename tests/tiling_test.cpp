@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "orbitutte/output/tiling.h"
+#include "orbitutte/export/tiling.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -19,9 +19,9 @@
 #include <tuple>
 
 #include "hand_made.h"
-#include "orbitutte/mesh/file.h"
-#include "orbitutte/mesh/ply.h"
-#include "orbitutte/output/palette.h"
+#include "orbitutte/export/palette.h"
+#include "orbitutte/io/file.h"
+#include "orbitutte/io/ply.h"
 #include "sample_embeddings.h"
 
 namespace orbitutte {

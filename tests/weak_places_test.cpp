@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "orbitutte/mesh/weak_places.h"
+#include "orbitutte/inspect/weak_places.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <random>
 
-#include "orbitutte/mesh/inspection.h"
+#include "orbitutte/inspect/inspection.h"
 #include "polygon_meshes.h"
 #include "random_spheres.h"
 

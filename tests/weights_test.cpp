@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "orbitutte/mesh/weights.h"
+#include "orbitutte/weights/weights.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

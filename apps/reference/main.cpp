@@ -5,7 +5,7 @@
 
 #include <exception>
 
-#include "orbitutte/mesh/file.h"
+#include "orbitutte/io/file.h"
 #include "reference.h"
 
 int main(int argc, char** argv) {

@@ -128,7 +128,7 @@ def header_intro(path: Path) -> str:
 def public_headers() -> list[Path]:
     """Those that are installed: what cmake/install.cmake lists, and what they include."""
     text = (ROOT / "cmake/install.cmake").read_text()
-    names = re.search(r"set\(ORBITUTTE_HEADERS ([^)]*)\)", text)[1].split() + ["output/render"]
+    names = re.search(r"set\(ORBITUTTE_HEADERS ([^)]*)\)", text)[1].split() + ["render/render"]
     headers = {f"orbitutte/{name}.h": None for name in names}  # in this order
     pending = list(headers)
     while pending:

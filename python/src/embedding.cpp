@@ -4,11 +4,11 @@
 
 #include "arrays.h"
 #include "held_embedding.h"
-#include "orbitutte/mesh/file.h"
+#include "orbitutte/export/tiling.h"
+#include "orbitutte/io/file.h"
 #include "orbitutte/orbifold/symmetry_group.h"
-#include "orbitutte/output/embedding_file.h"
-#include "orbitutte/output/tiling.h"
-#include "orbitutte/output/verification.h"
+#include "orbitutte/report/embedding_file.h"
+#include "orbitutte/report/verification.h"
 
 namespace orbitutte::python {
 namespace {

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
-#include "orbitutte/verify/energy.h"
+#include "orbitutte/report/verification.h"
 
 namespace orbitutte::python {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "orbitutte/embed.h"
-#include "orbitutte/output/report.h"
+#include "orbitutte/report/report.h"
 #include "source_mesh.h"
 
 namespace orbitutte::python {

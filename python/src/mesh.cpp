@@ -6,10 +6,10 @@
 
 #include "arrays.h"
 #include "orbitutte/embed.h"
-#include "orbitutte/mesh/inspection.h"
-#include "orbitutte/mesh/mesh_io.h"
-#include "orbitutte/mesh/sample.h"
-#include "orbitutte/output/inspection_json.h"
+#include "orbitutte/inspect/inspection.h"
+#include "orbitutte/io/mesh_io.h"
+#include "orbitutte/report/inspection_json.h"
+#include "orbitutte/samples/sample.h"
 #include "source_mesh.h"
 
 namespace orbitutte::python {

@@ -3,7 +3,7 @@
 #include <pybind11/stl.h>
 
 #include "arrays.h"
-#include "orbitutte/mesh/corner_file.h"
+#include "orbitutte/io/corner_file.h"
 #include "orbitutte/orbifold/polygon.h"
 
 namespace orbitutte::python {

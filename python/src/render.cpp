@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "orbitutte/output/render.h"
+#include "orbitutte/render/render.h"
 
 #include <pybind11/stl.h>
 

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
-#include "orbitutte/mesh/inspection.h"
+#include "orbitutte/export/cut_triangles.h"
+#include "orbitutte/inspect/inspection.h"
 #include "orbitutte/mesh/triangulation.h"
-#include "orbitutte/output/cut_triangles.h"
 
 namespace orbitutte::python {
 namespace {

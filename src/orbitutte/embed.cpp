@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "orbitutte/mesh/extremities.h"
-#include "orbitutte/mesh/weak_places.h"
+#include "orbitutte/cones/extremities.h"
+#include "orbitutte/inspect/weak_places.h"
 #include "orbitutte/parallel.h"
 #include "orbitutte/preparation.h"
 #include "orbitutte/solve/flipped_edges.h"

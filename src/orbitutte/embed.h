@@ -8,8 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "orbitutte/mesh/cut.h"
-#include "orbitutte/mesh/weights.h"
+#include "orbitutte/cut/cut.h"
 #include "orbitutte/orbifold/embedding.h"
 #include "orbitutte/orbifold/signature.h"
 #include "orbitutte/progress.h"
@@ -17,6 +16,7 @@
 #include "orbitutte/solve/lbfgs.h"
 #include "orbitutte/verify/certificate.h"
 #include "orbitutte/verify/distortion.h"
+#include "orbitutte/weights/weights.h"
 
 namespace orbitutte {
 

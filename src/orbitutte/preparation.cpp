@@ -5,9 +5,9 @@
 
 #include <array>
 
-#include "orbitutte/mesh/cone_weights.h"
-#include "orbitutte/mesh/weak_places.h"
+#include "orbitutte/inspect/weak_places.h"
 #include "orbitutte/parallel.h"
+#include "orbitutte/weights/cone_weights.h"
 
 namespace orbitutte {
 namespace {

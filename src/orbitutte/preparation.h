@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "orbitutte/embed.h"
-#include "orbitutte/mesh/recognition.h"
+#include "orbitutte/inspect/recognition.h"
 
 namespace orbitutte {
 

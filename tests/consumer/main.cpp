@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A program of somebody else: embeds a sample mesh and asks for its certificate.
 #include <orbitutte/embed.h>
-#include <orbitutte/mesh/sample.h>
+#include <orbitutte/samples/sample.h>
 #include <orbitutte/version.h>
 
 #include <cstdio>

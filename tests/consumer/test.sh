@@ -25,7 +25,7 @@ if grep -rnE '(^|[;" ])/[^;" ]*[.](so|a|dylib)' "$library/cmake" "$library/pkgco
 # All that the command and the examples include is a public header, and each header includes what it needs.
 missing=$(cat "$source"/apps/*.{cpp,h} "$source"/examples/*.cpp | sed -n 's/^#include "\(orbitutte\/.*\)"/\1/p' | sort -u |
           while read -r header; do [ -e "$prefix/include/$header" ] || echo "$header"; done)
-[ -z "$missing" ] || [ "$missing" = orbitutte/output/render.h ] || fail "not among the public headers of cmake/install.cmake: $missing"
+[ -z "$missing" ] || [ "$missing" = orbitutte/render/render.h ] || fail "not among the public headers of cmake/install.cmake: $missing"
 (cd "$prefix/include" && find . -name '*.h' | sort -r | sed 's/.*/#include "&"/') >"$scratch/headers.cpp"
 export PKG_CONFIG_PATH=$library/pkgconfig
 read -r -a flags < <(pkg-config --cflags orbitutte)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Decodes what src/orbitutte/output/page_scene.h describes into typed arrays.
+// Decodes what src/orbitutte/page/page_scene.h describes into typed arrays.
 import {Matrix4, Vector3} from 'three';
 
 function bytesOf(base64) {

@@ -14,10 +14,10 @@
 #include <cmath>
 #include <limits>
 
-#include "orbitutte/map/spherical_coordinates.h"
+#include "orbitutte/geometry/orientation.h"
+#include "orbitutte/geometry/spherical_coordinates.h"
 #include "orbitutte/orbifold/symmetry_group.h"
 #include "orbitutte/parallel.h"
-#include "orbitutte/verify/orientation.h"
 
 namespace orbitutte {
 namespace {

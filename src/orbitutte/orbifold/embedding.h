@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "orbitutte/orbifold/geometry.h"
+#include "orbitutte/geometry/geometry.h"
 
 namespace orbitutte {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The one table of families: symbol, tile and gluing of each (appendix A). Private to orbifold/.
+// The one table of families: symbol, tile and gluing of each (appendix A).
 #pragma once
 
 #include <string>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
+#include "orbitutte/linear/dense_factor.h"
+#include "orbitutte/linear/laplacian_matrix.h"
+#include "orbitutte/linear/substructure.h"
 #include "orbitutte/parallel.h"
-#include "orbitutte/solve/dense_factor.h"
-#include "orbitutte/solve/laplacian_matrix.h"
 #include "orbitutte/solve/laplacian_systems.h"
-#include "orbitutte/solve/substructure.h"
 
 namespace orbitutte {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "orbitutte/mesh/cut.h"
+#include "orbitutte/cut/cut.h"
 #include "orbitutte/orbifold/embedding.h"
 #include "orbitutte/orbifold/tile.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "orbitutte/solve/laplacian_matrix.h"
+#include "orbitutte/linear/laplacian_matrix.h"
 #include "orbitutte/solve/laplacian_systems.h"
 
 namespace orbitutte {

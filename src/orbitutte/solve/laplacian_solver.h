@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "orbitutte/solve/sparse_factor.h"
+#include "orbitutte/linear/sparse_factor.h"
 #include "orbitutte/solve/spherical_energy.h"
 
 namespace orbitutte {

@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
+#include "orbitutte/linear/dissection.h"
 #include "orbitutte/solve/disk_graph.h"
-#include "orbitutte/solve/dissection.h"
 #include "orbitutte/solve/laplacian_solver.h"
 
 namespace orbitutte {

@@ -5,9 +5,9 @@
 #include <array>
 #include <vector>
 
+#include "orbitutte/cut/cut.h"
 #include "orbitutte/mesh/connectivity.h"
-#include "orbitutte/mesh/cut.h"
-#include "orbitutte/mesh/weights.h"
+#include "orbitutte/mesh/edge_weights.h"
 #include "orbitutte/solve/boundary_conditions.h"
 
 namespace orbitutte {

@@ -20,6 +20,9 @@
 #include <unordered_map>
 #include <utility>
 
+#include "orbitutte/geometry/metric.h"
+#include "orbitutte/geometry/orientation.h"
+#include "orbitutte/geometry/spherical_triangle.h"
 #include "orbitutte/mesh/connectivity.h"
 #include "orbitutte/orbifold/polygon.h"
 #include "orbitutte/orbifold/symmetry_group.h"
@@ -27,9 +30,6 @@
 #include "orbitutte/verify/convexity.h"
 #include "orbitutte/verify/held_sides.h"
 #include "orbitutte/verify/laid_out.h"
-#include "orbitutte/verify/metric.h"
-#include "orbitutte/verify/orientation.h"
-#include "orbitutte/verify/spherical_triangle.h"
 
 namespace orbitutte {
 namespace {

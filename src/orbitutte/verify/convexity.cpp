@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "orbitutte/verify/orientation.h"
+#include "orbitutte/geometry/orientation.h"
 
 namespace orbitutte {
 namespace {

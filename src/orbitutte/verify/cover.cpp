@@ -6,9 +6,9 @@
 #include <cmath>
 #include <utility>
 
+#include "orbitutte/geometry/spherical_triangle.h"
 #include "orbitutte/verify/edge_images.h"
 #include "orbitutte/verify/laid_out.h"
-#include "orbitutte/verify/spherical_triangle.h"
 
 namespace orbitutte {
 namespace {

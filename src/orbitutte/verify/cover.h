@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "orbitutte/mesh/weights.h"
+#include "orbitutte/mesh/edge_weights.h"
 #include "orbitutte/orbifold/embedding.h"
 #include "orbitutte/orbifold/symmetry_group.h"
 

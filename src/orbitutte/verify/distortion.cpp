@@ -9,8 +9,8 @@
 #include <numeric>
 #include <optional>
 
+#include "orbitutte/geometry/metric.h"
 #include "orbitutte/parallel.h"
-#include "orbitutte/verify/metric.h"
 
 namespace orbitutte {
 namespace {

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "orbitutte/verify/energy.h"
 
-#include "orbitutte/mesh/cone_weights.h"
-#include "orbitutte/orbifold/signature.h"
+#include "orbitutte/geometry/spherical_triangle.h"
 #include "orbitutte/verify/edge_images.h"
 #include "orbitutte/verify/laid_out.h"
-#include "orbitutte/verify/spherical_triangle.h"
 
 namespace orbitutte {
 namespace {
@@ -32,17 +30,6 @@ double dirichlet_energy(const Connectivity& connectivity, const EdgeWeights& wei
     energy += weights.w[e] * d * d;
   });
   return energy;
-}
-
-EdgeWeights weights_of(const Mesh& mesh, const Connectivity& connectivity, const WeightOptions& options,
-                       const Embedding& embedding) {
-  std::vector<Mark> marks;
-  for (const ConeCopies& cone : embedding.cones) marks.push_back({cone.order, cone.kind});
-  const std::vector<double> angles = metric_angles(marks);
-  std::vector<ConeAngle> cones;
-  for (std::size_t k = 0; k < angles.size(); ++k)
-    if (angles[k] > 0) cones.push_back({embedding.cones[k].vertex, angles[k]});
-  return sharpened_at_cones(edge_weights(mesh, connectivity, options), cones);
 }
 
 double dirichlet_energy(const Mesh& mesh, const Connectivity& connectivity, const EdgeWeights& weights,

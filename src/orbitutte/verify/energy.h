@@ -2,7 +2,7 @@
 // The energy of an embedding, computed again from its files.
 #pragma once
 
-#include "orbitutte/mesh/weights.h"
+#include "orbitutte/mesh/edge_weights.h"
 #include "orbitutte/orbifold/embedding.h"
 
 namespace orbitutte {
@@ -16,10 +16,5 @@ double dirichlet_energy(const Connectivity& connectivity, const EdgeWeights& wei
 /// and d the arc length between images of their ends as laid_out has them.
 double dirichlet_energy(const Mesh& mesh, const Connectivity& connectivity, const EdgeWeights& weights,
                         const Embedding& embedding);
-
-/// The weights of an embedding of the mesh, computed again from the mesh and, where the kind takes them into
-/// account, from the embedding's cones. Throws ArgumentError for weights of a file.
-EdgeWeights weights_of(const Mesh& mesh, const Connectivity& connectivity, const WeightOptions& options,
-                       const Embedding& embedding);
 
 }  // namespace orbitutte

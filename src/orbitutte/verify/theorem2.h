@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "orbitutte/mesh/weights.h"
+#include "orbitutte/mesh/edge_weights.h"
 #include "orbitutte/orbifold/embedding.h"
 #include "orbitutte/verify/certificate.h"
 #include "orbitutte/verify/inertia.h"

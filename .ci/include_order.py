@@ -1,0 +1,84 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The order of the library's layers, as CONTRIBUTING.md has it: each file includes only what comes before it. Prints the lines that break it."""
+import pathlib
+import re
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+SOURCE = ROOT / "src/orbitutte"
+PLAIN = "plain values"  # files at the root of src/orbitutte that every layer may know
+LAYERS = [PLAIN, "geometry", "mesh", "io", "inspect", "samples", "weights", "cut", "orbifold", "linear", "solve", "verify", "cones", "map",
+          "embed", "report", "export", "page", "render"]
+ROOT_FILES = {"types": PLAIN, "errors": PLAIN, "progress": PLAIN, "parallel": PLAIN, "memory": PLAIN, "version": PLAIN,
+              "embed_types": "embed", "embed": "embed", "preparation": "embed", "warnings": "embed"}
+# The certificate shares no code with what it judges; only `embed` and `map` compose.
+NEVER = {("verify", layer) for layer in ("weights", "cut", "linear", "solve", "cones")} | {("map", "solve"), ("map", "linear")}
+SMALL = "orbitutte/embed_types.h"  # what programs include to name options and results
+NOT_IN_SMALL = ("solve", "linear", "cut")
+
+
+def layer_of(path):
+    """`path` is relative to src/orbitutte."""
+    parts = pathlib.PurePosixPath(path).parts
+    if len(parts) > 1:
+        return parts[0]
+    stem = parts[0].split(".")[0]
+    return ROOT_FILES.get(stem, f"unknown root file {stem}")
+
+
+def tracked(*patterns):
+    return subprocess.run(["git", "ls-files", *patterns], cwd=ROOT, check=True, capture_output=True, text=True).stdout.split()
+
+
+def includes(path):
+    for number, line in enumerate((ROOT / path).read_text(encoding="utf-8").splitlines(), 1):
+        if found := re.match(r'#include *[<"]orbitutte/([^">]+)[">]', line):
+            yield number, found[1]
+
+
+def closure(headers):
+    known, waiting = set(), list(headers)
+    while waiting:
+        header = waiting.pop()
+        if header in known or header == "version.h":
+            continue
+        known.add(header)
+        waiting += [included for _, included in includes(f"src/orbitutte/{header}")]
+    return known
+
+
+def installed_headers():
+    text = (ROOT / "cmake/install.cmake").read_text(encoding="utf-8")
+    names = re.search(r"set\(ORBITUTTE_HEADERS ([^)]*)\)", text)[1].split() + ["render/render"]
+    return closure(name + ".h" for name in names)
+
+
+def complaints():
+    for path in tracked("src/orbitutte/*.h", "src/orbitutte/*.cpp"):
+        layer = layer_of(path.removeprefix("src/orbitutte/"))
+        if layer not in LAYERS:
+            yield f"{path}: {layer} is no layer of {sys.argv[0]}"
+            continue
+        for number, included in includes(path):
+            other = layer_of(included)
+            if other not in LAYERS or LAYERS.index(other) > LAYERS.index(layer) or (layer, other) in NEVER:
+                yield f"{path}:{number}: {layer} must not include {included}"
+    installed = installed_headers()
+    for path in tracked("apps/*.h", "apps/*.cpp"):
+        for number, included in includes(path):
+            if included not in installed and included != "version.h":
+                yield f"{path}:{number}: programs include installed headers only, not {included}"
+    for header in sorted(installed):
+        if "private to" in (SOURCE / header).read_text(encoding="utf-8").lower():
+            yield f"src/orbitutte/{header}: is installed, and says that it is private"
+    if (ROOT / "src" / SMALL).exists():
+        for header in sorted(closure([SMALL.removeprefix("orbitutte/")])):
+            if layer_of(header) in NOT_IN_SMALL:
+                yield f"src/{SMALL}: brings in {header}"
+
+
+found = list(complaints())
+print("\n".join(found))
+sys.exit(1 if found else 0)

@@ -1,0 +1,356 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/cut/cut.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "orbitutte/cut/one_sided_loop.h"
+#include "orbitutte/parallel.h"
+
+namespace orbitutte {
+namespace {
+
+// A random number in [0, 1) for an edge and a seed (the mixing function of SplitMix64): the same on every
+// machine.
+double random_unit(std::uint64_t seed, std::uint64_t edge) {
+  std::uint64_t z = seed * 0x9e3779b97f4a7c15ULL + edge * 0xbf58476d1ce4e5b9ULL + 0x94d049bb133111ebULL;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+  return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1.0p-53;
+}
+
+void perturb_lengths(EdgeGraph& graph, std::uint64_t seed) {
+  if (seed == 0) return;
+  for (std::size_t e = 0; e < graph.length.size(); ++e) graph.length[e] *= 1 + 2 * random_unit(seed, e);
+}
+
+double straight_distance(const Mesh& mesh, int i, int j) { return (mesh.V.row(i) - mesh.V.row(j)).norm(); }
+
+// Which of three marks the cut passes through: the one nearest to the two others in space, or any, by the
+// seed.
+int middle_mark(const Mesh& mesh, const std::vector<int>& marks, std::uint64_t seed) {
+  if (seed != 0) return static_cast<int>(3 * random_unit(seed, 0));
+  const auto detour = [&](int k) {
+    return straight_distance(mesh, marks[k], marks[(k + 1) % 3]) +
+           straight_distance(mesh, marks[k], marks[(k + 2) % 3]);
+  };
+  int best = 0;
+  for (const int k : {1, 2})
+    if (detour(k) < detour(best)) best = k;
+  return best;
+}
+
+MeshError no_path(int i, int j) {
+  return MeshError(fmt::format("no edge path joins the marked vertices {} and {}; mark others", i, j));
+}
+
+Path path_through_two(const EdgeGraph& graph, const std::vector<int>& marks) {
+  Path path = shortest_path(graph, marks[0], {marks[1]});
+  if (path.empty()) throw no_path(marks[0], marks[1]);
+  return path;
+}
+
+Path path_through_three(const Mesh& mesh, const EdgeGraph& graph, const std::vector<int>& marks,
+                        std::uint64_t seed) {
+  const int middle = middle_mark(mesh, marks, seed);
+  const int first = marks[(middle + 2) % 3], last = marks[(middle + 1) % 3];
+  auto [back, forth] = disjoint_paths(graph, marks[middle], {first, last});
+  if (back.empty()) throw no_path(marks[middle], first);
+  std::reverse(back.begin(), back.end());
+  back.insert(back.end(), forth.begin() + 1, forth.end());
+  return back;
+}
+
+// The graph with a path drawn together to one vertex, the last, that is joined to its ends; inside it is
+// gone.
+EdgeGraph contracted(const EdgeGraph& graph, const Path& path) {
+  const int n = graph.vertex_count();
+  std::vector<char> inside(n, 0);
+  for (std::size_t k = 1; k + 1 < path.size(); ++k) inside[path[k]] = 1;
+  EdgeGraph result;
+  std::vector<std::array<int, 2>> edges;
+  const auto add = [&](int v, int w, double length) {
+    edges.push_back({v, w});
+    result.length.push_back(length);
+  };
+  for (int v = 0; v < n; ++v) {
+    for (int k = graph.neighbors.start[v]; k < graph.neighbors.start[v + 1]; ++k) {
+      const int w = graph.neighbors.neighbor[k];
+      if (v < w && !inside[v] && !inside[w]) add(v, w, graph.length[graph.neighbors.edge[k]]);
+    }
+  }
+  add(path.front(), n, 0);
+  add(path.back(), n, 0);
+  result.neighbors = neighbors(edges, n + 1);
+  return result;
+}
+
+// From one mark to another by a shortest path, and from its ends, by disjoint paths, to the others.
+Path path_through_four(const EdgeGraph& graph, const std::vector<int>& marks, int first, int second) {
+  std::vector<int> others;
+  EdgeGraph inner = graph;
+  inner.dead_end.assign(graph.vertex_count(), 0);
+  for (const int mark : marks) {
+    if (mark == marks[first] || mark == marks[second]) continue;
+    others.push_back(mark);
+    inner.dead_end[mark] = 1;
+  }
+  const Path middle = shortest_path(inner, marks[first], {marks[second]});
+  if (middle.empty()) return {};
+  auto [back, forth] =
+      disjoint_paths(contracted(graph, middle), graph.vertex_count(), {others[0], others[1]});
+  if (back.empty()) return {};
+  if (back[1] != middle.front()) std::swap(back, forth);
+  Path path(back.rbegin(), back.rend() - 2);  // without the vertex that stands for the path, and its end
+  path.insert(path.end(), middle.begin(), middle.end());
+  path.insert(path.end(), forth.begin() + 2, forth.end());
+  return path;
+}
+
+double straight_length(const Mesh& mesh, const Path& path) {
+  double length = 0;
+  for (std::size_t k = 1; k < path.size(); ++k) length += straight_distance(mesh, path[k - 1], path[k]);
+  return length;
+}
+
+// The shortest over the choices of the two marks in the middle; two that lie on the surface such that one way
+// is barred can be joined in another.
+Path shortest_path_through_four(const Mesh& mesh, const EdgeGraph& graph, const std::vector<int>& marks) {
+  Path best;
+  for (int first = 0; first < 4; ++first) {
+    for (int second = first + 1; second < 4; ++second) {
+      const Path path = path_through_four(graph, marks, first, second);
+      if (!path.empty() && (best.empty() || straight_length(mesh, path) < straight_length(mesh, best)))
+        best = path;
+    }
+  }
+  if (best.empty()) throw no_path(marks[0], marks[1]);
+  return best;
+}
+
+Path path_through(const Mesh& mesh, const EdgeGraph& graph, const std::vector<int>& marks,
+                  std::uint64_t seed) {
+  if (marks.size() == 2) return path_through_two(graph, marks);
+  if (marks.size() == 3) return path_through_three(mesh, graph, marks, seed);
+  return shortest_path_through_four(mesh, graph, marks);
+}
+
+// A half-edge that leaves each vertex (-1 where no face uses it); at boundary vertices the one on the
+// boundary.
+std::vector<int> outgoing_halfedges(const Faces& F, const std::vector<int>& opposite, int vertex_count) {
+  std::vector<int> result(vertex_count, -1);
+  for (int h = 0; h < static_cast<int>(F.size()); ++h) {
+    int& out = result[origin(F, h)];
+    if (out < 0 || opposite[h] < 0) out = h;
+  }
+  return result;
+}
+
+void check_marks(const std::vector<int>& marks, const std::vector<int>& outgoing) {
+  const int n = static_cast<int>(outgoing.size());
+  for (std::size_t k = 0; k < marks.size(); ++k) {
+    if (marks[k] < 0 || marks[k] >= n)
+      throw MeshError(fmt::format("the marked vertex {} is out of range; the mesh has the vertices 0 to {}",
+                                  marks[k], n - 1));
+    if (std::count(marks.begin(), marks.begin() + k, marks[k]))
+      throw MeshError(fmt::format("the vertex {} is marked twice; mark different vertices", marks[k]));
+    if (outgoing[marks[k]] < 0)
+      throw MeshError(
+          fmt::format("the marked vertex {} belongs to no face; mark a vertex of the surface", marks[k]));
+  }
+}
+
+void check_marks_of_disk(const std::vector<int>& marks, int inner_marks,
+                         const std::vector<char>& on_boundary) {
+  if (marks.empty()) throw MeshError("no vertex is marked on the boundary of the disk; mark one or more");
+  for (int k = 0; k < static_cast<int>(marks.size()); ++k) {
+    if (k >= inner_marks && !on_boundary[marks[k]])
+      throw MeshError(
+          fmt::format("the marked vertex {} is inside the disk; mark a vertex on its boundary", marks[k]));
+    if (k < inner_marks && on_boundary[marks[k]])
+      throw MeshError(
+          fmt::format("the marked vertex {} is on the boundary of the disk; mark a vertex inside", marks[k]));
+  }
+  if (inner_marks > 1 || (inner_marks == 1 && marks.size() > 2))
+    throw MeshError(
+        fmt::format("{} of {} marked vertices are inside the disk; mark one inside, and at most one on the "
+                    "boundary",
+                    inner_marks, marks.size()));
+}
+
+void check_number_of_marks(const std::vector<int>& marks, bool one_sided) {
+  const std::size_t fewest = one_sided ? 1 : 2, most = one_sided ? 1 : 4;
+  if (marks.size() < fewest || marks.size() > most)
+    throw MeshError(fmt::format("{} marked vertices on a {}", marks.size(),
+                                one_sided ? "projective plane; mark one" : "sphere; mark two to four"));
+}
+
+// From the mark inside a disk to the nearest vertex of the boundary that is not marked; a path that met the
+// boundary before its end would cut the disk into two.
+Path path_to_boundary(EdgeGraph graph, const std::vector<int>& marks, const std::vector<char>& on_boundary) {
+  std::vector<int> to;
+  for (int v = 0; v < graph.vertex_count(); ++v)
+    if (on_boundary[v] && std::find(marks.begin(), marks.end(), v) == marks.end()) to.push_back(v);
+  graph.dead_end = on_boundary;
+  Path path = shortest_path(graph, marks[0], to);
+  if (path.empty())
+    throw MeshError(fmt::format(
+        "no edge path leads from the marked vertex {} to the boundary; mark another vertex", marks[0]));
+  return path;
+}
+
+struct CutPath {
+  Path vertices;
+  std::vector<int> edges;
+};
+
+CutPath with_edges(Path path, const EdgeGraph& graph) {
+  CutPath result = {std::move(path), {}};
+  for (std::size_t k = 1; k < result.vertices.size(); ++k)
+    result.edges.push_back(edge_between(graph, result.vertices[k - 1], result.vertices[k]));
+  return result;
+}
+
+// Half-edge h of a face whose second and third vertex have been exchanged.
+int turned_halfedge(int h) { return h - h % 3 + (2 - h % 3); }
+
+// The input mesh, its faces turned over where they would not agree on the disk, and its half-edges opened
+// along the cut's edges.
+struct OpenedMesh {
+  CutMesh cut;
+  std::vector<int> opposite;  // -1 on the boundary and at the cut
+};
+
+CutMesh uncut(const Mesh& mesh, const Connectivity& connectivity) {
+  CutMesh cut;
+  cut.F = mesh.F;
+  cut.edge_of = connectivity.edge_of;
+  cut.source_vertex.resize(mesh.V.rows());
+  for (int v = 0; v < cut.vertex_count(); ++v) cut.source_vertex[v] = v;
+  return cut;
+}
+
+OpenedMesh opened_along(const CutPath& path, const Mesh& mesh, const Connectivity& connectivity) {
+  OpenedMesh result = {uncut(mesh, connectivity), connectivity.opposite};
+  if (path.edges.empty()) return result;
+  std::vector<char> is_cut(connectivity.edges.size(), 0);
+  for (const int e : path.edges) is_cut[e] = 1;
+  parallel_ranges(static_cast<int>(result.opposite.size()), [&](int begin, int end) {
+    for (int h = begin; h < end; ++h)
+      if (const int e = connectivity.edge_of[h]; e >= 0 && is_cut[e]) result.opposite[h] = -1;
+  });
+  return result;
+}
+
+// Turns faces over so that all agree, where the surface has no orientation that they could have had from the
+// first.
+void turn_faces(OpenedMesh& mesh) {
+  const Faces F = mesh.cut.F;
+  mesh.cut.F = agreeing_faces(F, mesh.opposite);
+  for (Eigen::Index f = 0; f < F.rows(); ++f) mesh.cut.turned.push_back(mesh.cut.F(f, 1) != F(f, 1));
+  const std::vector<int> edge_of = mesh.cut.edge_of, opposite = mesh.opposite;
+  const auto moved = [&](int h) { return mesh.cut.turned[h / 3] ? turned_halfedge(h) : h; };
+  for (int h = 0; h < static_cast<int>(opposite.size()); ++h) {
+    mesh.cut.edge_of[moved(h)] = edge_of[h];
+    mesh.opposite[moved(h)] = opposite[h] < 0 ? -1 : moved(opposite[h]);
+  }
+}
+
+// The first half-edge on the boundary of the opened mesh that leaves a vertex.
+int boundary_halfedge(int v, const OpenedMesh& mesh) {
+  int h = 0;
+  while (mesh.opposite[h] >= 0 || origin(mesh.cut.F, h) != v) ++h;
+  return h;
+}
+
+// Gives the faces between the boundary half-edge `begin` and the one that arrives at its origin another
+// vertex there.
+void renumber_sector(int begin, int vertex, const std::vector<int>& opposite, Faces& F) {
+  for (int h = begin; h >= 0; h = opposite[previous_halfedge(h)]) F.data()[h] = vertex;
+}
+
+// Follows the boundary of the opened mesh from a vertex. Where it passes a vertex for the first time, the
+// faces there keep its index; at every further time they get a copy of it.
+CutMesh split_along_boundary(int from, OpenedMesh mesh) {
+  CutMesh& cut = mesh.cut;
+  const int start = boundary_halfedge(from, mesh);
+  std::vector<char> passed(cut.source_vertex.size(), 0);
+  int h = start;
+  do {
+    const int v = origin(cut.F, h);
+    int vertex = v;
+    if (passed[v]) {
+      vertex = cut.vertex_count();
+      cut.source_vertex.push_back(v);
+    }
+    passed[v] = 1;
+    renumber_sector(h, vertex, mesh.opposite, cut.F);
+    cut.boundary.push_back(vertex);
+    h = next_halfedge(h);
+    while (mesh.opposite[h] >= 0) h = next_halfedge(mesh.opposite[h]);
+  } while (h != start);
+  return std::move(cut);
+}
+
+std::vector<int> order_met(const std::vector<int>& boundary, const std::vector<int>& source,
+                           const std::vector<int>& marks) {
+  std::unordered_map<int, int> mark_of;
+  for (std::size_t k = 0; k < marks.size(); ++k) mark_of[marks[k]] = static_cast<int>(k);
+  std::vector<int> order;
+  for (const int v : boundary) {
+    const auto mark = mark_of.find(source[v]);
+    if (mark == mark_of.end()) continue;
+    order.push_back(mark->second);
+    mark_of.erase(mark);
+  }
+  return order;
+}
+
+}  // namespace
+
+EdgeGraph edge_length_graph(const Mesh& mesh, const Connectivity& connectivity) {
+  EdgeGraph graph = {neighbors(connectivity.edges, static_cast<int>(mesh.V.rows())),
+                     std::vector<double>(connectivity.edges.size()),
+                     {}};
+  const double total = parallel_sum(static_cast<int>(graph.length.size()), [&](int e) {
+    const auto [i, j] = connectivity.edges[e];
+    return graph.length[e] = straight_distance(mesh, i, j);
+  });
+  const double tiny = total > 0 ? 1e-6 * total / static_cast<double>(graph.length.size()) : 1.0;
+  for (double& length : graph.length) length += tiny;
+  return graph;
+}
+
+CutMesh cut_to_disk(const Mesh& mesh, const Connectivity& connectivity, const std::vector<int>& marks,
+                    int inner_marks, const CutOptions& options) {
+  const std::vector<int>& opposite = connectivity.opposite;
+  const std::vector<int> outgoing = outgoing_halfedges(mesh.F, opposite, static_cast<int>(mesh.V.rows()));
+  check_marks(marks, outgoing);
+  std::vector<char> on_boundary(outgoing.size(), 0);
+  for (std::size_t v = 0; v < outgoing.size(); ++v)
+    on_boundary[v] = outgoing[v] >= 0 && opposite[outgoing[v]] < 0;
+  const bool closed = std::find(on_boundary.begin(), on_boundary.end(), 1) == on_boundary.end();
+  const bool one_sided = closed && has_turned_faces(mesh.F, opposite);
+  if (closed) check_number_of_marks(marks, one_sided);
+  if (!closed) check_marks_of_disk(marks, inner_marks, on_boundary);
+  CutPath path = {{marks[0]}, {}};  // of a disk that is not cut
+  if (closed || inner_marks > 0) {
+    EdgeGraph graph = edge_length_graph(mesh, connectivity);
+    perturb_lengths(graph, options.seed);
+    path = with_edges(one_sided ? one_sided_loop(graph, mesh.F, connectivity, marks[0])
+                      : closed  ? path_through(mesh, graph, marks, options.seed)
+                                : path_to_boundary(graph, marks, on_boundary),
+                      graph);
+  }
+  OpenedMesh opened = opened_along(path, mesh, connectivity);
+  if (one_sided) turn_faces(opened);
+  CutMesh cut = split_along_boundary(path.vertices.front(), std::move(opened));
+  cut.marks = marks;
+  if (!closed && inner_marks > 0) cut.marks.push_back(path.vertices.back());
+  cut.arrangement = order_met(cut.boundary, cut.source_vertex, cut.marks);
+  return cut;
+}
+
+}  // namespace orbitutte

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+// One-sided loops are the paths of the orientable double cover from a vertex to its other lift.
+#include "orbitutte/cut/one_sided_loop.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <unordered_map>
+
+#include "orbitutte/mesh/disjoint_sets.h"
+#include "orbitutte/parallel.h"
+
+namespace orbitutte {
+namespace {
+
+bool same_direction(const Faces& F, int h, int other) { return origin(F, h) == origin(F, other); }
+
+// The corner of the same face and the sheet of the double cover, 0 or 1, as one number.
+int lift(int h, int sheet) { return 2 * h + sheet; }
+
+// Corners of the double cover that are one vertex there: sheet 0 holds every face as it is, sheet 1 turned
+// over, and where faces run along an edge in the same direction, crossing it changes the sheet.
+DisjointSets vertices_of_double_cover(const Faces& F, const std::vector<int>& opposite) {
+  DisjointSets vertices(2 * static_cast<int>(F.size()));
+  for (int h = 0; h < static_cast<int>(F.size()); ++h) {
+    const int other = opposite[h];
+    const bool same = same_direction(F, h, other);
+    const int at_origin = same ? other : next_halfedge(other),
+              at_target = same ? next_halfedge(other) : other;
+    for (const int sheet : {0, 1}) {
+      vertices.unite(lift(h, sheet), lift(at_origin, sheet ^ same));
+      vertices.unite(lift(next_halfedge(h), sheet), lift(at_target, sheet ^ same));
+    }
+  }
+  return vertices;
+}
+
+// Per edge: does it join different lifts of its ends? The lift 0 of a vertex is that of its first corner.
+std::vector<char> lift_changes(const Faces& F, const Connectivity& connectivity, int vertex_count) {
+  DisjointSets vertices = vertices_of_double_cover(F, connectivity.opposite);
+  std::vector<int> first(vertex_count, -1);
+  for (int h = 0; h < static_cast<int>(F.size()); ++h)
+    if (first[origin(F, h)] < 0) first[origin(F, h)] = vertices.find(lift(h, 0));
+  const auto lift_of = [&](int h) { return vertices.find(lift(h, 0)) != first[origin(F, h)]; };
+  std::vector<char> changes(connectivity.edges.size());
+  for (int h = 0; h < static_cast<int>(F.size()); ++h)
+    if (const int e = connectivity.edge_of[h]; e >= 0) changes[e] = lift_of(h) != lift_of(next_halfedge(h));
+  return changes;
+}
+
+std::vector<std::array<int, 2>> edges_of(const EdgeGraph& graph) {
+  std::vector<std::array<int, 2>> edges(graph.length.size());
+  for (int v = 0; v < graph.vertex_count(); ++v)
+    for (int k = graph.neighbors.start[v]; k < graph.neighbors.start[v + 1]; ++k)
+      if (v < graph.neighbors.neighbor[k]) edges[graph.neighbors.edge[k]] = {v, graph.neighbors.neighbor[k]};
+  return edges;
+}
+
+// Vertex v has the lifts v and n + v.
+EdgeGraph double_cover(const EdgeGraph& graph, const std::vector<char>& changes) {
+  const int n = graph.vertex_count();
+  std::vector<std::array<int, 2>> edges;
+  EdgeGraph cover;
+  const std::vector<std::array<int, 2>> ends = edges_of(graph);
+  for (std::size_t e = 0; e < ends.size(); ++e) {
+    const auto [i, j] = ends[e];
+    edges.push_back({i, changes[e] ? n + j : j});
+    edges.push_back({n + i, changes[e] ? j : n + j});
+    cover.length.insert(cover.length.end(), 2, graph.length[e]);
+  }
+  cover.neighbors = neighbors(edges, 2 * n);
+  return cover;
+}
+
+// The shortest closed part of a path between its first and last vertex: no vertex comes twice in it.
+Path innermost_loop(const Path& path) {
+  std::unordered_map<int, std::size_t> last;
+  std::size_t begin = 0, end = path.size() - 1;
+  for (std::size_t k = 0; k < path.size(); ++k) {
+    const auto [at, is_new] = last.try_emplace(path[k], k);
+    if (!is_new && k - at->second < end - begin) begin = at->second, end = k;
+    at->second = k;
+  }
+  return {path.begin() + static_cast<std::ptrdiff_t>(begin),
+          path.begin() + static_cast<std::ptrdiff_t>(end) + 1};
+}
+
+// Two paths from a vertex to different vertices of a loop that share nothing but that vertex: the loop's
+// vertices are joined to two further ones, by edges of no length.
+std::array<Path, 2> paths_to_loop(const EdgeGraph& graph, int vertex, const Path& loop) {
+  const int n = graph.vertex_count();
+  std::vector<std::array<int, 2>> edges = edges_of(graph);
+  EdgeGraph joined;
+  joined.length = graph.length;
+  for (std::size_t k = 1; k < loop.size(); ++k) {
+    for (const int sink : {n, n + 1}) {
+      edges.push_back({loop[k], sink});
+      joined.length.push_back(0);
+    }
+  }
+  joined.neighbors = neighbors(edges, n + 2);
+  std::array<Path, 2> paths = disjoint_paths(joined, vertex, {n, n + 1});
+  for (Path& path : paths) path.pop_back();
+  return paths;
+}
+
+bool turns_over(const Path& path, const EdgeGraph& graph, const std::vector<char>& changes) {
+  bool turned = false;
+  for (std::size_t k = 1; k < path.size(); ++k)
+    turned ^= changes[edge_between(graph, path[k - 1], path[k])] != 0;
+  return turned;
+}
+
+Path concatenated(Path first, const Path& second) {
+  first.insert(first.end(), second.begin() + 1, second.end());
+  return first;
+}
+
+// Around a loop from the end of one path to the end of the other, and back to where they come from.
+Path closed_along(const std::array<Path, 2>& paths, Path loop) {
+  loop.pop_back();
+  std::rotate(loop.begin(), std::find(loop.begin(), loop.end(), paths[0].back()), loop.end());
+  const auto end = std::find(loop.begin(), loop.end(), paths[1].back());
+  return concatenated(concatenated(paths[0], Path(loop.begin(), end + 1)),
+                      Path(paths[1].rbegin(), paths[1].rend()));
+}
+
+}  // namespace
+
+bool has_turned_faces(const Faces& F, const std::vector<int>& opposite) {
+  return parallel_max(static_cast<int>(F.size()), [&](int h) {
+           return opposite[h] >= 0 && same_direction(F, h, opposite[h]) ? 1.0 : 0.0;
+         }) > 0;
+}
+
+Path one_sided_loop(const EdgeGraph& graph, const Faces& F, const Connectivity& connectivity, int vertex) {
+  const int n = graph.vertex_count();
+  const std::vector<char> changes = lift_changes(F, connectivity, n);
+  Path path = shortest_path(double_cover(graph, changes), vertex, {n + vertex});
+  if (path.empty()) throw std::logic_error("the surface has an orientation");
+  for (int& v : path) v %= n;
+  const Path loop = innermost_loop(path);
+  if (loop.size() == path.size()) return path;
+  const std::array<Path, 2> paths = paths_to_loop(graph, vertex, loop);
+  // Of the two ways around the loop, which differ by the whole of it, one turns the orientation over.
+  const Path one_way = closed_along(paths, loop);
+  return turns_over(one_way, graph, changes) ? one_way
+                                             : closed_along(paths, Path(loop.rbegin(), loop.rend()));
+}
+
+Faces agreeing_faces(const Faces& F, const std::vector<int>& opposite) {
+  std::vector<char> turned(F.rows(), 0), met(F.rows(), 0);
+  std::vector<int> front = {0};
+  met[0] = 1;
+  while (!front.empty()) {
+    const int f = front.back();
+    front.pop_back();
+    for (int h = 3 * f; h < 3 * f + 3; ++h) {
+      const int other = opposite[h];
+      if (other < 0 || met[other / 3]) continue;
+      met[other / 3] = 1;
+      turned[other / 3] = turned[f] != same_direction(F, h, other);
+      front.push_back(other / 3);
+    }
+  }
+  Faces result = F;
+  for (Eigen::Index f = 0; f < F.rows(); ++f)
+    if (turned[f]) std::swap(result(f, 1), result(f, 2));
+  return result;
+}
+
+}  // namespace orbitutte

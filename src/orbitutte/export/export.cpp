@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/export/export.h"
+
+#include <fmt/compile.h>
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <iterator>
+#include <span>
+#include <utility>
+
+#include "orbitutte/export/cut_triangles.h"
+#include "orbitutte/export/export_files.h"
+#include "orbitutte/export/file_ending.h"
+#include "orbitutte/export/gltf_model.h"
+#include "orbitutte/io/file.h"
+#include "orbitutte/io/ply.h"
+#include "orbitutte/io/ply_triangles.h"
+
+namespace orbitutte {
+namespace {
+
+// Has face f of the cut mesh the corners of the input's, in either direction from the same one on?
+bool is_cut_face(const PolygonMesh& mesh, const Embedding& embedding, int f) {
+  const std::span<const int> cut = embedding.input_faces()[f];
+  const int first = mesh.face_start[f], degree = mesh.face_degree(f);
+  if (static_cast<int>(cut.size()) != degree) return false;
+  const int vertices = static_cast<int>(embedding.source_vertex.size());
+  for (const int v : cut)
+    if (v < 0 || v >= vertices) return false;
+  for (int k = 0; k < degree; ++k)
+    if (embedding.source_vertex[cut[cut_corner(mesh, embedding, f, k)]] != mesh.corners[first + k])
+      return false;
+  return true;
+}
+
+bool is_cut_from(const PolygonMesh& mesh, const Embedding& embedding) {
+  const auto vertices = static_cast<Eigen::Index>(embedding.source_vertex.size());
+  if (embedding.positions.rows() != vertices || vertices < mesh.V.rows()) return false;
+  if (embedding.input_faces().count() != mesh.face_count()) return false;
+  for (int f = 0; f < mesh.face_count(); ++f)
+    if (!is_cut_face(mesh, embedding, f)) return false;
+  return true;
+}
+
+// The row of texture coordinates of every corner of the input.
+std::vector<int> texture_rows(const ExportedModel& model) {
+  std::vector<int> rows;
+  rows.reserve(model.mesh.corners.size());
+  for (int f = 0; f < model.mesh.face_count(); ++f) {
+    const int first = model.mesh.face_start[f];
+    for (int k = 0; k < model.mesh.face_degree(f); ++k)
+      rows.push_back(model.texture.of_corner[first + cut_corner(model.mesh, model.embedding, f, k)]);
+  }
+  return rows;
+}
+
+// The mean of the normals of the triangles around every input vertex, weighted by their areas.
+Points vertex_normals(const ExportedModel& model) {
+  const Points& V = model.mesh.V;
+  Points normals = Points::Zero(V.rows(), 3);
+  for (const auto& corners : model.triangles.rowwise()) {
+    const auto v = corners.unaryExpr([&](int corner) { return model.mesh.corners[corner]; }).eval();
+    const Vector3 a = V.row(v[0]), b = V.row(v[1]), c = V.row(v[2]);
+    const Vector3 normal = (b - a).cross(c - a);
+    for (int k = 0; k < 3; ++k) normals.row(v[k]) += normal.transpose();
+  }
+  for (Eigen::Index v = 0; v < normals.rows(); ++v) {
+    const double length = normals.row(v).norm();
+    normals.row(v) = length > 0 ? Eigen::RowVector3d(normals.row(v) / length) : Eigen::RowVector3d(0, 0, 1);
+  }
+  return normals;
+}
+
+// The source vertex of every row of texture coordinates.
+std::vector<int> source_of_texture_vertex(const ExportedModel& model, const std::vector<int>& rows) {
+  std::vector<int> source = model.embedding.source_vertex;
+  source.resize(model.texture.uv.rows(), 0);
+  for (std::size_t corner = 0; corner < rows.size(); ++corner)
+    source[rows[corner]] = model.mesh.corners[corner];
+  return source;
+}
+
+double triangle_area(const Mesh& mesh, Eigen::Index t) {
+  const Vector3 a = mesh.V.row(mesh.F(t, 0)), b = mesh.V.row(mesh.F(t, 1)), c = mesh.V.row(mesh.F(t, 2));
+  return (b - a).cross(c - a).norm() / 2;
+}
+
+// The means over a range of triangles, by their areas in the source. What was left out does
+// not count.
+FaceDistortion mean_distortion(const Mesh& mesh, const std::vector<FaceDistortion>& of_triangle,
+                               std::pair<Eigen::Index, Eigen::Index> range) {
+  FaceDistortion mean;
+  double area = 0;
+  for (Eigen::Index t = range.first; t < range.second; ++t) {
+    if (!(of_triangle[t].area > 0)) continue;
+    const double share = triangle_area(mesh, t);
+    mean.area += share * of_triangle[t].area;
+    mean.angle += share * of_triangle[t].angle;
+    area += share;
+  }
+  if (area > 0) mean.area /= area, mean.angle /= area;
+  return mean;
+}
+
+std::vector<FaceDistortion> distortion_of_faces(const PolygonMesh& polygons, const Mesh& mesh,
+                                                const std::vector<FaceDistortion>& of_triangle) {
+  std::vector<FaceDistortion> result;
+  Eigen::Index t = 0;
+  for (int f = 0; f < polygons.face_count(); ++f) {
+    const Eigen::Index end = t + polygons.face_degree(f) - 2;
+    result.push_back(end == t + 1 ? of_triangle[t] : mean_distortion(mesh, of_triangle, {t, end}));
+    t = end;
+  }
+  return result;
+}
+
+// From blue (shrunk) by white to red (stretched), a factor of 8 at the ends: the diverging map of K. Moreland
+// (2009) in straight lines.
+Rgb distortion_colour(double log_area) {
+  const double t = std::clamp(log_area / 3, -1.0, 1.0);
+  const auto between = [&](double end) {
+    return static_cast<std::uint8_t>(std::lround(245 + (end - 245) * std::abs(t)));
+  };
+  return t < 0 ? Rgb{between(59), between(76), between(192)} : Rgb{between(180), between(4), between(38)};
+}
+
+PlyProperty floats(const std::string& name, std::vector<double> values) {
+  return {name, PlyType::float32, false, PlyType::uint8, std::move(values), {}};
+}
+
+PlyProperty doubles(const std::string& name, const Eigen::VectorXd& values) {
+  return {name, PlyType::float64, false, PlyType::uint8, {values.begin(), values.end()}, {}};
+}
+
+PlyProperty faces_of(const PolygonMesh& mesh) {
+  const PlyType count_type = corner_count_type(FaceView(mesh.corners, mesh.face_start));
+  PlyProperty property = {"vertex_indices", PlyType::int32, true, count_type, {}, {}};
+  property.values.assign(mesh.corners.begin(), mesh.corners.end());
+  property.list_start.assign(mesh.face_start.begin(), mesh.face_start.end());
+  return property;
+}
+
+}  // namespace
+
+std::vector<double> face_quality(const ExportedModel& model) {
+  std::vector<double> quality;
+  for (const FaceDistortion& face : model.of_face)
+    quality.push_back(face.area > 0 ? std::log2(face.area) : 0.0);
+  return quality;
+}
+
+std::vector<double> vertex_quality(const ExportedModel& model) {
+  const std::vector<double> of_face = face_quality(model);
+  const PolygonMesh& mesh = model.mesh;
+  std::vector<double> sum(mesh.vertex_count(), 0.0), count(sum);
+  for (int f = 0; f < mesh.face_count(); ++f) {
+    for (int c = mesh.face_start[f]; c < mesh.face_start[f + 1]; ++c) {
+      sum[mesh.corners[c]] += of_face[f];
+      ++count[mesh.corners[c]];
+    }
+  }
+  for (std::size_t v = 0; v < sum.size(); ++v)
+    if (count[v] > 0) sum[v] /= count[v];
+  return sum;
+}
+
+std::string obj_text(const ExportedModel& model) {
+  std::string text = "# texture coordinates: orbitutte embedding " + model.embedding.signature + "\n";
+  const auto out = std::back_inserter(text);
+  const PolygonMesh& mesh = model.mesh;
+  const std::vector<int> rows = texture_rows(model);
+  // The shortest decimals that read back as the same doubles.
+  for (const auto& p : mesh.V.rowwise()) fmt::format_to(out, FMT_COMPILE("v {} {} {}\n"), p[0], p[1], p[2]);
+  for (const auto& p : model.texture.uv.rowwise()) fmt::format_to(out, FMT_COMPILE("vt {} {}\n"), p[0], p[1]);
+  for (int f = 0; f < mesh.face_count(); ++f) {
+    text += "f";
+    for (int c = mesh.face_start[f]; c < mesh.face_start[f + 1]; ++c)
+      fmt::format_to(out, FMT_COMPILE(" {}/{}"), mesh.corners[c] + 1LL, rows[c] + 1LL);
+    text += "\n";
+  }
+  return text;
+}
+
+std::string glb_bytes(const ExportedModel& model) {
+  const std::vector<int> rows = texture_rows(model), source = source_of_texture_vertex(model, rows);
+  check_glb_size(44 * source.size() + 12 * static_cast<std::size_t>(model.triangles.rows()), "the model");
+  const Points normals_of_input = vertex_normals(model);
+  const std::vector<double> quality = vertex_quality(model);
+  const auto count = static_cast<Eigen::Index>(source.size());
+  Points positions(count, 3), normals(count, 3);
+  std::vector<Rgb> colours;
+  for (Eigen::Index v = 0; v < count; ++v) {
+    positions.row(v) = model.mesh.V.row(source[v]);
+    normals.row(v) = normals_of_input.row(source[v]);
+    colours.push_back(distortion_colour(quality[source[v]]));
+  }
+  std::vector<std::uint32_t> indices;
+  for (const int corner : model.triangles.reshaped<Eigen::RowMajor>())
+    indices.push_back(static_cast<std::uint32_t>(rows[corner]));
+  GltfModel gltf;
+  const std::map<std::string, int> attributes = {
+      {"POSITION", gltf.add_positions(positions)},
+      {"NORMAL", gltf.add_vectors(normals)},
+      {"TEXCOORD_0", gltf.add_texture_coordinates(model.texture.uv)},
+      {"COLOR_0", gltf.add_colours(colours)}};
+  const int triangles_of_model = gltf.add_triangles(indices);
+  gltf.add_primitive(attributes, triangles_of_model,
+                     gltf.add_material("distortion", {255, 255, 255}, GltfModel::Sides::both));
+  return gltf.bytes();
+}
+
+std::string ply_bytes(const ExportedModel& model) {
+  const PolygonMesh& mesh = model.mesh;
+  const PlyElement vertex = {"vertex",
+                             static_cast<std::size_t>(mesh.V.rows()),
+                             {doubles("x", mesh.V.col(0)), doubles("y", mesh.V.col(1)),
+                              doubles("z", mesh.V.col(2)), floats("quality", vertex_quality(model))}};
+  const PlyElement face = {"face",
+                           static_cast<std::size_t>(mesh.face_count()),
+                           {faces_of(mesh), floats("quality", face_quality(model))}};
+  return serialize_ply(
+      {{"quality: log2 of the area distortion of the orbitutte embedding " + model.embedding.signature},
+       {vertex, face}});
+}
+
+ExportedModel exported_model(const PolygonMesh& mesh, const Embedding& embedding, TextureChart chart) {
+  if (!is_cut_from(mesh, embedding)) throw MeshError("the embedding is none of this mesh");
+  const Triangulation triangulation = triangulate(mesh);
+  ExportedModel model = {mesh, triangulation.corners, embedding, texture_coordinates(embedding, chart), {}};
+  model.embedding.faces = cut_triangles(mesh, triangulation, embedding);
+  const Mesh triangles = {mesh.V, on_vertices(triangulation, mesh.corners)};
+  const std::vector<FaceDistortion> of_triangle = measure_faces(triangles, model.embedding);
+  model.of_face = distortion_of_faces(mesh, triangles, of_triangle);
+  return model;
+}
+
+ExportedModel exported_model(const Mesh& mesh, const Embedding& embedding, TextureChart chart) {
+  return exported_model(to_polygon_mesh(mesh), embedding, chart);
+}
+
+void write_model(const std::string& path, const ExportedModel& model) {
+  const std::string ending = lower_case_ending(path);
+  if (ending == ".obj") return write_file(path, obj_text(model));
+  if (ending == ".glb") return write_file(path, glb_bytes(model));
+  if (ending == ".ply") return write_file(path, ply_bytes(model));
+  if (ending == ".vtp") return write_file(path, vtp_text(model));
+  throw ArgumentError(fmt::format("{}: a model is written as .obj, .glb, .ply or .vtp", path));
+}
+
+}  // namespace orbitutte

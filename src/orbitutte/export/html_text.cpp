@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/export/html_text.h"
+
+#include <fmt/format.h>
+#include <openssl/evp.h>
+
+#include <algorithm>
+
+#include "orbitutte/types.h"
+
+namespace orbitutte {
+
+std::string escape_html(std::string_view text) {
+  std::string escaped;
+  escaped.reserve(text.size());
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      case '\'':
+        escaped += "&#39;";
+        break;
+      default:
+        escaped += c;
+    }
+  }
+  return escaped;
+}
+
+std::string base64(std::string_view bytes) {
+  constexpr std::size_t piece =
+      3 << 20;  // a multiple of three bytes, so that no piece but the last is padded
+  std::string text(4 * ((bytes.size() + 2) / 3) + 1, '\0');  // the encoder closes with a zero byte
+  std::size_t written = 0;
+  for (std::size_t from = 0; from < bytes.size(); from += piece) {
+    const std::size_t length = std::min(piece, bytes.size() - from);
+    written += static_cast<std::size_t>(EVP_EncodeBlock(
+        reinterpret_cast<unsigned char*>(text.data() + written),
+        reinterpret_cast<const unsigned char*>(bytes.data() + from), static_cast<int>(length)));
+  }
+  text.resize(written);
+  return text;
+}
+
+std::string fill_slots(std::string_view text, const std::map<std::string, std::string>& contents) {
+  std::string filled;
+  while (true) {
+    const std::size_t open = text.find("{{");
+    const std::size_t close = text.find("}}", open);
+    if (open == std::string_view::npos || close == std::string_view::npos) return filled.append(text);
+    const std::string slot(text.substr(open + 2, close - open - 2));
+    const auto at = contents.find(slot);
+    if (at == contents.end())
+      throw ArgumentError(fmt::format("the template's slot '{}' has no content", slot));
+    filled.append(text.substr(0, open)).append(at->second);
+    text.remove_prefix(close + 2);
+  }
+}
+
+std::string grouped_digits(long long count) {
+  std::string digits = std::to_string(count);
+  const std::size_t first = count < 0 ? 1 : 0;
+  for (std::size_t at = digits.size(); at > first + 3; at -= 3) digits.insert(at - 3, 1, ',');
+  return digits;
+}
+
+}  // namespace orbitutte

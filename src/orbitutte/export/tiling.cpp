@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/export/tiling.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <limits>
+
+#include "orbitutte/mesh/disjoint_sets.h"
+#include "orbitutte/orbifold/symmetry_group.h"
+
+namespace orbitutte {
+namespace {
+
+void check_vertices(const std::vector<int>& vertices, int count) {
+  for (const int v : vertices)
+    if (v < 0 || v >= count)
+      throw ArgumentError(fmt::format("a seam names vertex {} of {} cut vertices", v, count));
+}
+
+/// What an embedding that was read from files might get wrong.
+void check_embedding(const Embedding& embedding) {
+  const int vertices = static_cast<int>(embedding.positions.rows());
+  if (!embedding.positions.allFinite())
+    throw ArgumentError("the embedding has positions that are not finite");
+  if (embedding.source_vertex.size() != static_cast<std::size_t>(vertices))
+    throw ArgumentError("the embedding does not name a source vertex for every cut vertex");
+  if (embedding.faces.size() > 0 &&
+      (embedding.faces.minCoeff() < 0 || embedding.faces.maxCoeff() >= vertices))
+    throw ArgumentError("a face of the embedding names a vertex that does not exist");
+  for (const Seam& seam : embedding.seams) {
+    if (seam.left.size() != seam.right.size())
+      throw ArgumentError("the two banks of a seam differ in length");
+    check_vertices(seam.left, vertices);
+    check_vertices(seam.right, vertices);
+  }
+  if (embedding.seams.empty())
+    throw ArgumentError(
+        "the embedding has no seams, as one into a fixed polygon has none: there are no symmetric copies "
+        "that would "
+        "tile the sphere");
+  const auto corners = static_cast<long long>(embedding.polygons.corners.size());
+  const long long largest = std::max<long long>({vertices, embedding.faces.rows(), corners});
+  if (largest * std::max(embedding.group_order, 1) > std::numeric_limits<int>::max())
+    throw ArgumentError(fmt::format("{} copies of {} faces are more than an int can count",
+                                    embedding.group_order, embedding.faces.rows()));
+}
+
+SymmetryGroup symmetry_group(const Embedding& embedding) {
+  std::vector<Matrix3> generators;
+  for (const Seam& seam : embedding.seams) generators.push_back(seam.transform);
+  SymmetryGroup group(generators, embedding.group_order);
+  if (group.order() != embedding.group_order)
+    throw ArgumentError(
+        fmt::format("the transforms of the seams generate {} symmetries, but the orbifold has {}",
+                    group.order(), embedding.group_order));
+  return group;
+}
+
+/// across[s][g]: the copy that meets the left bank of seam s of copy g, with its right bank.
+std::vector<std::vector<int>> copies_across_seams(const Embedding& embedding, const SymmetryGroup& group) {
+  std::vector<std::vector<int>> across;
+  for (const Seam& seam : embedding.seams) across.push_back(group.right_products(seam.transform));
+  return across;
+}
+
+/// For every copy a colour that no neighbour has: the first one free, copy by copy.
+std::vector<int> greedy_colours(const std::vector<std::vector<int>>& across, int tiles) {
+  std::vector<std::vector<int>> neighbours(tiles);
+  for (const std::vector<int>& copies : across) {
+    for (int g = 0; g < tiles; ++g) {
+      if (copies[g] == g) continue;
+      neighbours[g].push_back(copies[g]);
+      neighbours[copies[g]].push_back(g);
+    }
+  }
+  std::vector<int> colour(tiles, -1);
+  for (int g = 0; g < tiles; ++g) {
+    const auto taken = [&](int c) {
+      return std::any_of(neighbours[g].begin(), neighbours[g].end(), [&](int h) { return colour[h] == c; });
+    };
+    int c = 0;
+    while (taken(c)) ++c;
+    colour[g] = c;
+  }
+  return colour;
+}
+
+std::vector<TileCopy> tile_copies(const SymmetryGroup& group, const std::vector<std::vector<int>>& across) {
+  const std::vector<int> colours = greedy_colours(across, group.order());
+  std::vector<TileCopy> copies;
+  copies.reserve(group.elements().size());
+  for (const Matrix3& g : group.elements())
+    copies.push_back({g, g.determinant() < 0, colours[copies.size()]});
+  return copies;
+}
+
+/// The vertices of the sphere. A vertex inside the tile has a copy in every tile; copies of vertices on seams
+/// coincide, and only these need sets. Vertices that no face uses have no copies at all.
+struct Welding {
+  std::vector<int> copied;    ///< the cut vertices that faces use, ascending
+  std::vector<int> on_seam;   ///< n_cut: numbers those of copied that are on seams, -1 for all others
+  int seam_vertices = 0;      ///< how many have such a number
+  std::vector<int> smallest;  ///< |G| x seam_vertices, copy by copy: the smallest member of its set
+  int vertices = 0;           ///< of the sphere
+};
+
+std::vector<char> vertices_in_faces(const Embedding& embedding) {
+  std::vector<char> used(embedding.positions.rows(), 0);
+  for (Eigen::Index f = 0; f < embedding.faces.rows(); ++f)
+    for (int k = 0; k < 3; ++k) used[embedding.faces(f, k)] = 1;
+  return used;
+}
+
+std::vector<char> vertices_in_seams(const Embedding& embedding) {
+  std::vector<char> used(embedding.positions.rows(), 0);
+  for (const Seam& seam : embedding.seams) {
+    for (const int v : seam.left) used[v] = 1;
+    for (const int v : seam.right) used[v] = 1;
+  }
+  return used;
+}
+
+/// Copy g of left[i] is copy across[g] of right[i].
+void unite_banks(const Seam& seam, const std::vector<int>& across, const Welding& welding,
+                 DisjointSets& sets) {
+  const int width = welding.seam_vertices;
+  for (std::size_t i = 0; i < seam.left.size(); ++i) {
+    const int left = welding.on_seam[seam.left[i]];
+    const int right = welding.on_seam[seam.right[i]];
+    if (left < 0 || right < 0) continue;
+    for (std::size_t g = 0; g < across.size(); ++g)
+      sets.unite(static_cast<int>(g) * width + left, across[g] * width + right);
+  }
+}
+
+Welding weld(const Embedding& embedding, const std::vector<std::vector<int>>& across) {
+  const std::vector<char> in_face = vertices_in_faces(embedding);
+  const std::vector<char> in_seam = vertices_in_seams(embedding);
+  Welding welding;
+  welding.on_seam.assign(in_face.size(), -1);
+  for (int v = 0; v < static_cast<int>(in_face.size()); ++v) {
+    if (in_face[v]) welding.copied.push_back(v);
+    if (in_face[v] && in_seam[v]) welding.on_seam[v] = welding.seam_vertices++;
+  }
+
+  DisjointSets sets(embedding.group_order * welding.seam_vertices);
+  for (std::size_t s = 0; s < across.size(); ++s) unite_banks(embedding.seams[s], across[s], welding, sets);
+
+  const int inside = static_cast<int>(welding.copied.size()) - welding.seam_vertices;
+  welding.vertices = embedding.group_order * inside;
+  welding.smallest.resize(embedding.group_order * welding.seam_vertices);
+  for (int i = 0; i < static_cast<int>(welding.smallest.size()); ++i) {
+    welding.smallest[i] = sets.find(i);
+    if (welding.smallest[i] == i) ++welding.vertices;
+  }
+  return welding;
+}
+
+/// A closed mesh of triangles has 3/2 as many edges as faces: Euler's V - E + F = 2 reads 2 V = F + 4.
+void check_sphere(long long vertices, long long faces) {
+  if (2 * vertices != faces + 4)
+    throw ArgumentError(
+        "the copies of the embedding do not close up into a sphere: its seams are not its whole boundary");
+}
+
+/// Appends the vertices of the tile's copies in turn, except those that an earlier copy has brought.
+class VertexSweep {
+ public:
+  VertexSweep(const Embedding& embedding, const Welding& welding, Tiling& tiling)
+      : embedding_(embedding),
+        welding_(welding),
+        tiling_(tiling),
+        vertex_of_(embedding.positions.rows(), -1),
+        vertex_of_set_(welding.smallest.size(), -1) {
+    tiling_.mesh.V.resize(welding.vertices, 3);
+    tiling_.source_vertex.resize(welding.vertices);
+  }
+
+  /// The vertices of the sphere at the cut vertices of copy g. Call for g = 0, 1, 2, ... in turn.
+  const std::vector<int>& copy(int g) {
+    for (const int v : welding_.copied) {
+      const int k = welding_.on_seam[v];
+      vertex_of_[v] = k < 0 ? append(g, v) : on_seam(g, v, g * welding_.seam_vertices + k);
+    }
+    return vertex_of_;
+  }
+
+ private:
+  /// The smallest member of a set is the first that the sweep meets.
+  int on_seam(int g, int v, int member) {
+    const int first = welding_.smallest[member];
+    if (first == member) vertex_of_set_[first] = append(g, v);
+    return vertex_of_set_[first];
+  }
+
+  int append(int g, int v) {
+    const Vector3 position = tiling_.copies[g].transform * embedding_.positions.row(v).transpose();
+    tiling_.mesh.V.row(next_) = position.normalized().transpose();
+    tiling_.source_vertex[next_] = embedding_.source_vertex[v];
+    return next_++;
+  }
+
+  const Embedding& embedding_;
+  const Welding& welding_;
+  Tiling& tiling_;
+  std::vector<int> vertex_of_;      // n_cut: of the present copy
+  std::vector<int> vertex_of_set_;  // |G| x seam vertices: at the smallest members
+  int next_ = 0;
+};
+
+/// The input face of every triangle of the embedding: a polygon of d corners has d - 2.
+std::vector<int> faces_of_triangles(const Embedding& embedding) {
+  const FaceView faces = embedding.input_faces();
+  std::vector<int> result;
+  result.reserve(embedding.faces.rows());
+  for (int f = 0; f < faces.count(); ++f) result.insert(result.end(), faces[f].size() - 2, f);
+  return result;
+}
+
+/// Appends the polygons of copy g, from the same corners; mirrored copies are turned over.
+void place_polygons(const Embedding& embedding, int g, const std::vector<int>& vertex_of, Tiling& tiling) {
+  std::vector<int>& corners = tiling.polygons.corners;
+  const FaceView polygons(embedding.polygons);
+  for (int f = 0; f < polygons.count(); ++f) {
+    const std::size_t begin = corners.size();
+    for (const int v : polygons[f]) corners.push_back(vertex_of[v]);
+    if (tiling.copies[g].mirrored)
+      std::reverse(corners.begin() + static_cast<std::ptrdiff_t>(begin) + 1, corners.end());
+    tiling.polygons.start.push_back(static_cast<int>(corners.size()));
+  }
+}
+
+/// Fills in the triangles of copy g; mirrored copies are turned over.
+void place_faces(const Embedding& embedding, int g, const std::vector<int>& vertex_of, Tiling& tiling) {
+  const Eigen::Index faces = embedding.faces.rows();
+  const int second = tiling.copies[g].mirrored ? 2 : 1;
+  for (Eigen::Index f = 0; f < faces; ++f) {
+    const Eigen::Index row = g * faces + f;
+    tiling.mesh.F(row, 0) = vertex_of[embedding.faces(f, 0)];
+    tiling.mesh.F(row, 1) = vertex_of[embedding.faces(f, second)];
+    tiling.mesh.F(row, 2) = vertex_of[embedding.faces(f, 3 - second)];
+    tiling.tile[row] = g;
+  }
+}
+
+}  // namespace
+
+std::vector<TileCopy> tile_copies(const Embedding& embedding) {
+  check_embedding(embedding);
+  const SymmetryGroup group = symmetry_group(embedding);
+  return tile_copies(group, copies_across_seams(embedding, group));
+}
+
+Tiling tile_sphere(const Embedding& embedding) {
+  check_embedding(embedding);
+  const SymmetryGroup group = symmetry_group(embedding);
+  const std::vector<std::vector<int>> across = copies_across_seams(embedding, group);
+  const Welding welding = weld(embedding, across);
+  const Eigen::Index faces = group.order() * embedding.faces.rows();
+  check_sphere(welding.vertices, faces);
+
+  Tiling tiling;
+  tiling.tiles = group.order();
+  tiling.copies = tile_copies(group, across);
+  tiling.mesh.F.resize(faces, 3);
+  tiling.tile.resize(faces);
+  const std::vector<int> source_face = faces_of_triangles(embedding);
+  tiling.source_face.reserve(faces);
+  VertexSweep sweep(embedding, welding, tiling);
+  for (int g = 0; g < tiling.tiles; ++g) {
+    const std::vector<int>& vertex_of = sweep.copy(g);
+    place_faces(embedding, g, vertex_of, tiling);
+    place_polygons(embedding, g, vertex_of, tiling);
+    tiling.source_face.insert(tiling.source_face.end(), source_face.begin(), source_face.end());
+  }
+  return tiling;
+}
+
+}  // namespace orbitutte

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+// Defects of single vertices and faces, and faces that are there twice.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <compare>
+#include <utility>
+
+#include "orbitutte/inspect/inspection_steps.h"
+
+namespace orbitutte::inspection {
+namespace {
+
+void report_indices(Surface& s, Inspection& result) {
+  int faces = 0, first = -1;
+  for (int c = 0; c < s.corner_count(); ++c) {
+    FaceState& state = s.state[s.face_of[c]];
+    if (in_range(s.mesh, s.mesh.corners[c]) || state == FaceState::malformed) continue;
+    state = FaceState::malformed;
+    if (faces++ == 0) first = c;
+  }
+  if (faces == 0) return;
+  add(result, DefectKind::index_out_of_range, faces,
+      fmt::format(
+          "face {} names vertex {}, but the vertices are numbered from 0 to {}{}; correct or remove the face",
+          s.face_of[first], s.mesh.corners[first], result.vertices - 1, such(faces, "faces")));
+}
+
+void report_positions(const PolygonMesh& mesh, Inspection& result) {
+  int vertices = 0, first = -1;
+  for (int v = 0; v < mesh.vertex_count(); ++v) {
+    if (mesh.V.row(v).allFinite()) continue;
+    if (vertices++ == 0) first = v;
+  }
+  if (vertices == 0) return;
+  const auto p = mesh.V.row(first);
+  add(result, DefectKind::non_finite_position, vertices,
+      fmt::format("vertex {} is at ({}, {}, {}){}; give it finite coordinates", first, p[0], p[1], p[2],
+                  such(vertices, "vertices")));
+}
+
+void report_corner_counts(Surface& s, Inspection& result) {
+  int faces = 0, first = -1;
+  for (int f = 0; f < result.faces; ++f) {
+    if (s.mesh.face_degree(f) >= 3) continue;
+    s.state[f] = FaceState::malformed;
+    if (faces++ == 0) first = f;
+  }
+  if (faces == 0) return;
+  const int degree = s.mesh.face_degree(first);
+  add(result, DefectKind::too_few_corners, faces,
+      fmt::format("face {} has {} corner{}{}; remove it, since a face needs three", first,
+                  degree == 0 ? "no" : std::to_string(degree), degree == 1 ? "" : "s", such(faces, "faces")));
+}
+
+// The corners of every face in ascending order of their vertices: faces with the same vertices have the same.
+std::vector<int> sorted_corners(const PolygonMesh& mesh) {
+  std::vector<int> corners = mesh.corners;
+  for (int f = 0; f < mesh.face_count(); ++f)
+    std::sort(corners.begin() + mesh.face_start[f], corners.begin() + mesh.face_start[f + 1]);
+  return corners;
+}
+
+void report_repeated_vertices(Surface& s, const std::vector<int>& sorted, Inspection& result) {
+  int faces = 0, first = -1, vertex = -1;
+  for (int f = 0; f < result.faces; ++f) {
+    const auto end = sorted.begin() + s.mesh.face_start[f + 1];
+    const auto repeated = std::adjacent_find(sorted.begin() + s.mesh.face_start[f], end);
+    if (repeated == end || s.mesh.face_degree(f) < 3) continue;
+    s.state[f] = FaceState::malformed;
+    if (faces++ == 0) first = f, vertex = *repeated;
+  }
+  if (faces == 0) return;
+  add(result, DefectKind::repeated_vertex, faces,
+      fmt::format("face {} names vertex {} more than once{}; correct the face or remove it", first, vertex,
+                  such(faces, "faces")));
+}
+
+// Well-formed faces in an order in which those with the same vertices are neighbours, the smallest face
+// first.
+std::vector<int> faces_by_vertices(const Surface& s, const std::vector<int>& sorted) {
+  const auto& start = s.mesh.face_start;
+  const auto smallest = [&](int f) { return s.well_formed(f) ? sorted[start[f]] : -1; };
+  Groups faces = group_by(s.mesh.face_count(), s.mesh.vertex_count(), smallest);
+  const auto before = [&](int f, int g) {
+    const auto order =
+        std::lexicographical_compare_three_way(sorted.begin() + start[f], sorted.begin() + start[f + 1],
+                                               sorted.begin() + start[g], sorted.begin() + start[g + 1]);
+    return std::is_eq(order) ? f < g : std::is_lt(order);
+  };
+  for (int v = 0; v < faces.size(); ++v)
+    std::sort(faces.items.begin() + faces.start[v], faces.items.begin() + faces.start[v + 1], before);
+  return std::move(faces.items);
+}
+
+void report_duplicates(Surface& s, const std::vector<int>& sorted, Inspection& result) {
+  const auto& start = s.mesh.face_start;
+  const auto same = [&](int f, int g) {
+    return std::equal(sorted.begin() + start[f], sorted.begin() + start[f + 1], sorted.begin() + start[g],
+                      sorted.begin() + start[g + 1]);
+  };
+  int duplicates = 0, original = -1;
+  std::pair<int, int> first = {result.faces, result.faces};
+  for (const int f : faces_by_vertices(s, sorted)) {
+    if (original < 0 || !same(original, f)) {
+      original = f;
+      continue;
+    }
+    s.state[f] = FaceState::duplicate;
+    s.has_double[original] = s.has_double[f] = 1;
+    first = std::min(first, {original, f});
+    ++duplicates;
+  }
+  if (duplicates == 0) return;
+  add(result, DefectKind::duplicate_face, duplicates,
+      fmt::format("faces {} and {} have the same vertices{}; remove one of them", first.first, first.second,
+                  such(duplicates, "faces")));
+}
+
+}  // namespace
+
+void inspect_faces(Surface& surface, Inspection& result) {
+  const std::vector<int> sorted = sorted_corners(surface.mesh);
+  report_indices(surface, result);
+  report_positions(surface.mesh, result);
+  report_corner_counts(surface, result);
+  report_repeated_vertices(surface, sorted, result);
+  report_duplicates(surface, sorted, result);
+}
+
+}  // namespace orbitutte::inspection

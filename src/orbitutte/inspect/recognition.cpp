@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/inspect/recognition.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <atomic>
+#include <limits>
+#include <stdexcept>
+
+#include "orbitutte/inspect/inspection.h"
+#include "orbitutte/mesh/disjoint_sets.h"
+#include "orbitutte/parallel.h"
+
+namespace orbitutte {
+namespace {
+
+// Does test(i) hold for all i of 0 .. count - 1?
+template <typename Test>
+bool all_of(int count, const Test& test) {
+  std::atomic<bool> holds = true;
+  parallel_ranges(count, [&](int begin, int end) {
+    for (int i = begin; i < end && holds; ++i)
+      if (!test(i)) holds = false;
+  });
+  return holds;
+}
+
+// Three different vertices of the mesh.
+bool names_a_triangle(const Mesh& mesh, int f) {
+  const int n = static_cast<int>(mesh.V.rows()), *v = mesh.F.data() + 3 * f;
+  return v[0] >= 0 && v[1] >= 0 && v[2] >= 0 && v[0] < n && v[1] < n && v[2] < n && v[0] != v[1] &&
+         v[1] != v[2] && v[2] != v[0];
+}
+
+// Is the edge of half-edge h on the boundary, or between two faces that run along it in opposite directions?
+bool is_manifold(const Faces& F, const Connectivity& connectivity, int h) {
+  const int other = connectivity.opposite[h];
+  return other < 0 || (connectivity.opposite[other] == h && origin(F, other) == target(F, h));
+}
+
+struct Fans {
+  std::vector<int> corners;  // of every vertex
+  std::vector<int>
+      outgoing;  // a half-edge that leaves it, on the boundary where there is one; -1: in no face
+};
+
+Fans fans_of(const Faces& F, const std::vector<int>& opposite, int vertex_count) {
+  Fans fans = {std::vector<int>(vertex_count, 0), std::vector<int>(vertex_count, -1)};
+  for (int h = 0; h < static_cast<int>(F.size()); ++h) {
+    const int v = origin(F, h);
+    ++fans.corners[v];
+    if (fans.outgoing[v] < 0 || opposite[h] < 0) fans.outgoing[v] = h;
+  }
+  return fans;
+}
+
+// Do the faces at v make up one fan? It is walked clockwise from the boundary, or once around.
+bool is_one_fan(const Fans& fans, const std::vector<int>& opposite, int v) {
+  const int first = fans.outgoing[v];
+  if (first < 0) return true;
+  int corners = 0, h = first;
+  do {
+    ++corners;
+    h = opposite[previous_halfedge(h)];
+  } while (h >= 0 && h != first && corners <= fans.corners[v]);
+  return corners == fans.corners[v];
+}
+
+bool is_connected(const Connectivity& connectivity, const std::vector<int>& corners) {
+  DisjointSets sets(static_cast<int>(corners.size()));
+  for (const auto& [i, j] : connectivity.edges) sets.unite(i, j);
+  int root = -1;
+  for (int v = 0; v < static_cast<int>(corners.size()); ++v) {
+    if (corners[v] == 0) continue;
+    if (root < 0) root = sets.find(v);
+    if (sets.find(v) != root) return false;
+  }
+  return true;
+}
+
+// The boundary curves of a surface all of whose vertices have one fan.
+int count_boundary_curves(const Faces& F, const std::vector<int>& opposite) {
+  std::vector<char> seen(F.size(), 0);
+  int curves = 0;
+  for (int first = 0; first < static_cast<int>(F.size()); ++first) {
+    if (opposite[first] >= 0 || seen[first]) continue;
+    ++curves;
+    for (int h = first; !seen[h];) {
+      seen[h] = 1;
+      h = next_halfedge(h);
+      while (opposite[h] >= 0) h = next_halfedge(opposite[h]);
+    }
+  }
+  return curves;
+}
+
+}  // namespace
+
+bool is_degenerate(const Vector3& a, const Vector3& b, const Vector3& c) {
+  Vector3 ab = b - a, bc = c - b;
+  const double unit = std::max(
+      {ab.lpNorm<Eigen::Infinity>(), bc.lpNorm<Eigen::Infinity>(), (a - c).lpNorm<Eigen::Infinity>()});
+  ab /= unit;
+  bc /= unit;
+  return !(ab.cross(bc).norm() > 8 * std::numeric_limits<double>::epsilon());
+}
+
+std::optional<SoundSurface> recognize(const Mesh& mesh) {
+  const int n = static_cast<int>(mesh.V.rows()), m = static_cast<int>(mesh.F.rows());
+  if (m == 0) return std::nullopt;
+  if (!all_of(m, [&](int f) { return names_a_triangle(mesh, f); })) return std::nullopt;
+  if (!all_of(n, [&](int v) { return mesh.V.row(v).allFinite(); })) return std::nullopt;
+
+  SoundSurface result;
+  result.connectivity = connect(mesh.F, n);
+  const std::vector<int>& opposite = result.connectivity.opposite;
+  if (!all_of(3 * m, [&](int h) { return is_manifold(mesh.F, result.connectivity, h); })) return std::nullopt;
+  const Fans fans = fans_of(mesh.F, opposite, n);
+  if (!all_of(n, [&](int v) { return is_one_fan(fans, opposite, v); })) return std::nullopt;
+  if (!is_connected(result.connectivity, fans.corners)) return std::nullopt;
+
+  result.unreferenced_vertices = static_cast<int>(std::count(fans.corners.begin(), fans.corners.end(), 0));
+  // Two faces of a connected manifold have the same vertices only where they are all of it.
+  if (m == 2 && n - result.unreferenced_vertices == 3) return std::nullopt;
+  const long euler =
+      n - result.unreferenced_vertices - static_cast<long>(result.connectivity.edges.size()) + m;
+  const int curves = count_boundary_curves(mesh.F, opposite);
+  if (euler + curves != 2 || curves > 1) return std::nullopt;
+  result.topology = curves == 0 ? Topology::sphere : Topology::disk;
+  result.zero_area_faces = static_cast<int>(parallel_sum(m, [&](int f) {
+    return is_degenerate(mesh.V.row(mesh.F(f, 0)), mesh.V.row(mesh.F(f, 1)), mesh.V.row(mesh.F(f, 2))) ? 1.0
+                                                                                                       : 0.0;
+  }));
+  return result;
+}
+
+SoundSurface require_surface(const Mesh& mesh) {
+  if (std::optional<SoundSurface> surface = recognize(mesh)) return std::move(*surface);
+  const Inspection inspection = inspect(mesh);
+  require_embeddable(inspection);
+  if (inspection.topology != Topology::projective_plane)
+    throw std::logic_error("a mesh without defects was not recognised");
+  return {inspection.topology, connect(mesh.F, inspection.vertices), inspection.unreferenced_vertices,
+          inspection.zero_area_faces};
+}
+
+DividedMesh divide(const PolygonMesh& mesh) {
+  const Inspection inspection = inspect(mesh);
+  require_embeddable(inspection);
+  DividedMesh result;
+  result.triangulation = triangulate(mesh);
+  result.triangles = {mesh.V, on_vertices(result.triangulation, mesh.corners)};
+  result.surface = {inspection.topology, connect(mesh, result.triangulation),
+                    inspection.unreferenced_vertices, inspection.zero_area_faces};
+  return result;
+}
+
+}  // namespace orbitutte

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/io/mesh_io.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "orbitutte/io/file.h"
+#include "orbitutte/io/mesh_formats.h"
+
+namespace orbitutte {
+
+namespace {
+
+struct FormatRow {
+  MeshFormat format;
+  std::string_view ending;
+  PolygonMesh (*read)(std::string_view);
+  std::string (*write)(const Mesh&);
+};
+
+constexpr FormatRow formats[] = {{MeshFormat::obj, ".obj", read_obj, write_obj},
+                                 {MeshFormat::off, ".off", read_off, write_off},
+                                 {MeshFormat::ply, ".ply", read_ply, write_ply},
+                                 {MeshFormat::stl, ".stl", read_stl, write_stl}};
+
+const FormatRow& row(MeshFormat format) { return formats[static_cast<int>(format)]; }
+
+std::string lower_case(std::string text) {
+  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return text;
+}
+
+}  // namespace
+
+MeshFormat mesh_format(const std::string& path) {
+  const std::string ending = lower_case(std::filesystem::path(path).extension().string());
+  for (const FormatRow& known : formats) {
+    if (ending == known.ending) return known.format;
+  }
+  throw ArgumentError(
+      fmt::format("{}: the ending names no known mesh format; use .obj, .off, .ply or .stl", path));
+}
+
+PolygonMesh parse_mesh(std::string_view bytes, MeshFormat format) {
+  if (bytes.empty()) throw MeshError("the file is empty; export it again");
+  return row(format).read(bytes);
+}
+
+PolygonMesh read_mesh(const std::string& path) {
+  const MeshFormat format = mesh_format(path);
+  const std::string bytes = read_file(path);
+  try {
+    return parse_mesh(bytes, format);
+  } catch (const MeshError& error) {
+    throw MeshError(fmt::format("{}: {}", path, error.what()));
+  }
+}
+
+std::string serialize_mesh(const Mesh& mesh, MeshFormat format) { return row(format).write(mesh); }
+
+void write_mesh(const std::string& path, const Mesh& mesh) {
+  const MeshFormat format = mesh_format(path);
+  write_file(path, serialize_mesh(mesh, format));
+}
+
+}  // namespace orbitutte

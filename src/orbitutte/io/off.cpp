@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+// OFF, after the Geomview manual, section 4.2.5.
+#include <fmt/compile.h>
+#include <fmt/format.h>
+
+#include <iterator>
+#include <optional>
+
+#include "orbitutte/io/mesh_formats.h"
+#include "orbitutte/io/text_colours.h"
+#include "orbitutte/io/text_scanner.h"
+
+namespace orbitutte {
+
+namespace {
+
+constexpr TextScanner::Syntax off_syntax = {.comment = '#'};
+
+/// What the keyword says of the columns behind a vertex's coordinates.
+struct Columns {
+  bool has_normals = false;
+  bool has_colours = false;  ///< behind the normals
+};
+
+struct Header {
+  Columns columns;
+  int vertices = 0;
+  int faces = 0;
+};
+
+bool take_prefix(std::string_view& word, std::string_view prefix) {
+  if (!word.starts_with(prefix)) return false;
+  word.remove_prefix(prefix.size());
+  return true;
+}
+
+/// The keyword is OFF behind any of the prefixes ST (texture), C (colour) and N (normal), in this order; none
+/// where the word is something else.
+std::optional<Columns> parse_keyword(std::string_view word) {
+  take_prefix(word, "ST");
+  Columns columns;
+  columns.has_colours = take_prefix(word, "C");
+  columns.has_normals = take_prefix(word, "N");
+  if (word != "OFF" && word != "off") return std::nullopt;
+  return columns;
+}
+
+bool names_other_dimension(std::string_view word) {
+  return word.ends_with("OFF") && word.find_first_of("4n") != word.npos;
+}
+
+int to_count(const TextScanner& in, std::string_view word, std::string_view things) {
+  int count = 0;
+  if (parse_number(word, count) == NumberError::none && count >= 0) return count;
+  if (word.empty()) in.refuse(fmt::format("the header lacks the number of {}", things));
+  in.refuse(fmt::format("the header has {} where the number of {} belongs", in_quotes(word), things));
+}
+
+/// Throws MeshError where the rest of the text cannot hold as much, before memory is taken for it.
+void check_promise(const TextScanner& in, const Header& counts) {
+  constexpr std::size_t least_vertex = std::string_view("0 0 0\n").size();
+  constexpr std::size_t least_face = std::string_view("0\n").size();
+  const std::size_t least = counts.vertices * least_vertex + counts.faces * least_face;
+  if (least <= in.bytes_left() + 1) return;  // the last line may lack its line break
+  in.refuse(fmt::format("the header promises {} vertices and {} faces, but only {} bytes follow",
+                        counts.vertices, counts.faces, in.bytes_left()));
+}
+
+/// The keyword, which may be missing, and the counts of vertices, faces and edges on its line or the next.
+/// Behind a keyword the count of edges may be missing.
+Header read_header(TextScanner& in) {
+  in.find_word();
+  std::string_view word = in.word();
+  if (names_other_dimension(word)) {
+    in.refuse(fmt::format("{} announces points of another dimension than three", in_quotes(word)));
+  }
+  const std::optional<Columns> columns = parse_keyword(word);
+  if (columns) {
+    in.find_word();
+    word = in.word();
+  }
+  if (word == "BINARY") in.refuse("binary OFF is not supported, only ASCII");
+  Header counts;
+  counts.columns = columns.value_or(Columns());
+  counts.vertices = to_count(in, word, "vertices");
+  counts.faces = to_count(in, in.word(), "faces");
+  const std::string_view edges = in.word();
+  if (!columns || !edges.empty()) to_count(in, edges, "edges");
+  if (in.find_word_in_line()) in.refuse("the header has more than three counts");
+  check_promise(in, counts);
+  return counts;
+}
+
+/// Goes to the line that holds the item, one of `count`.
+void find_line(TextScanner& in, const TextItem& item, int count) {
+  if (in.find_word()) return;
+  in.refuse(fmt::format("the text ends before {}, but the header promises {}", shown(item), count));
+}
+
+/// What stands behind the coordinates. Texture coordinates are passed over, as is all that the keyword does
+/// not name.
+void read_columns(TextScanner& in, const TextItem& vertex, const Columns& columns, TextColours& colours) {
+  if (columns.has_normals)
+    for (int axis = 0; axis < 3; ++axis) in.word();
+  const NextWords further = take_next_words(in);
+  if (columns.has_colours && !further[0].empty()) colours.add(in, vertex, further);
+}
+
+void read_vertices(TextScanner& in, const Header& header, PolygonMesh& mesh) {
+  mesh.V.resize(header.vertices, 3);
+  TextColours colours;
+  for (int v = 0; v < header.vertices; ++v) {
+    const TextItem vertex = {"vertex", static_cast<std::size_t>(v)};
+    find_line(in, vertex, header.vertices);
+    for (int axis = 0; axis < 3; ++axis) mesh.V(v, axis) = in.number<double>(vertex, "coordinate");
+    read_columns(in, vertex, header.columns, colours);
+  }
+  mesh.colours = colours.colours(header.vertices);
+}
+
+void read_faces(TextScanner& in, int count, PolygonMesh& mesh) {
+  mesh.face_start.reserve(count + std::size_t{1});
+  mesh.corners.reserve(3 * static_cast<std::size_t>(count));
+  for (int f = 0; f < count; ++f) {
+    const TextItem face = {"face", static_cast<std::size_t>(f)};
+    find_line(in, face, count);
+    const int degree = in.number<int>(face, "number of corners");
+    if (degree < 0) in.refuse(fmt::format("face {} has {} corners", f, degree));
+    for (int corner = 0; corner < degree; ++corner) mesh.corners.push_back(in.number<int>(face, "index"));
+    in.skip_words();  // colours
+    end_face(mesh);
+  }
+}
+
+}  // namespace
+
+PolygonMesh read_off(std::string_view text) {
+  TextScanner in(text, off_syntax);
+  const Header header = read_header(in);
+  PolygonMesh mesh;
+  read_vertices(in, header, mesh);
+  read_faces(in, header.faces, mesh);
+  if (in.find_word()) {
+    in.refuse(fmt::format("{} follows behind the {} vertices and {} faces that the header promises",
+                          in_quotes(in.word()), header.vertices, header.faces));
+  }
+  return mesh;
+}
+
+std::string write_off(const Mesh& mesh) {
+  std::string text = room_for_text(mesh);
+  const auto out = std::back_inserter(text);
+  fmt::format_to(out, "OFF\n{} {} 0\n", mesh.V.rows(), mesh.F.rows());
+  for (const auto& position : mesh.V.rowwise()) {
+    fmt::format_to(out, FMT_COMPILE("{} {} {}\n"), position[0], position[1], position[2]);
+  }
+  for (const auto& face : mesh.F.rowwise()) {
+    fmt::format_to(out, FMT_COMPILE("3 {} {} {}\n"), face[0], face[1], face[2]);
+  }
+  return text;
+}
+
+}  // namespace orbitutte

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// Files of meshes some of whose faces have more than three corners.
+#include <fmt/compile.h>
+
+#include <algorithm>
+
+#include "orbitutte/io/file.h"
+#include "orbitutte/io/mesh_io.h"
+#include "orbitutte/io/ply_triangles.h"
+#include "orbitutte/mesh/triangulation.h"
+
+namespace orbitutte {
+namespace {
+
+FaceView faces_of(const PolygonMesh& mesh) { return {mesh.corners, mesh.face_start}; }
+
+void append_line(std::string& text, const char* keyword, const Eigen::RowVector3d& position) {
+  fmt::format_to(std::back_inserter(text), FMT_COMPILE("{}{} {} {}\n"), keyword, position[0], position[1],
+                 position[2]);
+}
+
+// The corners, counted from `first`.
+void append_line(std::string& text, const std::string& keyword, std::span<const int> corners, int first) {
+  text += keyword;
+  for (const int v : corners) fmt::format_to(std::back_inserter(text), FMT_COMPILE(" {}"), 1LL * v + first);
+  text += '\n';
+}
+
+std::string obj_text(const PolygonMesh& mesh) {
+  std::string text;
+  for (const auto& position : mesh.V.rowwise()) append_line(text, "v ", position);
+  for (int f = 0; f < mesh.face_count(); ++f) append_line(text, "f", faces_of(mesh)[f], 1);
+  return text;
+}
+
+std::string off_text(const PolygonMesh& mesh) {
+  std::string text = fmt::format("OFF\n{} {} 0\n", mesh.vertex_count(), mesh.face_count());
+  for (const auto& position : mesh.V.rowwise()) append_line(text, "", position);
+  for (int f = 0; f < mesh.face_count(); ++f)
+    append_line(text, std::to_string(mesh.face_degree(f)), faces_of(mesh)[f], 0);
+  return text;
+}
+
+}  // namespace
+
+std::string serialize_mesh(const PolygonMesh& mesh, MeshFormat format) {
+  if (is_triangle_mesh(mesh) || format == MeshFormat::stl)
+    return serialize_mesh(to_triangle_mesh(mesh), format);
+  if (format == MeshFormat::obj) return obj_text(mesh);
+  if (format == MeshFormat::off) return off_text(mesh);
+  return write_ply_faces(mesh.V, faces_of(mesh), {}, {});
+}
+
+void write_mesh(const std::string& path, const PolygonMesh& mesh) {
+  const MeshFormat format = mesh_format(path);
+  write_file(path, serialize_mesh(mesh, format));
+}
+
+}  // namespace orbitutte

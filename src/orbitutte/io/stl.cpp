@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: MIT
+// STL: triangles without indices, as ASCII or binary. Corners at the same position are welded into one
+// vertex.
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <limits>
+
+#include "orbitutte/io/bytes.h"
+#include "orbitutte/io/mesh_formats.h"
+#include "orbitutte/io/text_scanner.h"
+
+namespace orbitutte {
+
+namespace {
+
+constexpr std::size_t title_size = 80;
+constexpr std::size_t header_size = title_size + sizeof(std::uint32_t);
+constexpr std::size_t vector_size = 3 * sizeof(float);
+constexpr std::uint16_t no_attribute = 0;
+constexpr std::size_t facet_size = 4 * vector_size + sizeof(no_attribute);  // normal, corners, attribute
+
+using Position = std::array<double, 3>;
+
+/// Numbers positions in the order of their first use. A hash table with open addressing over the positions.
+class Welder {
+ public:
+  explicit Welder(std::size_t expected_vertices = 0) : slots_(slots_for(expected_vertices), empty) {
+    coordinates_.reserve(3 * expected_vertices);
+  }
+
+  /// The number of the vertex at exactly this position; -0 is 0.
+  int vertex_at(Position position) {
+    for (double& x : position) x += 0.0;  // turns -0 into 0
+    if (slots_for(vertex_count() + 1) > slots_.size()) grow();
+    int& slot = slot_of(position);
+    if (slot == empty) {
+      slot = static_cast<int>(vertex_count());
+      coordinates_.insert(coordinates_.end(), position.begin(), position.end());
+    }
+    return slot;
+  }
+
+  const std::vector<double>& coordinates() const { return coordinates_; }
+
+ private:
+  static constexpr int empty = -1;
+
+  /// A power of two, of which the vertices take half at most.
+  static std::size_t slots_for(std::size_t vertices) {
+    return std::bit_ceil(std::max<std::size_t>(32, vertices) * 2);
+  }
+
+  std::size_t vertex_count() const { return coordinates_.size() / 3; }
+
+  Position position(int vertex) const {
+    const double* x = &coordinates_[3 * static_cast<std::size_t>(vertex)];
+    return {x[0], x[1], x[2]};
+  }
+
+  /// Compares bits, so that a nan equals itself.
+  static bool same(const Position& a, const Position& b) {
+    using Bits = std::array<std::uint64_t, 3>;
+    return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
+  }
+
+  /// Knuth's multiplicative hashing with 2^64 / golden ratio.
+  static std::size_t hash(const Position& position) {
+    constexpr std::uint64_t multiplier = 0x9E3779B97F4A7C15;
+    std::uint64_t h = 0;
+    for (const double x : position) {
+      h = (h ^ std::bit_cast<std::uint64_t>(x)) * multiplier;
+      h ^= h >> 32;
+    }
+    return h;
+  }
+
+  /// The slot that holds the vertex at this position, or the empty one where it belongs.
+  int& slot_of(const Position& wanted) {
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t i = hash(wanted) & mask;
+    while (slots_[i] != empty && !same(position(slots_[i]), wanted)) i = (i + 1) & mask;
+    return slots_[i];
+  }
+
+  void grow() {
+    slots_.assign(2 * slots_.size(), empty);
+    for (int v = 0; v < static_cast<int>(vertex_count()); ++v) slot_of(position(v)) = v;
+  }
+
+  std::vector<double> coordinates_;
+  std::vector<int> slots_;
+};
+
+bool equal_in_any_case(std::string_view word, std::string_view lower_case) {
+  const auto equal = [](char a, char b) { return a == b || (a >= 'A' && a <= 'Z' && a - 'A' + 'a' == b); };
+  return std::equal(word.begin(), word.end(), lower_case.begin(), lower_case.end(), equal);
+}
+
+/// Goes on to the next word, which has to be the keyword.
+void expect(TextScanner& in, std::string_view keyword, const TextItem& facet) {
+  if (!in.find_word()) {
+    in.refuse(fmt::format("the text ends within facet {}, where '{}' belongs", facet.number, keyword));
+  }
+  const std::string_view word = in.word();
+  if (equal_in_any_case(word, keyword)) return;
+  in.refuse(fmt::format("facet {} has {} where '{}' belongs", facet.number, in_quotes(word), keyword));
+}
+
+/// What follows behind the word `facet`.
+void read_facet(TextScanner& in, Welder& welder, PolygonMesh& mesh) {
+  const TextItem facet = {"facet", mesh.face_start.size() - 1};
+  expect(in, "normal", facet);
+  for (int axis = 0; axis < 3 && in.find_word(); ++axis) in.word();  // passed over: the corners tell it
+  expect(in, "outer", facet);
+  expect(in, "loop", facet);
+  for (int corner = 0; corner < 3; ++corner) {
+    expect(in, "vertex", facet);
+    Position position;
+    for (double& x : position) x = in.number<double>(facet, "coordinate");
+    mesh.corners.push_back(welder.vertex_at(position));
+  }
+  expect(in, "endloop", facet);
+  expect(in, "endfacet", facet);
+  end_face(mesh);
+}
+
+/// What follows behind the word `solid`, up to and including `endsolid`.
+void read_solid(TextScanner& in, Welder& welder, PolygonMesh& mesh) {
+  in.rest_of_line();  // its name
+  for (;;) {
+    if (!in.find_word()) in.refuse("the text ends before 'endsolid'");
+    const std::string_view word = in.word();
+    if (equal_in_any_case(word, "endsolid")) break;
+    if (!equal_in_any_case(word, "facet")) {
+      in.refuse(fmt::format("{} stands where 'facet' or 'endsolid' belongs", in_quotes(word)));
+    }
+    read_facet(in, welder, mesh);
+  }
+  in.rest_of_line();
+}
+
+PolygonMesh read_ascii(std::string_view text) {
+  PolygonMesh mesh;
+  Welder welder;
+  TextScanner in(text, {});
+  while (in.find_word()) {
+    const std::string_view word = in.word();
+    if (!equal_in_any_case(word, "solid")) {
+      in.refuse(fmt::format("{} stands where 'solid' belongs", in_quotes(word)));
+    }
+    read_solid(in, welder, mesh);
+  }
+  mesh.V = to_points(welder.coordinates());
+  return mesh;
+}
+
+std::uint32_t promised_facets(std::string_view bytes) {
+  return load<std::uint32_t>(bytes.data() + title_size, std::endian::little);
+}
+
+std::uint64_t promised_size(std::string_view bytes) {
+  return header_size + facet_size * std::uint64_t{promised_facets(bytes)};
+}
+
+/// Binary files may begin with the word `solid` too: then their size or a zero byte tells them from text.
+bool is_ascii(std::string_view bytes) {
+  if (bytes.size() >= header_size && bytes.size() == promised_size(bytes)) return false;
+  TextScanner in(bytes, {});
+  in.find_word();
+  return equal_in_any_case(in.word(), "solid") && bytes.find('\0') == bytes.npos;
+}
+
+void check_size(std::string_view bytes) {
+  if (bytes.size() < header_size) {
+    throw MeshError(fmt::format(
+        "the file neither begins with 'solid' nor has the {} bytes of a binary STL header, but {} bytes; "
+        "check that it is an STL file",
+        header_size, bytes.size()));
+  }
+  if (bytes.size() == promised_size(bytes)) return;
+  throw MeshError(
+      fmt::format("byte {}: the header promises {} triangles in {} bytes, but the file has {} bytes, so that "
+                  "it is {}; export it again",
+                  title_size, promised_facets(bytes), promised_size(bytes), bytes.size(),
+                  bytes.size() < promised_size(bytes) ? "cut short" : "corrupt"));
+}
+
+Position load_position(const char* bytes) {
+  Position position;
+  for (double& x : position) {
+    x = load<float>(bytes, std::endian::little);
+    bytes += sizeof(float);
+  }
+  return position;
+}
+
+PolygonMesh read_binary(std::string_view bytes) {
+  check_size(bytes);
+  PolygonMesh mesh;
+  const std::size_t count = promised_facets(bytes);
+  Welder welder(count / 2);  // as many as closed surfaces have
+  mesh.corners.reserve(3 * count);
+  mesh.face_start.reserve(count + 1);
+  for (std::string_view facets = bytes.substr(header_size); !facets.empty();
+       facets.remove_prefix(facet_size)) {
+    for (int corner = 1; corner <= 3; ++corner) {  // the normal stands before them
+      mesh.corners.push_back(welder.vertex_at(load_position(facets.data() + corner * vector_size)));
+    }
+    end_face(mesh);
+  }
+  mesh.V = to_points(welder.coordinates());
+  return mesh;
+}
+
+void append_vector(std::string& bytes, const Eigen::Vector3f& vector) {
+  append_little_endian(bytes, vector[0], vector[1], vector[2]);
+}
+
+void check_corners(const Mesh& mesh) {
+  for (Eigen::Index f = 0; f < mesh.F.rows(); ++f) {
+    for (const int v : mesh.F.row(f)) {
+      if (v >= 0 && v < mesh.V.rows()) continue;
+      throw MeshError(
+          fmt::format("face {} has the index {}, but the mesh has {} vertices", f, v, mesh.V.rows()));
+    }
+  }
+}
+
+}  // namespace
+
+PolygonMesh read_stl(std::string_view bytes) {
+  return is_ascii(bytes) ? read_ascii(bytes) : read_binary(bytes);
+}
+
+std::string write_stl(const Mesh& mesh) {
+  check_corners(mesh);
+  std::string bytes = "orbitutte";
+  bytes.resize(title_size, ' ');
+  append_little_endian(bytes, static_cast<std::uint32_t>(mesh.F.rows()));
+  bytes.reserve(header_size + facet_size * mesh.F.rows());
+  for (const auto& face : mesh.F.rowwise()) {
+    const Vector3 a = mesh.V.row(face[0]), b = mesh.V.row(face[1]), c = mesh.V.row(face[2]);
+    const Vector3 normal = (b - a).cross(c - a).stableNormalized();
+    append_vector(bytes, normal.cast<float>());
+    for (const Vector3* corner : {&a, &b, &c}) append_vector(bytes, corner->cast<float>());
+    append_little_endian(bytes, no_attribute);
+  }
+  return bytes;
+}
+
+}  // namespace orbitutte

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/linear/dissection.h"
+
+#include <amd.h>
+#include <metis.h>
+
+#include <algorithm>
+#include <array>
+#include <new>
+#include <numeric>
+
+#include "orbitutte/parallel.h"
+
+namespace orbitutte {
+namespace {
+
+constexpr int leaf_size = 800;       // vertices of a set that is not bisected any further, about
+constexpr int smoothing_sweeps = 4;  // over the interfaces of the parts
+
+int vertex_count(const Neighbors& graph) { return static_cast<int>(graph.start.size()) - 1; }
+
+struct Clusters {
+  std::vector<int> of;  // of every vertex
+  int count = 0;
+};
+
+// Vertices with their neighbours, wherever none of them has been taken; what is left over joins a cluster
+// beside it.
+Clusters clustered(const Neighbors& graph) {
+  const int n = vertex_count(graph);
+  Clusters clusters = {std::vector<int>(n, -1)};
+  std::vector<int>& of = clusters.of;
+  const auto around = [&](int v, const auto& visit) {
+    for (int k = graph.start[v]; k < graph.start[v + 1]; ++k) visit(graph.neighbor[k]);
+  };
+  for (int v = 0; v < n; ++v) {
+    bool free = of[v] < 0;
+    around(v, [&](int u) { free = free && of[u] < 0; });
+    if (!free) continue;
+    of[v] = clusters.count;
+    around(v, [&](int u) { of[u] = clusters.count; });
+    ++clusters.count;
+  }
+  const std::vector<int> taken = of;
+  for (int v = 0; v < n; ++v) {
+    around(v, [&](int u) {
+      if (of[v] < 0) of[v] = taken[u];
+    });
+  }
+  return clusters;
+}
+
+// The graph of the clusters; its weights count vertices and edges.
+struct ClusterGraph {
+  std::vector<idx_t> start = {0}, neighbor, vertex_weight, edge_weight;
+};
+
+ClusterGraph graph_of(const Clusters& clusters, const Neighbors& graph) {
+  const int n = vertex_count(graph);
+  std::vector<int> first(clusters.count + 1, 0), members(n);
+  for (const int c : clusters.of) ++first[c + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<int> fill(first.begin(), first.end() - 1);
+  for (int v = 0; v < n; ++v) members[fill[clusters.of[v]]++] = v;
+
+  ClusterGraph result;
+  std::vector<int> place(clusters.count, -1);  // in result.neighbor, where it is from this cluster's begin on
+  for (int c = 0; c < clusters.count; ++c) {
+    const int begin = static_cast<int>(result.neighbor.size());
+    for (int m = first[c]; m < first[c + 1]; ++m) {
+      for (int k = graph.start[members[m]]; k < graph.start[members[m] + 1]; ++k) {
+        const int d = clusters.of[graph.neighbor[k]];
+        if (d == c) continue;
+        if (place[d] < begin) {
+          place[d] = static_cast<int>(result.neighbor.size());
+          result.neighbor.push_back(d);
+          result.edge_weight.push_back(0);
+        }
+        ++result.edge_weight[place[d]];
+      }
+    }
+    result.start.push_back(static_cast<idx_t>(result.neighbor.size()));
+    result.vertex_weight.push_back(first[c + 1] - first[c]);
+  }
+  return result;
+}
+
+// The part of every cluster by recursive bisection: the highest bit of its number is the first bisection's,
+// and so on.
+std::vector<idx_t> bisected(ClusterGraph& graph, int levels) {
+  idx_t count = static_cast<idx_t>(graph.vertex_weight.size()), constraints = 1, parts = 1 << levels, cut = 0;
+  std::vector<idx_t> part(count, 0);
+  if (levels == 0) return part;
+  idx_t options[METIS_NOPTIONS];
+  METIS_SetDefaultOptions(options);
+  options[METIS_OPTION_SEED] = 0;
+  const int status = METIS_PartGraphRecursive(&count, &constraints, graph.start.data(), graph.neighbor.data(),
+                                              graph.vertex_weight.data(), nullptr, graph.edge_weight.data(),
+                                              &parts, nullptr, nullptr, options, &cut, part.data());
+  if (status == METIS_ERROR_MEMORY) throw std::bad_alloc();
+  if (status != METIS_OK) throw Error("METIS could not partition the mesh");
+  return part;
+}
+
+// Clusters leave the interfaces jagged: a vertex most of whose neighbours lie in one other part moves there.
+void smooth_interfaces(const Neighbors& graph, std::vector<int>& part) {
+  std::vector<int> moving, next;
+  for (int v = 0; v < vertex_count(graph); ++v) {
+    for (int k = graph.start[v]; k < graph.start[v + 1]; ++k) {
+      if (part[graph.neighbor[k]] == part[v]) continue;
+      moving.push_back(v);
+      break;
+    }
+  }
+  for (int sweep = 0; sweep < smoothing_sweeps; ++sweep) {
+    for (const int v : moving) {
+      const auto begin = graph.neighbor.begin() + graph.start[v],
+                 end = graph.neighbor.begin() + graph.start[v + 1];
+      const auto neighbors_in = [&](int p) {
+        return std::count_if(begin, end, [&](int u) { return part[u] == p; });
+      };
+      int best = part[v];
+      auto most = neighbors_in(best);
+      for (auto u = begin; u != end; ++u) {
+        if (part[*u] == best) continue;
+        if (const auto here = neighbors_in(part[*u]); here > most) most = here, best = part[*u];
+      }
+      part[v] = best;
+    }
+  }
+}
+
+// The depth of every vertex in the tree: that of the first bisection at whose interface it was taken, or
+// `levels`.
+std::vector<int> depths_of_separation(const Neighbors& graph, const std::vector<int>& part, int levels) {
+  const int n = vertex_count(graph);
+  std::vector<int> depth(n, levels), near_interface;
+  for (int v = 0; v < n; ++v) {
+    for (int k = graph.start[v]; k < graph.start[v + 1]; ++k) {
+      if (part[graph.neighbor[k]] == part[v]) continue;
+      near_interface.push_back(v);
+      break;
+    }
+  }
+  for (int d = 0; d < levels; ++d) {
+    const int shift = levels - 1 - d;  // part >> (shift + 1) names the node, the bit below its half
+    std::vector<int> candidates;
+    std::vector<std::array<int, 2>> on_side(std::size_t{1} << d, {0, 0});
+    for (const int v : near_interface) {
+      if (depth[v] < levels) continue;
+      for (int k = graph.start[v]; k < graph.start[v + 1]; ++k) {
+        const int u = graph.neighbor[k];
+        if (depth[u] < levels || (part[u] ^ part[v]) >> shift != 1) continue;
+        candidates.push_back(v);
+        ++on_side[part[v] >> (shift + 1)][part[v] >> shift & 1];
+        break;
+      }
+    }
+    for (const int v : candidates) {
+      const auto& count = on_side[part[v] >> (shift + 1)];
+      if ((part[v] >> shift & 1) == (count[1] < count[0])) depth[v] = d;  // the side with fewer vertices
+    }
+  }
+  return depth;
+}
+
+// The complete binary tree of so many levels below its root, without vertices yet; `place` is where node
+// (depth, path) comes.
+struct Tree {
+  std::vector<Dissection::Node> nodes;
+  std::vector<std::vector<int>> place;  // [depth][path]
+};
+
+int add_subtree(Tree& tree, int depth, int path, int levels) {
+  int left = -1, right = -1;
+  if (depth < levels) {
+    left = add_subtree(tree, depth + 1, 2 * path, levels);
+    right = add_subtree(tree, depth + 1, 2 * path + 1, levels);
+  }
+  const int node = static_cast<int>(tree.nodes.size());
+  tree.nodes.push_back({-1, depth});
+  if (left >= 0) tree.nodes[left].parent = tree.nodes[right].parent = node;
+  tree.place[depth][path] = node;
+  return node;
+}
+
+Tree complete_tree(int levels) {
+  Tree tree;
+  for (int d = 0; d <= levels; ++d) tree.place.emplace_back(std::size_t{1} << d);
+  add_subtree(tree, 0, 0, levels);
+  return tree;
+}
+
+// Orders one set of vertices, order[begin .. end - 1], by approximate minimum degree; `place` is where each
+// stands in `order`.
+void order_set(const Neighbors& graph, const std::vector<int>& place, const Dissection::Node& node,
+               std::vector<int>& order) {
+  const int count = node.end - node.begin;
+  if (count < 2) return;
+  const std::vector<int> set(order.begin() + node.begin, order.begin() + node.end);
+  std::vector<int> start = {0}, row, eliminated(count);
+  for (const int v : set) {
+    for (int k = graph.start[v]; k < graph.start[v + 1]; ++k)
+      if (const int at = place[graph.neighbor[k]]; at >= node.begin && at < node.end)
+        row.push_back(at - node.begin);
+    start.push_back(static_cast<int>(row.size()));
+  }
+  row.push_back(0);  // never without a first element
+  if (amd_order(count, start.data(), row.data(), eliminated.data(), nullptr, nullptr) < AMD_OK)
+    throw std::bad_alloc();
+  for (int k = 0; k < count; ++k) order[node.begin + k] = set[eliminated[k]];
+}
+
+}  // namespace
+
+Dissection dissect(const Neighbors& graph) {
+  const int n = vertex_count(graph);
+  int levels = 0;
+  while (n >> levels >= 2 * leaf_size) ++levels;
+  std::vector<int> part(n, 0);
+  if (levels > 0) {
+    const Clusters clusters = clustered(graph);
+    ClusterGraph coarse = graph_of(clusters, graph);
+    const std::vector<idx_t> part_of_cluster = bisected(coarse, levels);
+    for (int v = 0; v < n; ++v) part[v] = part_of_cluster[clusters.of[v]];
+    smooth_interfaces(graph, part);
+  }
+  const std::vector<int> depth = depths_of_separation(graph, part, levels);
+
+  Tree tree = complete_tree(levels);
+  std::vector<int> node_of(n);
+  for (int v = 0; v < n; ++v) node_of[v] = tree.place[depth[v]][part[v] >> (levels - depth[v])];
+  Dissection result = {std::vector<int>(n), std::move(tree.nodes)};
+  for (const int node : node_of) ++result.nodes[node].end;
+  int end = 0;
+  for (Dissection::Node& node : result.nodes) {
+    node.begin = node.first = end;
+    end = node.end += end;
+  }
+  for (const Dissection::Node& node : result.nodes)
+    if (node.parent >= 0)
+      result.nodes[node.parent].first = std::min(result.nodes[node.parent].first, node.first);
+  std::vector<int> fill, place(n);
+  for (const Dissection::Node& node : result.nodes) fill.push_back(node.begin);
+  for (int v = 0; v < n; ++v) result.order[place[v] = fill[node_of[v]]++] = v;
+  parallel_for(static_cast<int>(result.nodes.size()),
+               [&](int k) { order_set(graph, place, result.nodes[k], result.order); });
+  return result;
+}
+
+}  // namespace orbitutte

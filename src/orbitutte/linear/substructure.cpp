@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/linear/substructure.h"
+
+#include <algorithm>
+
+#include "orbitutte/linear/dense_factor.h"
+#include "orbitutte/parallel.h"
+
+namespace orbitutte {
+
+// A block with the later unknowns that it is coupled to, directly or through what was eliminated below it:
+// its border.
+struct Substructure::Piece {
+  long begin = 0, end = 0;
+  std::vector<long> border;                    // ascending
+  std::vector<int> children;                   // pieces
+  SparseMatrix equations;                      // without children: what is factorised,
+  std::shared_ptr<const SparseFactor> sparse;  // and its factor
+  Eigen::MatrixXd front;   // with children: the block's columns of L, the border's rows below
+  Eigen::MatrixXd update;  // its last rows and columns are what its elimination adds to K on its border,
+                           // until the parent has taken it
+
+  long own() const { return end - begin; }
+  long size() const { return own() + static_cast<long>(border.size()); }
+
+  DenseColumns dense() const { return {front.data(), size(), own(), size()}; }
+
+  // Where an unknown of the block or its border stands in the piece.
+  long place(long unknown) const {
+    if (unknown < end) return unknown - begin;
+    return own() + (std::lower_bound(border.begin(), border.end(), unknown) - border.begin());
+  }
+};
+
+namespace {
+
+using Border = Eigen::Matrix<double, Eigen::Dynamic, 3>;
+
+void sort_uniquely(std::vector<long>& numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+// The unknowns behind `end` to which columns begin .. end - 1 are coupled.
+std::vector<long> coupled_behind(const SparseMatrix& lower, long begin, long end) {
+  std::vector<long> result;
+  for (long column = begin; column < end; ++column)
+    for (SparseMatrix::InnerIterator entry(lower, column); entry; ++entry)
+      if (entry.row() >= end) result.push_back(entry.row());
+  sort_uniquely(result);
+  return result;
+}
+
+template <typename Piece>
+SparseMatrix piece_matrix(const SparseMatrix& lower, const Piece& piece) {
+  const long nonzeros = lower.outerIndexPtr()[piece.end] - lower.outerIndexPtr()[piece.begin];
+  SparseMatrix A(piece.size(), piece.size());
+  A.resizeNonZeros(nonzeros + piece.size() - piece.own());
+  Eigen::VectorXd coupling = Eigen::VectorXd::Zero(piece.size() - piece.own());
+  long at = 0;
+  for (long column = 0; column < piece.own(); ++column) {
+    A.outerIndexPtr()[column] = at;
+    for (SparseMatrix::InnerIterator entry(lower, piece.begin + column); entry; ++entry) {
+      const long row = piece.place(entry.row());
+      if (row >= piece.own()) coupling[row - piece.own()] -= entry.value();
+      A.innerIndexPtr()[at] = row;
+      A.valuePtr()[at++] = entry.value();
+    }
+  }
+  for (long k = 0; k < coupling.size(); ++k) {
+    A.outerIndexPtr()[piece.own() + k] = at;
+    A.innerIndexPtr()[at] = piece.own() + k;
+    A.valuePtr()[at++] = coupling[k] > 0 ? 2 * coupling[k] : 1.0;
+  }
+  A.outerIndexPtr()[piece.size()] = at;
+  return A;
+}
+
+// Eliminates a block that has no children. K's own entries on the border are its parents'; in their place
+// stands a diagonal that keeps the matrix definite, twice the sum of what couples, and is taken off
+// afterwards.
+template <typename Piece>
+void factorize_sparse(const SparseMatrix& lower, Backend backend, const Piece* earlier, Piece& piece) {
+  if (piece.own() == 0) return;
+  piece.equations = piece_matrix(lower, piece);
+  const long border = piece.size() - piece.own();
+  if (earlier && earlier->own() == piece.own() && equal(earlier->equations, piece.equations)) {
+    piece.sparse = earlier->sparse;
+  } else {
+    try {
+      piece.sparse = factorize(piece.equations, backend, border);
+    } catch (const NotPositiveDefinite& error) {
+      throw NotPositiveDefinite(error.column < 0 ? -1
+                                                 : piece.begin + std::min(error.column, piece.own() - 1));
+    }
+  }
+  piece.update = piece.sparse->schur_complement();
+  for (long k = 0; k < border; ++k)
+    piece.update(k, k) -= piece.equations.valuePtr()[piece.equations.outerIndexPtr()[piece.own() + k]];
+}
+
+// Adds the lower triangle of a piece's update to the matrix in which `place(unknown)` is an index.
+template <typename Piece, typename Place>
+void add_update(const Piece& from, const Place& place, Eigen::MatrixXd& A) {
+  std::vector<long> at;
+  for (const long unknown : from.border) at.push_back(place(unknown));
+  const long count = static_cast<long>(at.size()), before = from.update.rows() - count;
+  for (long c = 0; c < count; ++c) {
+    const double* column = &from.update(before, before + c);
+    double* target = &A(0, at[c]);
+    for (long r = c; r < count; ++r) target[at[r]] += column[r];
+  }
+}
+
+template <typename Piece>
+void factorize_dense(const SparseMatrix& lower, std::vector<Piece>& pieces, Piece& piece) {
+  Eigen::MatrixXd A = zero_lower_triangle(piece.size());
+  for (long column = 0; column < piece.own(); ++column)
+    for (SparseMatrix::InnerIterator entry(lower, piece.begin + column); entry; ++entry)
+      A(piece.place(entry.row()), column) += entry.value();
+  for (const int child : piece.children) {
+    add_update(
+        pieces[child], [&](long unknown) { return piece.place(unknown); }, A);
+    pieces[child].update.resize(0, 0);
+  }
+  try {
+    partial_cholesky(A, piece.own());
+  } catch (const NotPositiveDefinite& error) {
+    throw NotPositiveDefinite(piece.begin + error.column);
+  }
+  piece.front = A.leftCols(piece.own());
+  piece.update = std::move(A);
+}
+
+}  // namespace
+
+Substructure::Substructure(const SparseMatrix& lower, const std::vector<EliminationBlock>& blocks,
+                           Backend backend, const Substructure* earlier)
+    : border_begin_(blocks.empty() ? 0 : blocks.back().end), border_(lower.rows() - border_begin_) {
+  use_one_blas_thread();
+  const int count = static_cast<int>(blocks.size());
+  pieces_.resize(count);
+  if (earlier && static_cast<int>(earlier->pieces_.size()) != count) earlier = nullptr;
+  std::vector<std::size_t> depth(count, 0);
+  for (int k = count; k-- > 0;) {
+    pieces_[k].begin = blocks[k].begin;
+    pieces_[k].end = blocks[k].end;
+    if (blocks[k].parent >= 0) depth[k] = depth[blocks[k].parent] + 1;
+    if (depth[k] >= by_depth_.size()) by_depth_.resize(depth[k] + 1);
+    by_depth_[depth[k]].push_back(k);
+  }
+  std::reverse(by_depth_.begin(), by_depth_.end());
+  for (int k = 0; k < count; ++k)
+    if (blocks[k].parent >= 0) pieces_[blocks[k].parent].children.push_back(k);
+
+  for (const std::vector<int>& level : by_depth_) {
+    const auto eliminate = [&](int k) {
+      Piece& piece = pieces_[level[k]];
+      piece.border = coupled_behind(lower, piece.begin, piece.end);
+      for (const int child : piece.children)
+        for (const long unknown : pieces_[child].border)
+          if (unknown >= piece.end) piece.border.push_back(unknown);
+      sort_uniquely(piece.border);
+      if (piece.children.empty()) {
+        factorize_sparse(lower, backend, earlier ? &earlier->pieces_[level[k]] : nullptr, piece);
+      } else {
+        factorize_dense(lower, pieces_, piece);
+      }
+    };
+    parallel_for(static_cast<int>(level.size()), eliminate);
+  }
+
+  schur_complement_ = Eigen::MatrixXd::Zero(border_, border_);
+  for (long column = 0; column < border_; ++column)
+    for (SparseMatrix::InnerIterator entry(lower, border_begin_ + column); entry; ++entry)
+      schur_complement_(entry.row() - border_begin_, column) += entry.value();
+  if (!pieces_.empty() && !pieces_.back().border.empty()) {
+    add_update(
+        pieces_.back(), [&](long unknown) { return unknown - border_begin_; }, schur_complement_);
+    pieces_.back().update.resize(0, 0);
+  }
+  schur_complement_.triangularView<Eigen::StrictlyUpper>() = schur_complement_.transpose();
+}
+
+void Substructure::release_what_solving_does_not_need() {
+  for (Piece& piece : pieces_) piece.equations = SparseMatrix();
+  schur_complement_.resize(0, 0);
+}
+
+Substructure::~Substructure() = default;
+Substructure::Substructure(Substructure&&) noexcept = default;
+
+void Substructure::forward(Points& y) const {
+  std::vector<Points> pull(pieces_.size());  // of every piece: what it adds to y on its border
+  const auto take = [&](const Piece& piece, Points& local) {
+    for (const int child : piece.children) {
+      const std::vector<long>& border = pieces_[child].border;
+      for (std::size_t k = 0; k < border.size(); ++k)
+        local.row(piece.place(border[k])) += pull[child].row(static_cast<long>(k));
+      pull[child].resize(0, 3);
+    }
+  };
+  for (const std::vector<int>& level : by_depth_) {
+    parallel_for(static_cast<int>(level.size()), [&](int k) {
+      const Piece& piece = pieces_[level[k]];
+      Points local = Points::Zero(piece.size(), 3);
+      local.topRows(piece.own()) = y.middleRows(piece.begin, piece.own());
+      take(piece, local);
+      if (piece.sparse) {
+        piece.sparse->forward(local);
+      } else if (piece.own() > 0) {
+        Border change(piece.size() - piece.own(), 3);
+        orbitutte::forward(piece.dense(), local.data(), change.data());
+        local.bottomRows(change.rows()) -= change;
+      }
+      y.middleRows(piece.begin, piece.own()) = local.topRows(piece.own());
+      pull[level[k]] = local.bottomRows(piece.size() - piece.own());
+    });
+  }
+  if (pieces_.empty()) return;
+  const std::vector<long>& border = pieces_.back().border;
+  for (std::size_t k = 0; k < border.size(); ++k) y.row(border[k]) += pull.back().row(static_cast<long>(k));
+}
+
+void Substructure::backward(Points& y) const {
+  for (auto level = by_depth_.rbegin(); level != by_depth_.rend(); ++level) {
+    parallel_for(static_cast<int>(level->size()), [&](int k) {
+      const Piece& piece = pieces_[(*level)[k]];
+      if (piece.own() == 0) return;
+      Points local(piece.size(), 3);
+      local.topRows(piece.own()) = y.middleRows(piece.begin, piece.own());
+      for (std::size_t b = 0; b < piece.border.size(); ++b)
+        local.row(piece.own() + static_cast<long>(b)) = y.row(piece.border[b]);
+      if (piece.sparse) {
+        piece.sparse->backward(local);
+      } else {
+        const Border x = local.bottomRows(piece.size() - piece.own());
+        orbitutte::backward(piece.dense(), local.data(), x.data());
+      }
+      y.middleRows(piece.begin, piece.own()) = local.topRows(piece.own());
+    });
+  }
+}
+
+}  // namespace orbitutte

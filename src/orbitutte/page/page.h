@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// The report of an embedding as one HTML file that needs nothing else (docs/page.md).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "orbitutte/export/display_mesh.h"
+
+namespace orbitutte {
+
+/// A picture that stands in for the interactive view.
+struct PagePicture {
+  std::string caption;
+  std::string png;  ///< the bytes
+};
+
+/// What the page has besides figures.
+struct PageOptions {
+  bool interactive = true;  ///< with the view that needs JavaScript and WebGL, where this build has it
+  std::vector<PagePicture> pictures;  ///< shown where the page has no interactive view, or it cannot run
+  DisplayLimits limits;               ///< how much of the mesh the interactive view draws
+};
+
+/// What the page is about. The mesh is the one that was embedded.
+struct PageSubject {
+  const Mesh& mesh;
+  const Embedding& embedding;
+  const std::string& report;      ///< JSON, as report_json writes it
+  Points colours = Points(0, 3);  ///< of the mesh's vertices, n x 3, sRGB, 0 .. 1; or none
+};
+
+/// Whether this build of the library holds the script of the interactive view (Node.js made it).
+bool has_interactive_view();
+
+/// The page. The certificate is computed again from mesh and embedding, and the page says where the report
+/// claims otherwise; other figures are the report's, those that it lacks a dash. Everything the page shows is
+/// in it, and a content security policy keeps it from loading anything. Throws MeshError where mesh and
+/// embedding do not belong together, there are colours of other vertices, or the report is no JSON,
+/// ArgumentError as tile_sphere does.
+std::string report_page(const PageSubject& subject, const PageOptions& options = {});
+
+}  // namespace orbitutte

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/page/page_scene.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <span>
+
+#include "orbitutte/export/html_text.h"
+#include "orbitutte/export/palette.h"
+#include "orbitutte/export/tiling.h"
+#include "orbitutte/io/bytes.h"
+#include "orbitutte/verify/distortion.h"
+
+namespace orbitutte {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double largest_uint16 = 65535;
+
+/// Base64 of count numbers, `number(i)` each, lowest byte first.
+template <typename Number>
+std::string packed(Eigen::Index count, const Number& number) {
+  std::string bytes;
+  bytes.reserve(static_cast<std::size_t>(count) * sizeof(number(0)));
+  for (Eigen::Index i = 0; i < count; ++i) append_little_endian(bytes, number(i));
+  return base64(bytes);
+}
+
+std::uint16_t quantised(double value, double low, double size) {
+  return static_cast<std::uint16_t>(std::lround(std::clamp((value - low) / size, 0.0, 1.0) * largest_uint16));
+}
+
+/// Numbers between bounds as 16 bits each.
+struct Range {
+  double low = 0, high = 1;
+
+  std::uint16_t operator()(double value) const { return quantised(value, low, high - low); }
+};
+
+Range range_of(const std::vector<double>& values) {
+  if (values.empty()) return {};
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return {*low, std::max(*high, *low + 1e-6)};
+}
+
+Json to_json(const Range& range) { return {range.low, range.high}; }
+
+/// The means of a measure of the faces over the faces around every cut vertex, as log2; 0 where there are
+/// none.
+template <typename Measure>
+std::vector<double> vertex_means(const Embedding& embedding, const Measure& measure) {
+  std::vector<double> sum(embedding.source_vertex.size(), 0.0);
+  std::vector<int> count(sum.size(), 0);
+  for (Eigen::Index f = 0; f < embedding.faces.rows(); ++f) {
+    const double value = measure(f);
+    if (!(value > 0)) continue;
+    for (const int v : embedding.faces.row(f)) {
+      sum[v] += std::log2(value);
+      ++count[v];
+    }
+  }
+  for (std::size_t v = 0; v < sum.size(); ++v) sum[v] /= std::max(count[v], 1);
+  return sum;
+}
+
+/// The normals of the source at the cut vertices, by area, as the cut mesh's faces run.
+Points normals_along_banks(const Mesh& mesh, const Embedding& embedding) {
+  Points normals = Points::Zero(embedding.positions.rows(), 3);
+  for (Eigen::Index f = 0; f < embedding.faces.rows(); ++f) {
+    const auto corner = [&](int k) -> Vector3 {
+      return mesh.V.row(embedding.source_vertex[embedding.faces(f, k)]);
+    };
+    const Vector3 normal = (corner(1) - corner(0)).cross(corner(2) - corner(0));
+    for (const int v : embedding.faces.row(f)) normals.row(v) += normal.transpose();
+  }
+  return normals;
+}
+
+/// The same, with the copies of every vertex taken together. The banks of a projective plane's cut face
+/// opposite ways: there every copy takes the sum with its own sign.
+Points source_normals(const Mesh& mesh, const Embedding& embedding) {
+  Points normals = normals_along_banks(mesh, embedding);
+  Points sum = Points::Zero(mesh.V.rows(), 3);
+  for (Eigen::Index v = 0; v < normals.rows(); ++v) {
+    auto total = sum.row(embedding.source_vertex[v]);
+    total += (total.dot(normals.row(v)) < 0 ? -1 : 1) * normals.row(v);
+  }
+  for (Eigen::Index v = 0; v < normals.rows(); ++v) {
+    const auto total = sum.row(embedding.source_vertex[v]);
+    normals.row(v) = (total.dot(normals.row(v)) < 0 ? -1 : 1) * total.stableNormalized();
+  }
+  return normals;
+}
+
+Json level_json(const DisplayLevel& level) {
+  const std::span indices(level.faces.data(), static_cast<std::size_t>(level.faces.size()));
+  return {{"indices", packed(level.faces.size(), [&](Eigen::Index i) { return indices[i]; })},
+          {"outline", packed(static_cast<Eigen::Index>(2 * level.outline.size()),
+                             [&](Eigen::Index i) { return level.outline[i / 2][i % 2]; })}};
+}
+
+Json transform_json(const Matrix3& M) {
+  Json entries = Json::array();
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) entries.push_back(M(i, k));
+  return entries;
+}
+
+Json copies_json(const Embedding& embedding) {
+  Json rows = Json::array();
+  for (const TileCopy& copy : tile_copies(embedding)) {
+    const Rgb colour = tile_colour(copy.colour, copy.mirrored);
+    rows.push_back({{"transform", transform_json(copy.transform)},
+                    {"colour", fmt::format("#{:02x}{:02x}{:02x}", colour.red, colour.green, colour.blue)}});
+  }
+  return rows;
+}
+
+Json cones_json(const Embedding& embedding, const std::vector<int>& cut_vertex) {
+  Json rows = Json::array();
+  for (const ConeCopies& cone : embedding.cones) {
+    Json drawn = Json::array();
+    for (const int v : cone.copies) {
+      const auto at = std::lower_bound(cut_vertex.begin(), cut_vertex.end(), v);
+      if (at != cut_vertex.end() && *at == v) drawn.push_back(at - cut_vertex.begin());
+    }
+    rows.push_back({{"vertex", cone.vertex}, {"order", cone.order}, {"drawn", std::move(drawn)}});
+  }
+  return rows;
+}
+
+/// The drawn vertices' values of all those at cut vertices.
+std::vector<double> drawn(const std::vector<double>& values, const std::vector<int>& cut_vertex) {
+  std::vector<double> result;
+  result.reserve(cut_vertex.size());
+  for (const int v : cut_vertex) result.push_back(values[v]);
+  return result;
+}
+
+void add_positions(const Mesh& mesh, const Embedding& embedding, const std::vector<int>& cut_vertex,
+                   Json& scene) {
+  const auto count = static_cast<Eigen::Index>(3 * cut_vertex.size());
+  const Vector3 low = mesh.V.colwise().minCoeff();
+  const double size = std::max((mesh.V.colwise().maxCoeff().transpose() - low).maxCoeff(), 1e-300);
+  scene["source_box"] = {low[0], low[1], low[2], size};
+  scene["source"] = packed(count, [&](Eigen::Index i) {
+    const int v = embedding.source_vertex[cut_vertex[i / 3]];
+    return quantised(mesh.V(v, i % 3), low[i % 3], size);
+  });
+  scene["image"] = packed(count, [&](Eigen::Index i) {
+    return static_cast<float>(embedding.positions(cut_vertex[i / 3], i % 3));
+  });
+  const Points normals = source_normals(mesh, embedding);
+  scene["normal"] = packed(count, [&](Eigen::Index i) {
+    return static_cast<std::int8_t>(std::lround(127 * normals(cut_vertex[i / 3], i % 3)));
+  });
+  scene["source_vertex"] = packed(count / 3, [&](Eigen::Index i) {
+    return static_cast<std::uint32_t>(embedding.source_vertex[cut_vertex[i]]);
+  });
+}
+
+void add_distortion(const Mesh& mesh, const Embedding& embedding, const std::vector<int>& cut_vertex,
+                    Json& scene) {
+  const std::vector<FaceDistortion> faces = measure_faces(mesh, embedding);
+  const auto add = [&](const std::string& name, const auto& measure) {
+    const std::vector<double> values = drawn(vertex_means(embedding, measure), cut_vertex);
+    const Range range = range_of(values);
+    scene[name + "_range"] = to_json(range);
+    scene[name] =
+        packed(static_cast<Eigen::Index>(values.size()), [&](Eigen::Index i) { return range(values[i]); });
+  };
+  add("area", [&](Eigen::Index f) { return faces[f].area; });
+  add("angle", [&](Eigen::Index f) { return faces[f].angle; });
+}
+
+void add_colours(const Points& colours, const Embedding& embedding, const std::vector<int>& cut_vertex,
+                 Json& scene) {
+  if (colours.rows() == 0) return;
+  scene["colour"] = packed(static_cast<Eigen::Index>(3 * cut_vertex.size()), [&](Eigen::Index i) {
+    const double channel = colours(embedding.source_vertex[cut_vertex[i / 3]], i % 3);
+    return static_cast<std::uint8_t>(std::lround(255 * std::clamp(channel, 0.0, 1.0)));
+  });
+}
+
+}  // namespace
+
+std::string page_scene(const Mesh& mesh, const Embedding& embedding, const Points& colours,
+                       const DisplayLimits& limits) {
+  const DisplayMesh display = display_mesh(mesh, embedding, limits);
+  Json scene = {{"faces", embedding.faces.rows()},
+                {"shown_faces", display.fine.faces.rows()},
+                {"copy_faces", display.coarse.faces.rows()},
+                {"vertices", display.cut_vertex.size()}};
+  add_positions(mesh, embedding, display.cut_vertex, scene);
+  add_distortion(mesh, embedding, display.cut_vertex, scene);
+  add_colours(colours, embedding, display.cut_vertex, scene);
+  scene["fine"] = level_json(display.fine);
+  scene["coarse"] = level_json(display.coarse);
+  scene["copies"] = copies_json(embedding);
+  scene["cones"] = cones_json(embedding, display.cut_vertex);
+  return scene.dump();
+}
+
+}  // namespace orbitutte

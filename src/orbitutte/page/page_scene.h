@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// What the page's script draws, as JSON; viewer/src/scene_data.js reads it.
+#pragma once
+
+#include <string>
+
+#include "orbitutte/export/display_mesh.h"
+
+namespace orbitutte {
+
+/// - `faces`: how many the cut mesh has; `shown_faces`, `copy_faces`: how many the source, and every copy
+///   of the tile are drawn with;
+/// - `vertices`: how many are drawn, and of these, base64 of little-endian numbers: `source` (uint16 x 3
+/// within
+///   the box `source_box`: low corner, edge length), `image` (float32 x 3), `normal` (int8 x 3, of the
+///   source, times 127), `source_vertex` (uint32), `area` and `angle` (uint16 within `area_range`,
+///   `angle_range`): log2 of the area ratio, and log2 of the ratio of singular values, averages over the
+///   faces around; `colour` (uint8 x 3, sRGB), where the mesh has colours;
+/// - `fine` and `coarse`: `indices` and `outline`, base64 of uint32;
+/// - `copies`: `transform` (row by row) and `colour` (sRGB) of the |G| copies, the tile itself first;
+/// - `cones`: `vertex`, `order` and `drawn`, the drawn vertices that are its copies.
+///
+/// Holds no `<`, so that it can stand within a script element. Throws as tile_sphere does where the seams
+/// generate no group of the right order; then `copies` would mean nothing.
+///
+/// colours: of the mesh's vertices, n x 3, sRGB, 0 .. 1; or none.
+std::string page_scene(const Mesh& mesh, const Embedding& embedding, const Points& colours,
+                       const DisplayLimits& limits = {});
+
+}  // namespace orbitutte

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// The orders of marked vertices, written on their balls.
+#pragma once
+
+#include "orbitutte/orbifold/embedding.h"
+#include "orbitutte/render/canvas.h"
+
+namespace orbitutte {
+
+struct BallLabel {
+  Place at;           ///< the ball's middle
+  double radius = 0;  ///< in pixels
+  int order = 1;      ///< 0: no number
+  Rgb colour;
+  bool is_visible = true;  ///< where the ball is behind the figure, an open circle stands for it
+};
+
+/// Balls of this radius, in pixels, are large enough for their numbers to be read.
+constexpr double readable_radius = 7;
+
+/// The order of a marked vertex; 0 for the corners of a polygon, which have none.
+int order_to_show(const Embedding& embedding, std::size_t cone);
+
+/// No number where the ball is so small that it could not be told from a speck.
+void draw_label(Canvas& canvas, const BallLabel& label);
+
+}  // namespace orbitutte

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// A checkerboard through the map (figure 14): angles that the map keeps leave its squares right-angled.
+#pragma once
+
+#include <vector>
+
+#include "orbitutte/orbifold/embedding.h"
+#include "orbitutte/render/source_figure.h"
+
+namespace orbitutte {
+
+class Checkerboard {
+ public:
+  /// The tile seen from the point of the sphere opposite to its centre (a unit vector), stereographically,
+  /// and a board of squares whose median side, over the source's area, is `side` on the source.
+  Checkerboard(const Embedding& embedding, const Points& source, const Vector3& centre, double side);
+
+  /// Dark, light, and their mean where squares are smaller than pixels.
+  Colour colour(const Hit& hit, double pixel) const;
+
+  /// n_cut x 2: the stereographic coordinates, in squares.
+  const Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>& coordinates() const {
+    return coordinates_;
+  }
+
+ private:
+  Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> coordinates_;
+  Faces faces_;
+  double side_;
+  std::vector<float> side_on_source_;  ///< m: of a square, by the face that it lies in
+};
+
+/// The side of a square on the source at every face where a square in the plane has the side 1; infinite
+/// where the image has no area. plane: n_cut x 2; source: n x 3, by source vertex.
+std::vector<float> sides_on_source(const Embedding& embedding, const Points& source,
+                                   const Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>& plane);
+
+}  // namespace orbitutte

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// Balls at the marked vertices and tubes along the seams: what a picture shows besides surfaces.
+#pragma once
+
+#include <vector>
+
+#include "orbitutte/render/colour.h"
+#include "orbitutte/render/ray_scene.h"
+
+namespace orbitutte {
+
+/// Coloured tubes and balls that rays can hit.
+class Ornaments {
+ public:
+  /// points: n x 3; fewer than two are passed over.
+  void add_tube(const Points& points, double radius, const Rgb& colour);
+  void add_ball(const Vector3& centre, double radius, const Rgb& colour);
+
+  /// Copies of other ornaments under orthogonal transforms. They must be committed.
+  void add_copies(const Ornaments& original, const std::vector<Matrix3>& transforms);
+
+  void commit() { scene_.commit(); }
+
+  std::optional<Hit> first_hit(const Ray& ray) const { return scene_.first_hit(ray); }
+  bool is_blocked(const Ray& ray) const { return scene_.is_blocked(ray); }
+  Colour colour(const Hit& hit) const;
+
+ private:
+  RayScene scene_;
+  std::vector<Colour> colours_;                 ///< by shape
+  std::vector<std::vector<Colour>> of_copies_;  ///< by shape: the colours inside, where it is a copy
+};
+
+/// The rows of `positions` at these vertices.
+Points polyline(const Points& positions, const std::vector<int>& vertices);
+
+}  // namespace orbitutte

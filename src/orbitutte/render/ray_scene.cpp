@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+// I. Wald et al., "Embree: A Kernel Framework for Efficient CPU Ray Tracing", ACM TOG 33(4), 2014.
+#include "orbitutte/render/ray_scene.h"
+
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+#include <fmt/format.h>
+
+#include <array>
+#include <new>
+
+namespace orbitutte {
+namespace {
+
+/// One device for the process, never released: Embree's threads may outlive the program's statics.
+RTCDevice device() {
+  static RTCDevice shared = rtcNewDevice(nullptr);
+  if (!shared) throw Error("Embree does not start");
+  return shared;
+}
+
+void check_device() {
+  const RTCError error = rtcGetDeviceError(device());
+  if (error == RTC_ERROR_NONE) return;
+  if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+  throw Error(fmt::format("Embree fails with error {}", static_cast<int>(error)));
+}
+
+RTCGeometry new_geometry(RTCGeometryType type) {
+  const RTCGeometry geometry = rtcNewGeometry(device(), type);
+  if (!geometry) check_device();
+  return geometry;
+}
+
+// `count` elements of T, to be filled in.
+template <typename T>
+T* new_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, Eigen::Index count) {
+  void* const buffer =
+      rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(T), static_cast<std::size_t>(count));
+  if (!buffer) check_device();
+  return static_cast<T*>(buffer);
+}
+
+struct Thick {
+  float x, y, z, radius;
+};
+
+Thick* new_thick_points(RTCGeometry geometry, Eigen::Index count) {
+  return new_buffer<Thick>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4, count);
+}
+
+Thick thick(const Vector3& p, double radius) {
+  return {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]),
+          static_cast<float>(radius)};
+}
+
+int attach(RTCScene scene, RTCGeometry geometry) {
+  rtcCommitGeometry(geometry);
+  const unsigned shape = rtcAttachGeometry(scene, geometry);
+  rtcReleaseGeometry(geometry);
+  check_device();
+  return static_cast<int>(shape);
+}
+
+RTCRay to_rtc(const Ray& ray) {
+  RTCRay result = {};
+  result.org_x = ray.origin[0], result.org_y = ray.origin[1], result.org_z = ray.origin[2];
+  result.dir_x = ray.direction[0], result.dir_y = ray.direction[1], result.dir_z = ray.direction[2];
+  result.tfar = ray.length;
+  result.mask = ~0U;
+  return result;
+}
+
+// The two calls whose signatures changed with Embree 4.
+#if RTC_VERSION_MAJOR >= 4
+void intersect(RTCScene scene, RTCRayHit& query) { rtcIntersect1(scene, &query); }
+void occlude(RTCScene scene, RTCRay& query) { rtcOccluded1(scene, &query); }
+#else
+void intersect(RTCScene scene, RTCRayHit& query) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(scene, &context, &query);
+}
+
+void occlude(RTCScene scene, RTCRay& query) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1(scene, &context, &query);
+}
+#endif
+
+}  // namespace
+
+RayScene::RayScene() : scene_(rtcNewScene(device()), rtcReleaseScene) {
+  // No ray slips through between two triangles.
+  rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
+}
+
+int RayScene::add_triangles(const Points& V, const Faces& F) {
+  const RTCGeometry geometry = new_geometry(RTC_GEOMETRY_TYPE_TRIANGLE);
+  using Position = std::array<float, 3>;
+  auto* const positions = new_buffer<Position>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, V.rows());
+  for (Eigen::Index v = 0; v < V.rows(); ++v)
+    for (int k = 0; k < 3; ++k) positions[v][k] = static_cast<float>(V(v, k));
+  using Corners = std::array<unsigned, 3>;
+  auto* const corners = new_buffer<Corners>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, F.rows());
+  for (Eigen::Index f = 0; f < F.rows(); ++f)
+    for (int k = 0; k < 3; ++k) corners[f][k] = static_cast<unsigned>(F(f, k));
+  transforms_.push_back(Eigen::Matrix3f::Identity());
+  return attach(scene_.get(), geometry);
+}
+
+int RayScene::add_tube(const Points& points, double radius) {
+  const RTCGeometry geometry = new_geometry(RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE);
+  Thick* const nodes = new_thick_points(geometry, points.rows());
+  for (Eigen::Index i = 0; i < points.rows(); ++i) nodes[i] = thick(points.row(i), radius);
+  auto* const segments =
+      new_buffer<unsigned>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT, points.rows() - 1);
+  for (Eigen::Index i = 0; i + 1 < points.rows(); ++i) segments[i] = static_cast<unsigned>(i);
+  transforms_.push_back(Eigen::Matrix3f::Identity());
+  return attach(scene_.get(), geometry);
+}
+
+int RayScene::add_ball(const Vector3& centre, double radius) {
+  const RTCGeometry geometry = new_geometry(RTC_GEOMETRY_TYPE_SPHERE_POINT);
+  *new_thick_points(geometry, 1) = thick(centre, radius);
+  transforms_.push_back(Eigen::Matrix3f::Identity());
+  return attach(scene_.get(), geometry);
+}
+
+int RayScene::add_copy(const RayScene& original, const Matrix3& transform) {
+  const RTCGeometry geometry = new_geometry(RTC_GEOMETRY_TYPE_INSTANCE);
+  rtcSetGeometryInstancedScene(geometry, original.scene_.get());
+  rtcSetGeometryTimeStepCount(geometry, 1);
+  transforms_.emplace_back(transform.cast<float>());
+  Eigen::Matrix<float, 3, 4> affine = Eigen::Matrix<float, 3, 4>::Zero();
+  affine.leftCols<3>() = transforms_.back();
+  rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, affine.data());
+  return attach(scene_.get(), geometry);
+}
+
+void RayScene::commit() {
+  rtcCommitScene(scene_.get());
+  check_device();
+}
+
+std::optional<Hit> RayScene::first_hit(const Ray& ray) const {
+  RTCRayHit query = {to_rtc(ray), {}};
+  query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  intersect(scene_.get(), query);
+  const RTCHit& found = query.hit;
+  if (found.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  Hit hit;
+  hit.distance = query.ray.tfar;
+  hit.shape = static_cast<int>(found.geomID);
+  hit.primitive = static_cast<int>(found.primID);
+  hit.u = found.u, hit.v = found.v;
+  hit.normal = Vector3f(found.Ng_x, found.Ng_y, found.Ng_z).normalized();
+  if (found.instID[0] != RTC_INVALID_GEOMETRY_ID) {
+    hit.copy = static_cast<int>(found.instID[0]);
+    hit.normal = transforms_[hit.copy] * hit.normal;
+  }
+  return hit;
+}
+
+bool RayScene::is_blocked(const Ray& ray) const {
+  RTCRay query = to_rtc(ray);
+  occlude(scene_.get(), query);
+  return query.tfar < 0;
+}
+
+}  // namespace orbitutte

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// Pictures of an embedding, made without a display: source mesh, sphere, distortion, checkerboard, plots
+// (docs/rendering.md).
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "orbitutte/orbifold/embedding.h"
+#include "orbitutte/report/report.h"
+
+namespace orbitutte {
+
+enum class Panel { source, sphere, area, angle, checkerboard, histogram, convergence, sheet };
+
+/// "source", "sphere" and so on.
+std::string name(Panel panel);
+
+/// The panel of this name. Throws ArgumentError naming all of them.
+Panel parse_panel(const std::string& text);
+
+/// What a picture shows, from where, and how large.
+struct RenderOptions {
+  Panel panel = Panel::sheet;
+  int width = 0;  ///< pixels, 64 .. 10,000; 0: what suits the panel
+  int height = 0;
+  std::optional<Vector3>
+      view;  ///< of the source mesh, towards the viewer; of the sphere where it is the only panel
+  std::optional<Vector3> up;  ///< what points up; without: y or z, whichever the mesh stands on
+};
+
+/// "1200x800", or "1200" for a square. Throws ArgumentError.
+void parse_size(const std::string& text, RenderOptions& options);
+
+/// What points up where nobody says: y, as in most files; z for closed meshes that stand on a broad base
+/// across z and not across y, as parts for printing do.
+Vector3 default_up(const Mesh& mesh);
+
+/// A direction "x,y,z" or "x", "-x", ... "-z". Throws ArgumentError.
+Vector3 parse_up(const std::string& text);
+
+/// The direction towards the viewer: "front", "back", "left", "right", "top", "bottom" relative to `up`, or
+/// "x,y,z". Where y is up, the front is at +z, and where z is up, at -y. Throws ArgumentError.
+Vector3 parse_view(const std::string& text, const Vector3& up);
+
+/// What is shown. The mesh is the one that was embedded.
+struct RenderSubject {
+  const Mesh& mesh;
+  const Embedding& embedding;
+  const Report& report;
+  std::string title;  ///< of the sheet
+};
+
+/// The bytes of a PNG, or of an SVG (histogram and convergence only). The same input and options give the
+/// same bytes. Throws ArgumentError for options out of range or an SVG of another panel; MeshError where mesh
+/// and embedding do not belong together.
+std::string render_png(const RenderSubject& subject, const RenderOptions& options = {});
+std::string render_svg(const RenderSubject& subject, const RenderOptions& options);
+
+/// Writes the format that the path's ending names (any case), .png or .svg. The file appears whole or not at
+/// all. Throws as above, ArgumentError for another ending, and FileError.
+void write_picture(const std::string& path, const RenderSubject& subject, const RenderOptions& options = {});
+
+}  // namespace orbitutte

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <string>
+#include <vector>
+
+#include "orbitutte/render/panels.h"
+
+namespace orbitutte {
+namespace {
+
+// 86482 as 86,482.
+std::string with_commas(long long number) {
+  std::string text = std::to_string(number);
+  for (int at = static_cast<int>(text.size()) - 3; at > 0; at -= 3) text.insert(at, 1, ',');
+  return text;
+}
+
+std::string summary(const RenderSubject& subject) {
+  std::vector<int> marked;
+  for (const ConeCopies& cone : subject.embedding.cones) marked.push_back(cone.vertex);
+  const Report& report = subject.report;
+  return fmt::format("{} triangles,  marked vertices {},  group of order {},  energy {:.6g},  {}",
+                     with_commas(subject.mesh.F.rows()), fmt::join(marked, ", "), report.group_order,
+                     report.energy, report.bijective ? "certified bijective" : "not certified");
+}
+
+// Returns what remains below.
+Box draw_headline(Canvas& canvas, const Box& box, const RenderSubject& subject) {
+  const double em = canvas.em();
+  canvas.text({box.x, box.y + 1.6 * em}, fmt::format("{}  onto  {}", subject.title, subject.report.signature),
+              {.size = 1.7, .bold = true});
+  canvas.text({box.x, box.y + 3.5 * em}, summary(subject), {.colour = ink::quiet});
+  return box.inset(0, 5 * em, 0, 0);
+}
+
+struct Captioned {
+  Panel panel;
+  const char* caption;
+};
+
+void draw_captioned(Canvas& canvas, const Box& box, PictureParts& parts, const Captioned& what) {
+  const double em = canvas.em();
+  draw_panel(what.panel, canvas, box.inset(0, 0, 0, 2 * em), parts);
+  canvas.text({box.x + 0.5 * box.width, box.bottom() - 0.4 * em}, what.caption,
+              {.align = Align::centre, .bold = true});
+}
+
+}  // namespace
+
+void draw_sheet(Canvas& canvas, const Box& box, PictureParts& parts) {
+  const double gap = 1.5 * canvas.em();
+  const Box body = draw_headline(canvas, box, parts.subject());
+  const double width = (body.width - 2 * gap) / 3, height = (body.height - gap) / 2;
+  const auto cell = [&](int column, int row) {
+    return Box{body.x + column * (width + gap), body.y + row * (height + gap), width, height};
+  };
+  const bool is_tiling = !parts.embedding().seams.empty();
+  draw_captioned(canvas, cell(0, 0), parts,
+                 {Panel::source, is_tiling ? "Source mesh, marked vertices and seams"
+                                           : "Source mesh and the corners of the polygon"});
+  draw_captioned(
+      canvas, cell(1, 0), parts,
+      {Panel::sphere, is_tiling ? "Its tile on the sphere, and the copies" : "Its image on the sphere"});
+  draw_captioned(canvas, cell(2, 0), parts, {Panel::checkerboard, "Checkerboard through the map"});
+  draw_captioned(canvas, cell(0, 1), parts, {Panel::area, "Area distortion"});
+  draw_captioned(canvas, cell(1, 1), parts, {Panel::angle, "Angle distortion"});
+  const Box plots = cell(2, 1), upper = plots.inset(0, 0, 0, 0.5 * height),
+            lower = plots.inset(0, 0.5 * height, 0, 0);
+  draw_captioned(canvas, upper, parts, {Panel::histogram, "Triangles by area distortion"});
+  draw_captioned(canvas, lower, parts, {Panel::convergence, "Convergence"});
+}
+
+}  // namespace orbitutte

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+// Every point of the sphere that is seen is looked up by a ray from the centre, which meets the triangle
+// whose spherical triangle holds the point: the picture shows great arcs and a round outline however coarse
+// the mesh.
+#include "orbitutte/render/sphere_figure.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "orbitutte/render/ball_labels.h"
+#include "orbitutte/render/mesh_lines.h"
+#include "orbitutte/render/source_figure.h"
+
+namespace orbitutte {
+namespace {
+
+constexpr double camera_distance = 3;
+
+// Balls and tubes darken the sphere around them.
+constexpr float above_sphere = 1.0002F;
+constexpr float reach_of_contact = 0.1F;
+constexpr float contact = 0.55F;  // the share of the light that they can take away
+
+// A tile that is held on a polygon stands alone.
+std::vector<TileCopy> copies_of(const Embedding& embedding) {
+  return embedding.seams.empty() ? std::vector<TileCopy>(1) : tile_copies(embedding);
+}
+
+RayScene copies_of_tile(const Points& positions, const Faces& faces, const std::vector<TileCopy>& copies) {
+  RayScene tile;
+  tile.add_triangles(positions, faces);
+  tile.commit();
+  RayScene scene;
+  for (const TileCopy& copy : copies) scene.add_copy(tile, copy.transform);
+  scene.commit();
+  return scene;
+}
+
+// Where a ray of the camera meets the unit sphere, if it does.
+std::optional<float> distance_to_sphere(const Ray& ray) {
+  const float towards = -ray.origin.dot(ray.direction);
+  const float inside = towards * towards - ray.origin.squaredNorm() + 1;
+  if (inside < 0) return std::nullopt;
+  return towards - std::sqrt(inside);
+}
+
+// The least distance between two marked vertices of the tile; 2 where there is one only.
+double smallest_gap(const Embedding& embedding) {
+  double gap = 2;
+  std::vector<int> corners;
+  for (const ConeCopies& cone : embedding.cones)
+    for (const int v : cone.copies) {
+      for (const int w : corners)
+        gap = std::min(gap, (embedding.positions.row(v) - embedding.positions.row(w)).norm());
+      corners.push_back(v);
+    }
+  return gap;
+}
+
+// Where a ball around a point of the sphere has to be so that the sphere hides no more than its rear half, as
+// an orthographic camera sees no difference otherwise; on the far side, the point.
+Vector3 brought_forward(const Vector3& point, double radius, const Vector3& viewer) {
+  const double depth = point.dot(viewer);
+  if (depth < 0) return point;
+  const double inner = std::max(0.0, (point - depth * viewer).norm() - radius);  // its nearest to the middle
+  return point + (std::sqrt(1 - inner * inner) - depth) * viewer;
+}
+
+// The great arcs through these vertices, in steps so short that no chord sinks into the sphere by more than a
+// small part of a tube.
+Points arcs(const Points& positions, const std::vector<int>& vertices) {
+  constexpr double step = 0.05;  // radians
+  std::vector<Vector3> points = {positions.row(vertices.front())};
+  for (std::size_t i = 1; i < vertices.size(); ++i) {
+    const Vector3 from = points.back(), to = positions.row(vertices[i]);
+    const double angle = std::atan2(from.cross(to).norm(), from.dot(to));
+    const int count = std::max(1, static_cast<int>(std::ceil(angle / step)));
+    for (int k = 1; k < count; ++k) {
+      const double t = angle * k / count;
+      points.push_back((std::sin(angle - t) * from + std::sin(t) * to) / std::sin(angle));
+    }
+    points.push_back(to);
+  }
+  Points result(static_cast<Eigen::Index>(points.size()), 3);
+  for (std::size_t i = 0; i < points.size(); ++i) result.row(static_cast<Eigen::Index>(i)) = points[i];
+  return result;
+}
+
+Colour copy_colour(const TileCopy& copy) {
+  return mix(linear(tile_colour(copy.colour, false)), linear(ink::paper), copy.mirrored ? 0.45F : 0.6F);
+}
+
+}  // namespace
+
+SphereFigure::SphereFigure(const Embedding& embedding, std::vector<float> relief)
+    : positions_(embedding.positions),
+      faces_(embedding.faces),
+      relief_(std::move(relief)),
+      copies_(copies_of(embedding)),
+      edge_length_(mean_edge_length(positions_, faces_)),
+      scene_(copies_of_tile(positions_, faces_, copies_)) {}
+
+Colour SphereFigure::surface_colour(const Vector3f& point, double pixel) const {
+  const auto hit = scene_.first_hit({Vector3f::Zero(), point});
+  if (!hit) return linear(ink::figure);  // outside of a tile that has no copies
+  const TileCopy& copy = copies_[hit->copy];
+  const auto corner = faces_.row(hit->primitive);
+  const float relief =
+      (1 - hit->u - hit->v) * relief_[corner[0]] + hit->u * relief_[corner[1]] + hit->v * relief_[corner[2]];
+  const Colour base = hit->copy == 0 ? linear(bold_colour) : copy_colour(copy);
+  const float strength = hit->copy == 0 ? 0.7F : 0.3F;
+  const float line = line_strength(edge_length_ / pixel) * line_coverage(positions_, faces_, *hit, pixel);
+  return base * (1 - strength + strength * relief) * (1 - 0.5F * line);
+}
+
+Image SphereFigure::draw(const Camera& camera, const Ornaments& ornaments) const {
+  const Blocker is_blocked = [&](const Ray& ray) { return ornaments.is_blocked(ray); };
+  return supersample(camera.size, [&](const Sample& sample) -> Rgba {
+    const Ray ray = camera.ray(sample.x, sample.y, camera_distance);
+    const auto distance = distance_to_sphere(ray);
+    const auto ornament = ornaments.first_hit(ray);
+    if (ornament && (distance ? ornament->distance < *distance : ornament->copy < 0))
+      return shade_ornament(camera, ornaments, *ornament);
+    if (!distance) return Rgba::Zero();  // copies' seams do not stand out: the outline stays round
+    const Vector3f point = (ray.origin + *distance * ray.direction).normalized();
+    const Vector3f normal = camera.axes.cast<float>() * point;
+    const float open = openness(is_blocked, {above_sphere * point, point, reach_of_contact}, 1, sample);
+    const float shade = 1 - contact + contact * open;
+    return opaque((0.40F + 0.62F * brightness(normal, {})) * shade * surface_colour(point, camera.pixel) +
+                  0.6F * gloss(normal));
+  });
+}
+
+double seam_radius(int group_order) {
+  const double side = std::sqrt(4 * std::numbers::pi / group_order);
+  return std::clamp(0.012 * side, 0.005, 0.012);
+}
+
+double ball_radius(const Embedding& embedding, double pixel) {
+  const double wanted = std::max(5.5 * seam_radius(embedding.group_order), readable_radius * pixel);
+  return std::min(wanted, std::max(0.3 * smallest_gap(embedding), 0.01));
+}
+
+Ornaments sphere_ornaments(const Embedding& embedding, const std::vector<TileCopy>& copies,
+                           const Camera& camera) {
+  const double radius = seam_radius(embedding.group_order);
+  Ornaments thin;
+  for (const Seam& seam : embedding.seams)
+    thin.add_tube(arcs(embedding.positions, seam.left), 0.45 * radius, {120, 124, 134});
+  thin.commit();
+  Ornaments result;
+  std::vector<Matrix3> transforms;
+  transforms.reserve(copies.size());
+  for (const TileCopy& copy : copies) transforms.push_back(copy.transform);
+  result.add_copies(thin, transforms);
+  for (std::size_t s = 0; s < embedding.seams.size(); ++s) {
+    const Seam& seam = embedding.seams[s];
+    for (const std::vector<int>* bank : {&seam.left, &seam.right})
+      result.add_tube(arcs(embedding.positions, *bank), radius, seam_colour(static_cast<int>(s)));
+  }
+  const double ball = ball_radius(embedding, camera.pixel);
+  for (std::size_t c = 0; c < embedding.cones.size(); ++c)
+    for (const int v : embedding.cones[c].copies)
+      result.add_ball(brought_forward(embedding.positions.row(v), ball, camera.axes.row(2)), ball,
+                      cone_colour(static_cast<int>(c)));
+  result.commit();
+  return result;
+}
+
+Camera sphere_camera(const View& view, const PictureSize& size, double fill) {
+  Camera camera;
+  camera.axes = view_axes(view);
+  camera.size = size;
+  camera.pixel = 2 / (fill * std::min(size.width, size.height));
+  return camera;
+}
+
+Vector3 tile_centre(const Points& positions, const Faces& faces) {
+  Vector3 sum = Vector3::Zero();
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+    const Vector3 a = positions.row(faces(f, 0)), b = positions.row(faces(f, 1)),
+                  c = positions.row(faces(f, 2));
+    sum += (b - a).cross(c - a).norm() * (a + b + c);
+  }
+  return sum.norm() > 1e-12 ? sum.normalized() : Vector3(Vector3::UnitX());
+}
+
+}  // namespace orbitutte

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// The tile on the sphere, in bold colour, among its pale copies.
+#pragma once
+
+#include "orbitutte/export/tiling.h"
+#include "orbitutte/orbifold/embedding.h"
+#include "orbitutte/render/camera.h"
+#include "orbitutte/render/lighting.h"
+#include "orbitutte/render/ornaments.h"
+
+namespace orbitutte {
+
+/// The colour of the source mesh and of its tile on the sphere.
+constexpr Rgb bold_colour = {86, 142, 205};
+
+class SphereFigure {
+ public:
+  /// relief: n, how bright the source's surface is at every cut vertex, 0 .. 1; the tile and its copies carry
+  /// it, so that the source can be recognised on the sphere.
+  SphereFigure(const Embedding& embedding, std::vector<float> relief);
+
+  const std::vector<TileCopy>& copies() const { return copies_; }
+
+  Image draw(const Camera& camera, const Ornaments& ornaments) const;
+
+ private:
+  Colour surface_colour(const Vector3f& point, double pixel) const;
+
+  Points positions_;
+  Faces faces_;
+  std::vector<float> relief_;
+  std::vector<TileCopy> copies_;
+  double edge_length_ = 0;  // the mean, on the sphere
+  RayScene scene_;
+};
+
+/// The radius of tubes along the tile's sides: thinner where tiles are small.
+double seam_radius(int group_order);
+
+/// The radius of balls at the marked vertices: large enough for a number on them where the tile has room.
+/// pixel: the length of a pixel's side, where the sphere's radius is 1.
+double ball_radius(const Embedding& embedding, double pixel);
+
+/// The seams of the tile in their colours, thin grey ones in all copies, and balls at the marked vertices.
+/// Balls on the near side are seen whole: towards the outline they come forward from the sphere.
+Ornaments sphere_ornaments(const Embedding& embedding, const std::vector<TileCopy>& copies,
+                           const Camera& camera);
+
+/// The camera for which the sphere fills the share `fill` of the picture's shorter side.
+Camera sphere_camera(const View& view, const PictureSize& size, double fill);
+
+/// The direction of the integral of position over the tile, a unit vector; never a mean of corners, which may
+/// cancel.
+Vector3 tile_centre(const Points& positions, const Faces& faces);
+
+}  // namespace orbitutte

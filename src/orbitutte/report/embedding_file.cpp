@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/report/embedding_file.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "orbitutte/io/file.h"
+#include "orbitutte/io/mesh_io.h"
+#include "orbitutte/io/ply_triangles.h"
+#include "orbitutte/mesh/triangulation.h"
+
+namespace orbitutte {
+namespace {
+
+void require(const PlyElement& element, const char* property, bool is_list) {
+  const PlyProperty* found = element.find(property);
+  if (!found || found->is_list != is_list)
+    throw MeshError(
+        fmt::format("the element '{}' has no {} property '{}'; is this an embedding written by orbitutte?",
+                    element.name, is_list ? "list" : "scalar", property));
+}
+
+const PlyElement& require(const PlyFile& file, const char* element) {
+  const PlyElement* found = file.find(element);
+  if (!found)
+    throw MeshError(
+        fmt::format("there is no element '{}'; is this an embedding written by orbitutte?", element));
+  return *found;
+}
+
+void require_properties(const PlyFile& file) {
+  const PlyElement &vertex = require(file, "vertex"), &face = require(file, "face");
+  for (const char* property : {"x", "y", "z", "source_vertex"}) require(vertex, property, false);
+  require(face, "vertex_indices", true);
+}
+
+int to_index(double value, int limit, const char* what, std::size_t of) {
+  if (!(value >= 0) || value >= limit || value != std::floor(value))
+    throw MeshError(fmt::format("{} {} names the vertex {}; there are {}", what, of, value, limit));
+  return static_cast<int>(value);
+}
+
+template <typename Number>
+std::vector<int> to_source_vertices(const std::vector<Number>& values) {
+  std::vector<int> sources;
+  sources.reserve(values.size());
+  for (const Number value : values)
+    sources.push_back(
+        to_index(value, static_cast<int>(values.size()), "the source of cut vertex", sources.size()));
+  return sources;
+}
+
+std::vector<int> read_source_vertices(std::string_view bytes, const PlyHeader& header) {
+  if (const auto values = read_ply_integers(bytes, header, "source_vertex"))
+    return to_source_vertices(*values);
+  return to_source_vertices(parse_ply(bytes).find("vertex")->find("source_vertex")->values);
+}
+
+void check_faces(const PolygonMesh& mesh) {
+  for (int f = 0; f < mesh.face_count(); ++f) {
+    if (mesh.face_degree(f) < 3) throw MeshError(fmt::format("face {} has fewer than three corners", f));
+    for (int c = mesh.face_start[f]; c < mesh.face_start[f + 1]; ++c)
+      to_index(mesh.corners[c], mesh.vertex_count(), "face", static_cast<std::size_t>(f));
+  }
+}
+
+void take_faces(PolygonMesh& mesh, Embedding& embedding) {
+  check_faces(mesh);
+  if (is_triangle_mesh(mesh)) {
+    embedding.faces = Eigen::Map<const Faces>(mesh.corners.data(), mesh.face_count(), 3);
+    return;
+  }
+  embedding.polygons = {std::move(mesh.corners), std::move(mesh.face_start)};
+  embedding.faces = on_vertices(fan(embedding.polygons), embedding.polygons.corners);
+}
+
+}  // namespace
+
+std::string serialize_embedding(const Embedding& embedding) {
+  return write_ply_faces(embedding.positions, embedding.input_faces(),
+                         {{"source_vertex", embedding.source_vertex}},
+                         {fmt::format("orbitutte embedding {}", embedding.signature)});
+}
+
+Embedding parse_embedding(std::string_view bytes) {
+  const PlyHeader header = parse_ply_header(bytes);
+  require_properties(header.file);
+  PolygonMesh mesh = parse_mesh(bytes, MeshFormat::ply);
+  Embedding embedding;
+  embedding.source_vertex = read_source_vertices(bytes, header);
+  take_faces(mesh, embedding);
+  embedding.positions = std::move(mesh.V);
+  return embedding;
+}
+
+Embedding read_embedding(const std::string& path) {
+  const std::string bytes = read_file(path);
+  try {
+    return parse_embedding(bytes);
+  } catch (const MeshError& error) {
+    throw MeshError(fmt::format("{}: {}", path, error.what()));
+  }
+}
+
+}  // namespace orbitutte

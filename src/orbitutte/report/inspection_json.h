@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// What `orbitutte info --json` and `orbitutte types --json` print.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "orbitutte/inspect/inspection.h"
+#include "orbitutte/inspect/weak_places.h"
+
+namespace orbitutte {
+
+/// The families that a mesh can be embedded into ("532", "22N", ...): those of its topology.
+std::vector<std::string> families_for(const Inspection& inspection);
+
+/// Where a mesh is not 3-connected; none are looked for where it has defects.
+std::vector<WeakPlace> weak_places(const PolygonMesh& mesh, const Inspection& inspection);
+
+/// Topology, quality, defects and weak places of a mesh, and what it embeds into, as JSON
+/// (docs/file-formats.md).
+std::string inspection_json(const std::string& path, const Inspection& inspection,
+                            const std::vector<WeakPlace>& places);
+
+/// All families, as JSON: a list of objects with `family`, `group_order`, `input` and `marked_points`.
+std::string families_json();
+
+}  // namespace orbitutte

@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/report/report.h"
+
+#include <fmt/format.h>
+#include <openssl/evp.h>
+
+#include <cstdint>
+#include <initializer_list>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "orbitutte/io/file.h"
+#include "orbitutte/report/embedding_file.h"
+#include "orbitutte/version.h"
+
+namespace orbitutte {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const Matrix3& M) {
+  Json rows = Json::array();
+  for (int i = 0; i < 3; ++i) rows.push_back({M(i, 0), M(i, 1), M(i, 2)});
+  return rows;
+}
+
+Json to_json(const ConeCopies& cone) {
+  return {{"vertex", cone.vertex}, {"order", cone.order}, {"kind", name(cone.kind)}, {"copies", cone.copies}};
+}
+
+Json to_json(const Seam& seam) {
+  return {{"kind", name(seam.kind())},
+          {"left", seam.left},
+          {"right", seam.right},
+          {"transform", to_json(seam.transform)}};
+}
+
+Json to_json(const EdgeWeights& weights) {
+  Json json = {
+      {"kind", name(weights.kind)}, {"clamp", weights.clamp}, {"clamped_edges", weights.clamped_edges}};
+  if (weights.triangulation) {
+    json["flips"] = weights.triangulation->flips.size();
+    json["kept_faces"] = weights.triangulation->kept_faces;
+  }
+  return json;
+}
+
+Json to_json(const Certificate& certificate) {
+  Json checks = Json::array();
+  for (const Check& check : certificate.checks) {
+    Json row = {
+        {"name", check.name}, {"passed", check.passed}, {"value", check.value}, {"bound", check.bound}};
+    if (!check.detail.empty()) row["detail"] = check.detail;
+    checks.push_back(std::move(row));
+  }
+  return {{"bijective", certificate.bijective},
+          {"nonpositive_faces", certificate.nonpositive_faces},
+          {"signed_area", certificate.signed_area},
+          {"expected_area", certificate.expected_area},
+          {"max_edge_length", certificate.max_edge_length},
+          {"max_seam_residual", certificate.max_seam_residual},
+          {"checks", std::move(checks)}};
+}
+
+Json to_json(const Distortion& distortion) {
+  const auto& [mean, std, median, max] = distortion.area;
+  return {{"area", {{"mean", mean}, {"std", std}, {"median", median}, {"max", max}}},
+          {"angle", {{"mean", distortion.angle.mean}, {"max", distortion.angle.max}}},
+          {"histogram",
+           {{"quantity", "log2 of the area ratio"},
+            {"edges", distortion.histogram.edges},
+            {"counts", distortion.histogram.counts}}},
+          {"measured_faces", distortion.measured_faces}};
+}
+
+Json history_json(const std::vector<Iteration>& history) {
+  Json rows = Json::array();
+  for (const Iteration& row : history)
+    rows.push_back({{"energy", row.energy}, {"gradient_norm", row.gradient_norm}, {"step", row.step}});
+  return rows;
+}
+
+Json timings_json(const Timings& stages, const RunRecord& run) {
+  Json timings = {{"read", run.read_seconds}};
+  for (const auto& [stage, seconds] : stages) timings[stage] = timings.value(stage, 0.0) + seconds;
+  timings["write"] = run.write_seconds;
+  timings["total"] = run.total_seconds;
+  return timings;
+}
+
+Json environment_json(const EmbedResult& result, const RunRecord& run) {
+  return {{"version", version},         {"commit", commit},          {"backend", name(result.backend)},
+          {"blas", blas_description()}, {"threads", result.threads}, {"input_sha256", run.input_sha256}};
+}
+
+template <typename Values, typename Convert>
+Json list(const Values& values, const Convert& convert) {
+  Json rows = Json::array();
+  for (const auto& value : values) rows.push_back(convert(value));
+  return rows;
+}
+
+// Reading: every value is asked for by its key, which the sentence names where it is missing or of the wrong
+// type.
+const Json& member(const Json& object, const char* key) {
+  const auto at = object.find(key);
+  if (at == object.end()) throw MeshError(fmt::format("the key '{}' is missing", key));
+  return *at;
+}
+
+const Json& typed(const Json& value, const char* key, bool is_right, const char* type) {
+  if (!is_right) throw MeshError(fmt::format("the value of '{}' is not {}", key, type));
+  return value;
+}
+
+const Json& object(const Json& json, const char* key) {
+  const Json& value = member(json, key);
+  return typed(value, key, value.is_object(), "an object");
+}
+
+const Json& array(const Json& json, const char* key) {
+  const Json& value = member(json, key);
+  return typed(value, key, value.is_array(), "a list");
+}
+
+std::string text(const Json& json, const char* key) {
+  const Json& value = member(json, key);
+  return typed(value, key, value.is_string(), "a text").get<std::string>();
+}
+
+bool boolean(const Json& json, const char* key) {
+  const Json& value = member(json, key);
+  return typed(value, key, value.is_boolean(), "true or false").get<bool>();
+}
+
+double to_number(const Json& value, const char* key) {
+  return typed(value, key, value.is_number(), "a number").get<double>();
+}
+
+int to_integer(const Json& value, const char* key) {
+  typed(value, key, value.is_number_integer(), "a whole number");
+  const auto number = value.get<std::int64_t>();
+  constexpr int largest = std::numeric_limits<int>::max();
+  const bool wrapped = value.is_number_unsigned() && number < 0;
+  typed(value, key, !wrapped && number >= -largest && number <= largest, "a whole number of 32 bits");
+  return static_cast<int>(number);
+}
+
+double number(const Json& json, const char* key) { return to_number(member(json, key), key); }
+
+int integer(const Json& json, const char* key) { return to_integer(member(json, key), key); }
+
+std::vector<int> integers(const Json& json, const char* key) {
+  std::vector<int> values;
+  for (const Json& value : array(json, key)) values.push_back(to_integer(value, key));
+  return values;
+}
+
+Matrix3 matrix(const Json& json, const char* key) {
+  const char* const type = "a 3 x 3 matrix";
+  const Json& rows = array(json, key);
+  typed(rows, key, rows.size() == 3, type);
+  Matrix3 M;
+  for (int i = 0; i < 3; ++i) {
+    typed(rows[i], key, rows[i].is_array() && rows[i].size() == 3, type);
+    for (int k = 0; k < 3; ++k) M(i, k) = to_number(rows[i][k], key);
+  }
+  return M;
+}
+
+template <typename Kind>
+Kind one_of(std::initializer_list<Kind> kinds, const std::string& word, const char* what) {
+  for (const Kind kind : kinds)
+    if (name(kind) == word) return kind;
+  throw MeshError(fmt::format("the 'kind' of {} is '{}', which means nothing", what, word));
+}
+
+Seam to_seam(const Json& json) {
+  Seam seam = {integers(json, "left"), integers(json, "right"), matrix(json, "transform")};
+  if (seam.left.size() != seam.right.size())
+    throw MeshError("the banks 'left' and 'right' of a seam have different lengths");
+  return seam;
+}
+
+ConeCopies to_cone(const Json& json) {
+  const ConeKind kind =
+      one_of({ConeKind::rotation, ConeKind::corner, ConeKind::fixed}, text(json, "kind"), "a cone");
+  return {integer(json, "vertex"), integer(json, "order"), kind, integers(json, "copies")};
+}
+
+WeightOptions to_weights(const Json& json) {
+  const WeightKind kind = one_of({WeightKind::cotan, WeightKind::delaunay, WeightKind::mean_value,
+                                  WeightKind::uniform, WeightKind::file},
+                                 text(json, "kind"), "the weights");
+  WeightOptions weights = {kind, number(json, "clamp"), {}};
+  if (kind == WeightKind::delaunay) weights.kept_faces = integers(json, "kept_faces");
+  return weights;
+}
+
+std::vector<Iteration> to_history(const Json& rows) {
+  std::vector<Iteration> history;
+  for (const Json& row : rows) {
+    typed(row, "history", row.is_object(), "a list of objects");
+    history.push_back({number(row, "energy"), number(row, "gradient_norm"), number(row, "step")});
+  }
+  return history;
+}
+
+Report to_report(const Json& json) {
+  if (text(json, "schema") != "orbitutte.report/1")
+    throw MeshError(fmt::format("the 'schema' is '{}', not 'orbitutte.report/1'", text(json, "schema")));
+  Report report;
+  const Json& orbifold = object(json, "orbifold");
+  report.signature = text(orbifold, "signature");
+  report.group_order = integer(orbifold, "group_order");
+  if (report.group_order < 1) throw MeshError("the value of 'group_order' is not positive");
+  for (const Json& seam : array(json, "seams")) report.seams.push_back(to_seam(seam));
+  for (const Json& cone : array(json, "cones")) report.cones.push_back(to_cone(cone));
+  report.weights = to_weights(object(json, "weights"));
+  report.energy = number(json, "energy");
+  report.history = to_history(array(json, "history"));
+  report.converged = text(json, "termination") == name(Termination::converged);
+  const Json& certificate = object(json, "certificate");
+  report.bijective = boolean(certificate, "bijective");
+  report.expected_area = number(certificate, "expected_area");
+  report.nonpositive_faces = integers(certificate, "nonpositive_faces");
+  if (json.contains("intrinsic_certificate"))
+    report.intrinsic_bijective = boolean(object(json, "intrinsic_certificate"), "bijective");
+  return report;
+}
+
+}  // namespace
+
+std::string report_json(const EmbedResult& result, const RunRecord& run) {
+  const Embedding& embedding = result.embedding;
+  const Minimum& minimum = result.minimum;
+  const int vertices = static_cast<int>(minimum.positions.rows());
+  Json json = {{"schema", "orbitutte.report/1"},
+               {"mesh",
+                {{"path", run.mesh_path},
+                 {"vertices", vertices},
+                 {"faces", embedding.input_faces().count()},
+                 {"topology", name(result.topology)},
+                 {"unreferenced_vertices", result.unreferenced_vertices},
+                 {"zero_area_faces", result.zero_area_faces}}},
+               {"orbifold", {{"signature", embedding.signature}, {"group_order", embedding.group_order}}},
+               {"cones", list(embedding.cones, [](const ConeCopies& cone) { return to_json(cone); })},
+               {"seams", list(embedding.seams, [](const Seam& seam) { return to_json(seam); })},
+               {"weights", to_json(result.weights)},
+               {"energy", minimum.energy},
+               {"iterations", minimum.iterations},
+               {"evaluations", minimum.evaluations},
+               {"termination", name(minimum.termination)},
+               {"gradient_norm", minimum.gradient_norm},
+               {"history", history_json(minimum.history)},
+               {"certificate", to_json(result.certificate)},
+               {"distortion", to_json(result.distortion)},
+               {"warnings", result.warnings},
+               {"timings", timings_json(result.timings, run)},
+               {"peak_memory_bytes", run.peak_memory_bytes},
+               {"environment", environment_json(result, run)}};
+  if (result.intrinsic_certificate) json["intrinsic_certificate"] = to_json(*result.intrinsic_certificate);
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Report parse_report(std::string_view text) {
+  try {
+    return to_report(Json::parse(text));
+  } catch (const nlohmann::json::parse_error& error) {
+    throw MeshError(fmt::format("this is no JSON, from byte {} on", error.byte));
+  } catch (const nlohmann::json::out_of_range&) {
+    throw MeshError("a number is too large to be one");
+  }
+}
+
+Report read_report(const std::string& path) {
+  const std::string text = read_file(path);
+  try {
+    return parse_report(text);
+  } catch (const MeshError& error) {
+    throw MeshError(fmt::format("{}: {}", path, error.what()));
+  }
+}
+
+Embedding with_report(Embedding embedding, const Report& report) {
+  embedding.signature = report.signature;
+  embedding.group_order = report.group_order;
+  embedding.seams = report.seams;
+  embedding.cones = report.cones;
+  const int count = static_cast<int>(embedding.source_vertex.size());
+  const auto require = [&](const std::vector<int>& vertices) {
+    for (const int v : vertices)
+      if (v < 0 || v >= count)
+        throw MeshError(fmt::format("the report names the cut vertex {}, but there are {}", v, count));
+  };
+  for (const Seam& seam : embedding.seams) {
+    require(seam.left);
+    require(seam.right);
+  }
+  for (const ConeCopies& cone : embedding.cones) require(cone.copies);
+  return embedding;
+}
+
+Embedding read_embedding(const std::string& ply_path, const Report& report) {
+  Embedding embedding = read_embedding(ply_path);
+  try {
+    return with_report(std::move(embedding), report);
+  } catch (const MeshError& error) {
+    throw MeshError(fmt::format("{}: {}", ply_path, error.what()));
+  }
+}
+
+std::string sha256(std::string_view bytes) {
+  unsigned char digest[EVP_MAX_MD_SIZE];
+  unsigned int length = 0;
+  if (!EVP_Digest(bytes.data(), bytes.size(), digest, &length, EVP_sha256(), nullptr))
+    throw Error("OpenSSL could not compute a SHA-256 digest");
+  std::string text;
+  for (unsigned int k = 0; k < length; ++k) text += fmt::format("{:02x}", digest[k]);
+  return text;
+}
+
+}  // namespace orbitutte

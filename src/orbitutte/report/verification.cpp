@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/report/verification.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "orbitutte/inspect/inspection.h"
+#include "orbitutte/mesh/triangulation.h"
+#include "orbitutte/orbifold/signature.h"
+#include "orbitutte/verify/energy.h"
+#include "orbitutte/weights/cone_weights.h"
+
+namespace orbitutte {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Check claim(std::string name, bool holds, std::string detail) {
+  return {std::move(name), holds, holds ? 0.0 : 1.0, 0, holds ? std::string() : std::move(detail)};
+}
+
+// The weights that the embedding was computed with; none where they came from a file that is not at hand.
+std::optional<EdgeWeights> weights_at_hand(const Mesh& mesh, const Connectivity& connectivity,
+                                           const Embedding& embedding, const Report& report,
+                                           const VerificationOptions& options) {
+  if (options.weights) return options.weights;
+  if (report.weights.kind != WeightKind::file)
+    return weights_of(mesh, connectivity, report.weights, embedding);
+  if (options.weights_file.empty()) return std::nullopt;
+  return read_weights(options.weights_file, connectivity);
+}
+
+// E as the report says, from the mesh and the positions.
+Check energy_check(double energy, const Report& report) {
+  const double difference = std::abs(energy - report.energy);
+  Check check = {"energy", difference <= 1e-9 * std::abs(energy), difference, 1e-9 * std::abs(energy), {}};
+  if (!check.passed)
+    check.detail = fmt::format("the energy is {:.12g}, the report says {:.12g}", energy, report.energy);
+  return check;
+}
+
+bool has_passed(const Certificate& certificate, const char* name) {
+  return std::any_of(certificate.checks.begin(), certificate.checks.end(),
+                     [&](const Check& check) { return check.name == name && check.passed; });
+}
+
+// Is the embedding sound enough to speak of its cover?
+bool has_cover(const Certificate& certificate) {
+  const auto checks = {"cut_mesh", "unit_positions", "seam_transforms", "seam_gluing", "group_order"};
+  return std::all_of(checks.begin(), checks.end(),
+                     [&](const char* name) { return has_passed(certificate, name); });
+}
+
+Theorem2 not_run(const char* reason) {
+  Theorem2 theorem2;
+  theorem2.detail = reason;
+  return theorem2;
+}
+
+Theorem2 theorem2_of(const Mesh& mesh, const Connectivity& connectivity,
+                     const std::optional<EdgeWeights>& weights, const Embedding& embedding,
+                     const Certificate& certificate) {
+  if (!has_cover(certificate)) return not_run("the copies of the embedding do not fit together");
+  if (!weights) return not_run("the weights came from a file: give it with --weights-file");
+  return check_theorem2(mesh, connectivity, *weights, embedding);
+}
+
+// What the report says of the triangulation that has the weights.
+Check intrinsic_claim(const Mesh& mesh, const Embedding& embedding, const EdgeWeights& weights,
+                      const Report& report) {
+  const bool bijective =
+      weights.triangulation && certify_intrinsic(mesh, embedding, *weights.triangulation).bijective;
+  return claim("report_intrinsic_bijective", *report.intrinsic_bijective == (bijective && report.converged),
+               fmt::format("the report says bijective = {} of the intrinsic triangulation",
+                           *report.intrinsic_bijective));
+}
+
+std::vector<Check> check_claims(const Certificate& certificate, const Report& report) {
+  return {claim("report_bijective", report.bijective == (certificate.bijective && report.converged),
+                fmt::format("the report says bijective = {}", report.bijective)),
+          claim("report_expected_area", std::abs(report.expected_area - certificate.expected_area) <= 1e-9,
+                fmt::format("the report expects the area {:.12g}, it is {:.12g}", report.expected_area,
+                            certificate.expected_area)),
+          claim("report_nonpositive_faces", report.nonpositive_faces == certificate.nonpositive_faces,
+                fmt::format("the report names {} nonpositive faces, there are {}",
+                            report.nonpositive_faces.size(), certificate.nonpositive_faces.size()))};
+}
+
+Json to_json(const std::vector<Check>& checks) {
+  Json rows = Json::array();
+  for (const Check& check : checks)
+    rows.push_back({{"name", check.name},
+                    {"passed", check.passed},
+                    {"value", check.value},
+                    {"bound", check.bound},
+                    {"detail", check.detail}});
+  return rows;
+}
+
+Json to_json(const RepresentationInertia& part) {
+  return {{"dimension", part.dimension}, {"multiplicity", part.multiplicity},
+          {"unknowns", part.unknowns},   {"negative", part.negative},
+          {"kernel", part.kernel},       {"coordinates", part.coordinates},
+          {"shift", part.shift}};
+}
+
+Json to_json(const Theorem2& theorem2) {
+  Json representations = Json::array();
+  for (const RepresentationInertia& part : theorem2.representations) representations.push_back(to_json(part));
+  const bool measured = theorem2.status == Theorem2::Status::measured;
+  return {{"status", name(theorem2.status)},
+          {"holds", theorem2.holds()},
+          {"detail", theorem2.detail},
+          {"method", name(theorem2.method)},
+          {"max_edge_length", theorem2.max_edge_length},
+          {"negative_eigenvalues", measured ? Json(theorem2.negative) : Json()},
+          {"kernel_dimension", measured ? Json(theorem2.kernel) : Json()},
+          {"kernel_residual", theorem2.kernel_residual},
+          {"checks", to_json(theorem2.checks())},
+          {"representations", representations}};
+}
+
+}  // namespace
+
+Verdict verify(const PolygonMesh& mesh, const Embedding& embedding, const Report& report,
+               const VerificationOptions& options) {
+  require_embeddable(inspect(mesh));
+  const Triangulation triangulation = triangulate(mesh);
+  const Mesh triangles = {mesh.V, on_vertices(triangulation, mesh.corners)};
+  const Connectivity connectivity = connect(mesh, triangulation);
+
+  const Certificate certificate = certify(mesh, embedding);
+  std::optional<EdgeWeights> weights;  // of an embedding of this mesh
+  if (has_passed(certificate, "cut_mesh"))
+    weights = weights_at_hand(triangles, connectivity, embedding, report, options);
+  Verdict verdict;
+  verdict.checks = certificate.checks;
+  for (Check& check : check_claims(certificate, report)) verdict.checks.push_back(std::move(check));
+  if (certificate.bijective && weights)
+    verdict.checks.push_back(
+        energy_check(dirichlet_energy(triangles, connectivity, *weights, embedding), report));
+  if (report.intrinsic_bijective && weights)
+    verdict.checks.push_back(intrinsic_claim(triangles, embedding, *weights, report));
+  verdict.sound = certificate.bijective;
+  for (const Check& check : verdict.checks) verdict.sound = verdict.sound && check.passed;
+  verdict.converged = report.converged;
+  verdict.bijective = verdict.sound && report.converged;
+  if (options.theorem2)
+    verdict.theorem2 = theorem2_of(triangles, connectivity, weights, embedding, certificate);
+  return verdict;
+}
+
+std::string verdict_json(const Verdict& verdict) {
+  Json json = {{"bijective", verdict.bijective}, {"checks", to_json(verdict.checks)}};
+  if (verdict.theorem2) json["theorem2"] = to_json(*verdict.theorem2);
+  return json.dump(1) + "\n";
+}
+
+EdgeWeights weights_of(const Mesh& mesh, const Connectivity& connectivity, const WeightOptions& options,
+                       const Embedding& embedding) {
+  std::vector<Mark> marks;
+  for (const ConeCopies& cone : embedding.cones) marks.push_back({cone.order, cone.kind});
+  const std::vector<double> angles = metric_angles(marks);
+  std::vector<ConeAngle> cones;
+  for (std::size_t k = 0; k < angles.size(); ++k)
+    if (angles[k] > 0) cones.push_back({embedding.cones[k].vertex, angles[k]});
+  return sharpened_at_cones(edge_weights(mesh, connectivity, options), cones);
+}
+
+}  // namespace orbitutte

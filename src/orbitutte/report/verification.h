@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// The judgement on an embedding and its report again, from the mesh and both alone: `orbitutte verify`.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "orbitutte/report/report.h"
+#include "orbitutte/verify/theorem2.h"
+#include "orbitutte/weights/weights.h"
+
+namespace orbitutte {
+
+/// What to look at besides the certificate.
+struct VerificationOptions {
+  std::string
+      weights_file;  ///< the weights that the embedding was computed with, where they came from a file
+  std::optional<EdgeWeights> weights;  ///< or these themselves
+  bool theorem2 = false;               ///< also theorem 2's conditions, which can take long
+};
+
+/// What holds, check by check.
+struct Verdict {
+  std::vector<Check> checks;  ///< of the certificate, then whether the report says the same, then the energy
+  bool sound = false;         ///< all of them passed
+  bool bijective = false;     ///< and the report says that the optimiser converged
+  bool converged = false;     ///< that the report says so
+  std::optional<Theorem2> theorem2;  ///< where it was asked for
+};
+
+/// Throws MeshError with the first defect of the mesh, and as read_weights does; what does not hold of the
+/// embedding or its report is a failed check.
+Verdict verify(const PolygonMesh& mesh, const Embedding& embedding, const Report& report,
+               const VerificationOptions& options = {});
+
+/// `bijective`, `checks` and, where it was asked for, `theorem2`, as JSON (docs/file-formats.md).
+std::string verdict_json(const Verdict& verdict);
+
+/// The weights of an embedding of the mesh, computed again from the mesh and, where the kind takes them into
+/// account, from the embedding's cones. Throws ArgumentError for weights of a file.
+EdgeWeights weights_of(const Mesh& mesh, const Connectivity& connectivity, const WeightOptions& options,
+                       const Embedding& embedding);
+
+}  // namespace orbitutte

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/weights/cone_weights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "orbitutte/weights/delaunay_flips.h"
+
+namespace orbitutte {
+namespace {
+
+constexpr double widest = 0.99 * std::numbers::pi;  // angle of a face
+
+// The angle of its face where a half-edge begins.
+double angle_at_origin(const IntrinsicTriangulation& T, int h) {
+  return std::atan2(1.0, 2 * T.half_cotangent[next_halfedge(h)]);
+}
+
+// The third side of a triangle from two sides and the angle between them.
+double third_side(double p, double q, double angle) {
+  const double sine = std::sin(angle / 2);
+  return std::sqrt((p - q) * (p - q) + 4 * p * q * sine * sine);
+}
+
+// The half-edges that begin at each cone.
+std::vector<std::vector<int>> leaving(const IntrinsicTriangulation& T, const std::vector<ConeAngle>& cones) {
+  std::vector<std::vector<int>> result(cones.size());
+  for (int h = 0; h < static_cast<int>(T.F.size()); ++h)
+    for (std::size_t k = 0; k < cones.size(); ++k)
+      if (origin(T.F, h) == cones[k].vertex) result[k].push_back(h);
+  return result;
+}
+
+// The face at the cone where h begins in the metric of z -> z^b.
+void flatten(IntrinsicTriangulation& T, int h, double b) {
+  const double p = std::pow(T.length[h], b), q = std::pow(T.length[previous_halfedge(h)], b);
+  const double angle = std::min(b * angle_at_origin(T, h), widest);
+  T.length[h] = p;
+  T.length[previous_halfedge(h)] = q;
+  T.length[next_halfedge(h)] = third_side(p, q, angle);
+  measure_angles(T, h / 3);
+}
+
+}  // namespace
+
+EdgeWeights sharpened_at_cones(const EdgeWeights& weights, const std::vector<ConeAngle>& cones) {
+  if (!weights.triangulation) return weights;
+  IntrinsicTriangulation T = *weights.triangulation;
+  const std::vector<std::vector<int>> halfedges = leaving(T, cones);
+  std::vector<char> cones_of_face(T.F.rows(), 0);
+  for (const std::vector<int>& of_cone : halfedges)
+    for (const int h : of_cone) ++cones_of_face[h / 3];
+  std::vector<int> changed;  // edges
+  for (std::size_t k = 0; k < cones.size(); ++k) {
+    double sum = 0;
+    for (const int h : halfedges[k]) sum += angle_at_origin(T, h);
+    for (const int h : halfedges[k]) {
+      if (cones_of_face[h / 3] > 1) continue;
+      flatten(T, h, cones[k].angle / sum);
+      for (const int side : {h, next_halfedge(h), previous_halfedge(h)})
+        changed.push_back(T.connectivity.edge_of[side]);
+    }
+  }
+  make_delaunay(T, changed);
+  return intrinsic_weights(std::move(T), weights.clamp);
+}
+
+}  // namespace orbitutte

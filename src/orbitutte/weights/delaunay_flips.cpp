@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/weights/delaunay_flips.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "orbitutte/parallel.h"
+
+namespace orbitutte {
+namespace {
+
+constexpr double mollification = 1e-8;       // slack in units of the mean length
+constexpr double cocircular = 1e-9;          // cotangents whose sum is nearer to zero are not worth a flip,
+constexpr double cotangent_rounding = 1e-6;  // nor where it is that near to zero beside them
+constexpr std::size_t most_flips_per_edge = 100;
+
+// 16 times the squared area (W. Kahan, "Miscalculating area and angles of a needle-like triangle").
+double sixteen_squared_areas(double a, double b, double c) {
+  if (a < b) std::swap(a, b);
+  if (b < c) std::swap(b, c);
+  if (a < b) std::swap(a, b);
+  return (a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c));
+}
+
+// A point at the distances r and s from (0, 0) and (d, 0), above the line between them.
+struct PlanePoint {
+  double x, y;
+};
+PlanePoint lay_out(double d, double r, double s) {
+  return {(d * d + (r - s) * (r + s)) / (2 * d),
+          std::sqrt(std::max(0.0, sixteen_squared_areas(d, r, s))) / (2 * d)};
+}
+
+class DelaunayFlips {
+ public:
+  explicit DelaunayFlips(IntrinsicTriangulation& triangulation)
+      : T_(triangulation),
+        opposite_(triangulation.connectivity.opposite),
+        edge_of_(triangulation.connectivity.edge_of),
+        halfedge_(triangulation.connectivity.edges.size()),
+        waiting_(triangulation.connectivity.edges.size(), 0),
+        kept_(triangulation.connectivity.edges.size(), 0) {
+    for (int h = 0; h < static_cast<int>(edge_of_.size()); ++h) halfedge_[edge_of_[h]] = h;
+    for (const int f : triangulation.kept_faces)
+      for (int h = 3 * f; h < 3 * f + 3; ++h) kept_[edge_of_[h]] = 1;
+  }
+
+  void run(const std::vector<int>& edges) {
+    for (const int e : edges) push(e);
+    const std::size_t most_flips = T_.flips.size() + most_flips_per_edge * halfedge_.size();
+    std::size_t before = 0;
+    do {
+      before = T_.flips.size();
+      flip_all_that_wait(most_flips);
+      for (const int e : std::exchange(blocked_, {})) push(e);  // what blocked them may be gone
+    } while (T_.flips.size() > before && T_.flips.size() < most_flips);
+  }
+
+ private:
+  void flip_all_that_wait(std::size_t most_flips) {
+    for (std::size_t k = 0; k < queue_.size() && T_.flips.size() < most_flips; ++k) {
+      const int e = queue_[k];
+      waiting_[e] = 0;
+      if (is_delaunay(e)) continue;
+      const Flip flip = flip_of(halfedge_[e]);
+      if (is_blocked(flip)) {
+        blocked_.push_back(e);
+      } else {
+        apply(flip);
+      }
+    }
+    queue_.clear();
+  }
+
+  void push(int e) {
+    if (waiting_[e] || kept_[e] || is_delaunay(e)) return;
+    waiting_[e] = 1;
+    queue_.push_back(e);
+  }
+
+  bool is_delaunay(int e) const {
+    const int h = halfedge_[e], g = opposite_[h];
+    if (g < 0) return true;
+    const double left = T_.half_cotangent[h], right = T_.half_cotangent[g];
+    return left + right >= -(cocircular + cotangent_rounding * (std::abs(left) + std::abs(right)));
+  }
+
+  Flip flip_of(int h) const {
+    Flip flip;
+    flip.h = h;
+    flip.g = opposite_[h];
+    flip.al = next_halfedge(flip.g);
+    flip.lb = previous_halfedge(flip.g);
+    if (origin(T_.F, flip.g) == origin(T_.F, h)) std::swap(flip.al, flip.lb);
+    flip.beyond_al = opposite_[flip.al];
+    flip.beyond_lb = opposite_[flip.lb];
+    return flip;
+  }
+
+  bool is_blocked(const Flip& flip) const {
+    const int bk = next_halfedge(flip.h), ka = previous_halfedge(flip.h);
+    const bool leaves_an_ear =
+        (opposite_[ka] < 0 && flip.beyond_al < 0) || (opposite_[bk] < 0 && flip.beyond_lb < 0);
+    const int l = origin(T_.F, previous_halfedge(flip.g));
+    return leaves_an_ear || origin(T_.F, ka) == l || are_joined(ka, l);
+  }
+
+  // Does an edge join the vertex where the half-edge begins to w, which is none of its face's? Walks around
+  // the former, in both directions where the boundary ends the first walk.
+  bool are_joined(int out, int w) const {
+    const int v = origin(T_.F, out);
+    for (const int across : {previous_halfedge(out), out}) {
+      int h = opposite_[across];
+      for (; h >= 0 && h / 3 != out / 3; h = opposite_[h]) {
+        const bool leaves = origin(T_.F, h) == v;
+        h = leaves ? previous_halfedge(h) : next_halfedge(h);
+        if ((leaves ? origin(T_.F, h) : target(T_.F, h)) == w) return true;
+      }
+      if (h >= 0) break;
+    }
+    return false;
+  }
+
+  // The distance from k to l, both faces laid out in the plane, in the unit of the first.
+  double diagonal(const Flip& flip, double unit) const {
+    const std::vector<double>& length = T_.length;
+    const double ab = length[flip.h];
+    const PlanePoint k = lay_out(ab, length[previous_halfedge(flip.h)], length[next_halfedge(flip.h)]),
+                     l = lay_out(ab, unit * length[flip.al], unit * length[flip.lb]);
+    return std::hypot(k.x - l.x, k.y + l.y);
+  }
+
+  void apply(const Flip& flip) {
+    const int h = flip.h, g = flip.g, bk = next_halfedge(h), ka = previous_halfedge(h);
+    const double unit = T_.length[h] / T_.length[g], kl = diagonal(flip, unit);
+    const int a = origin(T_.F, h), b = target(T_.F, h), k = origin(T_.F, ka),
+              l = origin(T_.F, previous_halfedge(g));
+    const std::array<int, 4> edges = {edge_of_[ka], edge_of_[flip.al], edge_of_[flip.lb], edge_of_[bk]},
+                             beyond = {opposite_[ka], flip.beyond_al, flip.beyond_lb, opposite_[bk]},
+                             place = {next_halfedge(h), previous_halfedge(h), next_halfedge(g),
+                                      previous_halfedge(g)};
+    const std::array<double, 4> lengths = {T_.length[ka], unit * T_.length[flip.al],
+                                           unit * T_.length[flip.lb], T_.length[bk]};
+    int* const corner = T_.F.data();
+    corner[h] = l, corner[place[0]] = k, corner[place[1]] = a;
+    corner[g] = k, corner[place[2]] = l, corner[place[3]] = b;
+    T_.length[h] = T_.length[g] = kl;
+    for (int s = 0; s < 4; ++s) {
+      edge_of_[place[s]] = edges[s];
+      opposite_[place[s]] = beyond[s];
+      if (beyond[s] >= 0) opposite_[beyond[s]] = place[s];
+      halfedge_[edges[s]] = place[s];
+      T_.length[place[s]] = lengths[s];
+    }
+    T_.connectivity.edges[edge_of_[h]] = {k, l};
+    measure_angles(T_, h / 3);
+    measure_angles(T_, g / 3);
+    T_.flips.push_back(flip);
+    for (const int near : edges) push(near);
+  }
+
+  IntrinsicTriangulation& T_;
+  std::vector<int>&opposite_, &edge_of_;
+  std::vector<int> halfedge_;         // one of every edge
+  std::vector<char> waiting_;         // is the edge in the queue?
+  std::vector<char> kept_;            // has a kept face the edge?
+  std::vector<int> queue_, blocked_;  // edges
+};
+
+}  // namespace
+
+std::vector<double> mollified_lengths(const Mesh& mesh, const Connectivity& connectivity) {
+  const int count = static_cast<int>(connectivity.edges.size());
+  const auto difference = [&](int e) -> Vector3 {
+    const auto [i, j] = connectivity.edges[e];
+    return mesh.V.row(i) - mesh.V.row(j);
+  };
+  const double largest = parallel_max(count, [&](int e) { return difference(e).lpNorm<Eigen::Infinity>(); });
+  // A power of two near 1/largest: nothing overflows.
+  const double scale = largest > 0 ? std::exp2(-std::clamp(std::ilogb(largest), -1000, 1000)) : 1.0;
+  std::vector<double> length(count);
+  const double total = parallel_sum(count, [&](int e) { return length[e] = (scale * difference(e)).norm(); });
+  const double mean = total > 0 ? total / count : 1.0;
+  for (double& l : length) l /= mean;
+  const auto side = [&](int h) { return length[connectivity.edge_of[h]]; };
+  const double missing = parallel_max(static_cast<int>(connectivity.edge_of.size()), [&](int h) {
+    return mollification + side(h) - side(next_halfedge(h)) - side(previous_halfedge(h));
+  });
+  for (double& l : length) l += missing;
+  return length;
+}
+
+double half_cotangent(double a, double b, double c) {
+  const double area = std::sqrt(sixteen_squared_areas(a, b, c));  // four times
+  return area > 0 ? 0.5 * (b * b + c * c - a * a) / area : 0.0;
+}
+
+double half_angle_tangent(double a, double b, double c) {
+  return std::sqrt(std::max(0.0, (a - (b - c)) * (a + (b - c))) / ((a + (b + c)) * ((b + c) - a)));
+}
+
+void measure_angles(IntrinsicTriangulation& triangulation, int face) {
+  const double* const length = &triangulation.length[3 * face];
+  for (int k = 0; k < 3; ++k)
+    triangulation.half_cotangent[3 * face + k] =
+        half_cotangent(length[k], length[(k + 1) % 3], length[(k + 2) % 3]);
+}
+
+IntrinsicTriangulation intrinsic_triangulation(const Mesh& mesh, const Connectivity& connectivity) {
+  const std::vector<double> length = mollified_lengths(mesh, connectivity);
+  IntrinsicTriangulation result = {mesh.F, connectivity, {}, {}, {}, {}};
+  result.length.resize(mesh.F.size());
+  result.half_cotangent.resize(mesh.F.size());
+  parallel_ranges(static_cast<int>(mesh.F.rows()), [&](int begin, int end) {
+    for (int h = 3 * begin; h < 3 * end; ++h) result.length[h] = length[connectivity.edge_of[h]];
+    for (int f = begin; f < end; ++f) measure_angles(result, f);
+  });
+  return result;
+}
+
+void make_delaunay(IntrinsicTriangulation& triangulation, const std::vector<int>& edges) {
+  DelaunayFlips(triangulation).run(edges);
+}
+
+}  // namespace orbitutte

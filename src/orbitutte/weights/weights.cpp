@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/weights/weights.h"
+
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "orbitutte/io/file.h"
+#include "orbitutte/parallel.h"
+#include "orbitutte/weights/delaunay_flips.h"
+
+namespace orbitutte {
+namespace {
+
+// A weight of an intrinsic triangulation that is zero, between concyclic points, becomes this: the theory
+// asks for positive ones, and so little moves nothing that can be seen.
+constexpr double concyclic_weight = 1e-6;
+
+// Half the cotangent of the angle at vertex o of a triangle (i, j, o); zero where the triangle has no area
+// but rounding errors, as `inspect` counts them: their cotangents, 1e15 or so, would be rounding errors too.
+double half_cotangent(const Points& V, int i, int j, int o) {
+  Vector3 a = V.row(i) - V.row(o), b = V.row(j) - V.row(o);
+  const double longest =
+      std::max({a.lpNorm<Eigen::Infinity>(), b.lpNorm<Eigen::Infinity>(), (b - a).lpNorm<Eigen::Infinity>()});
+  if (!(longest > 0)) return 0;
+  // A power of two near 1/longest: nothing overflows, and right angles stay exact.
+  const double scale = std::exp2(-std::clamp(std::ilogb(longest), -1000, 1000));
+  a *= scale;
+  b *= scale;
+  const double twice_area = a.cross(b).norm();
+  return twice_area > 8 * std::numeric_limits<double>::epsilon() ? 0.5 * a.dot(b) / twice_area : 0.0;
+}
+
+// The sum of a half-edge's value and its opposite's, for every edge.
+Eigen::VectorXd summed_over_sides(const Connectivity& connectivity, const std::vector<double>& value) {
+  Eigen::VectorXd sum(static_cast<Eigen::Index>(connectivity.edges.size()));
+  parallel_ranges(static_cast<int>(value.size()), [&](int begin, int end) {
+    for (int h = begin; h < end; ++h) {
+      const int other = connectivity.opposite[h], e = connectivity.edge_of[h];
+      if (e < 0) continue;  // a diagonal
+      if (other < 0) sum[e] = value[h];
+      if (other > h) sum[e] = value[h] + value[other];
+    }
+  });
+  return sum;
+}
+
+EdgeWeights cotangent_weights(const Mesh& mesh, const Connectivity& connectivity, double clamp) {
+  EdgeWeights result;
+  result.clamp = clamp;
+  const int halfedges = static_cast<int>(mesh.F.size());
+  std::vector<double> cotangent(halfedges);
+  parallel_ranges(halfedges, [&](int begin, int end) {
+    for (int h = begin; h < end; ++h)
+      cotangent[h] =
+          half_cotangent(mesh.V, origin(mesh.F, h), target(mesh.F, h), origin(mesh.F, previous_halfedge(h)));
+  });
+  result.w = summed_over_sides(connectivity, cotangent);
+  for (double& w : result.w) {
+    if (!(w > 0)) {
+      w = clamp;
+      ++result.clamped_edges;
+    }
+  }
+  return result;
+}
+
+EdgeWeights delaunay_weights(const Mesh& mesh, const Connectivity& connectivity,
+                             const WeightOptions& options) {
+  IntrinsicTriangulation triangulation = intrinsic_triangulation(mesh, connectivity);
+  for (const int f : options.kept_faces)
+    if (f < 0 || f >= mesh.F.rows())
+      throw MeshError(
+          fmt::format("there is no face {} to keep; the mesh has the faces 0 to {}", f, mesh.F.rows() - 1));
+  triangulation.kept_faces = options.kept_faces;
+  std::vector<int> all(connectivity.edges.size());
+  std::iota(all.begin(), all.end(), 0);
+  make_delaunay(triangulation, all);
+  return intrinsic_weights(std::move(triangulation), options.clamp);
+}
+
+// Half the mean length of the edges at every vertex.
+std::vector<double> half_mean_lengths(const Connectivity& connectivity, const std::vector<double>& length,
+                                      int vertex_count) {
+  std::vector<double> sum(vertex_count, 0.0);
+  std::vector<int> degree(vertex_count, 0);
+  for (std::size_t e = 0; e < length.size(); ++e) {
+    for (const int v : connectivity.edges[e]) {
+      sum[v] += length[e];
+      ++degree[v];
+    }
+  }
+  for (int v = 0; v < vertex_count; ++v) sum[v] /= 2 * std::max(degree[v], 1);
+  return sum;
+}
+
+EdgeWeights mean_value_weights(const Mesh& mesh, const Connectivity& connectivity) {
+  const std::vector<double> length = mollified_lengths(mesh, connectivity);
+  const std::vector<double> scale = half_mean_lengths(connectivity, length, static_cast<int>(mesh.V.rows()));
+  const auto side = [&](int h) { return length[connectivity.edge_of[h]]; };
+  std::vector<double> share(connectivity.edge_of.size());  // of the weight, from one face
+  parallel_ranges(static_cast<int>(share.size()), [&](int begin, int end) {
+    for (int h = begin; h < end; ++h) {
+      const double a = side(h), b = side(next_halfedge(h)), c = side(previous_halfedge(h));
+      const double at_origin = scale[origin(mesh.F, h)] * half_angle_tangent(b, c, a),
+                   at_target = scale[target(mesh.F, h)] * half_angle_tangent(c, a, b);
+      share[h] = (at_origin + at_target) / (2 * a);
+    }
+  });
+  EdgeWeights result;
+  result.w = summed_over_sides(connectivity, share);
+  return result;
+}
+
+// The blank-separated words of a line, each without copying.
+std::string_view next_word(std::string_view& line) {
+  const auto first = line.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos) return line = {};
+  line.remove_prefix(first);
+  const std::string_view word = line.substr(0, line.find_first_of(" \t\r"));
+  line.remove_prefix(word.size());
+  return word;
+}
+
+template <typename Number>
+bool parse(std::string_view word, Number& number) {
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  return error == std::errc() && end == word.data() + word.size() && !word.empty();
+}
+
+int find_edge(const Connectivity& connectivity, int i, int j) {
+  const std::array<int, 2> edge = {std::min(i, j), std::max(i, j)};
+  const auto at = std::lower_bound(connectivity.edges.begin(), connectivity.edges.end(), edge);
+  return at != connectivity.edges.end() && *at == edge ? static_cast<int>(at - connectivity.edges.begin())
+                                                       : -1;
+}
+
+EdgeWeights weights_of_kind(const Mesh& mesh, const Connectivity& connectivity,
+                            const WeightOptions& options) {
+  if (options.kind == WeightKind::cotan) return cotangent_weights(mesh, connectivity, options.clamp);
+  if (options.kind == WeightKind::delaunay) return delaunay_weights(mesh, connectivity, options);
+  if (options.kind == WeightKind::mean_value) return mean_value_weights(mesh, connectivity);
+  EdgeWeights uniform;
+  uniform.w = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(connectivity.edges.size()));
+  return uniform;
+}
+
+// Weights that are given edge by edge. `place()` tells where one stands, `where` all of them.
+class WeightCollector {
+ public:
+  explicit WeightCollector(const Connectivity& connectivity) : connectivity_(connectivity) {
+    result_.kind = WeightKind::file;
+    result_.w.setConstant(static_cast<Eigen::Index>(connectivity.edges.size()), missing);
+  }
+
+  template <typename Place>
+  void add(const Place& place, const WeightedEdge& given) {
+    const auto& [i, j, w] = given;
+    if (!(w >= 0) || !std::isfinite(w))
+      throw MeshError(fmt::format(
+          "{}: edge ({}, {}) has the weight {}; weights must be finite and not negative", place(), i, j, w));
+    const int edge = find_edge(connectivity_, i, j);
+    if (edge < 0)
+      throw MeshError(fmt::format("{}: ({}, {}) is no edge of the mesh; leave it out", place(), i, j));
+    if (result_.w[edge] != missing)
+      throw MeshError(fmt::format("{}: edge ({}, {}) is given twice; give every edge once", place(), i, j));
+    result_.w[edge] = w;
+  }
+
+  /// All of them, when every edge has one; `row` is what would hold one more.
+  EdgeWeights weights(const std::string& where, const char* row) {
+    const auto absent = std::find(result_.w.begin(), result_.w.end(), missing);
+    if (absent != result_.w.end()) {
+      const auto [i, j] = connectivity_.edges[absent - result_.w.begin()];
+      throw MeshError(
+          fmt::format("{}: edge ({}, {}) has no {}; give every edge of the mesh once", where, i, j, row));
+    }
+    result_.zero_edges = static_cast<int>(std::count(result_.w.begin(), result_.w.end(), 0.0));
+    return std::move(result_);
+  }
+
+ private:
+  static constexpr double missing = -1;
+  const Connectivity& connectivity_;
+  EdgeWeights result_;
+};
+
+}  // namespace
+
+EdgeWeights intrinsic_weights(IntrinsicTriangulation triangulation, double clamp) {
+  EdgeWeights result;
+  result.kind = WeightKind::delaunay;
+  result.clamp = clamp;
+  result.w = summed_over_sides(triangulation.connectivity, triangulation.half_cotangent);
+  for (double& w : result.w) {
+    if (w < -concyclic_weight) {
+      w = clamp;
+      ++result.clamped_edges;
+    }
+    w = std::max(w, concyclic_weight);
+  }
+  result.triangulation = std::make_shared<IntrinsicTriangulation>(std::move(triangulation));
+  return result;
+}
+
+EdgeWeights edge_weights(const Mesh& mesh, const Connectivity& connectivity, const WeightOptions& options) {
+  if (!(options.clamp > 0) || !std::isfinite(options.clamp))
+    throw ArgumentError(
+        fmt::format("the clamp of the weights is {}; it must be positive and finite", options.clamp));
+  if (options.kind == WeightKind::file && options.given.empty())
+    throw ArgumentError("weights of the kind 'file' are read by read_weights");
+  if (options.kind == WeightKind::file) return given_weights(options.given, connectivity);
+  if (options.kind == WeightKind::standard)
+    return edge_weights(mesh, connectivity, {WeightKind::delaunay, options.clamp, options.kept_faces});
+  EdgeWeights result = weights_of_kind(mesh, connectivity, options);
+  result.kind = options.kind;
+  result.clamp = options.clamp;
+  return result;
+}
+
+EdgeWeights given_weights(const std::vector<WeightedEdge>& list, const Connectivity& connectivity) {
+  WeightCollector collector(connectivity);
+  for (std::size_t k = 0; k < list.size(); ++k)
+    collector.add([&] { return fmt::format("weight {}", k); }, list[k]);
+  return collector.weights("the weights", "entry");
+}
+
+EdgeWeights read_weights(const std::string& path, const Connectivity& connectivity) {
+  const std::string text = read_file(path);
+  WeightCollector collector(connectivity);
+  int number = 0;
+  for (std::string_view rest = text; !rest.empty();) {
+    std::string_view line = rest.substr(0, rest.find('\n'));
+    rest.remove_prefix(std::min(line.size() + 1, rest.size()));
+    ++number;
+    const std::string_view first = next_word(line);
+    if (first.empty() || first.front() == '#') continue;
+    WeightedEdge edge;
+    if (!parse(first, edge.i) || !parse(next_word(line), edge.j) || !parse(next_word(line), edge.weight))
+      throw MeshError(
+          fmt::format("{}: line {} is not 'i j w' (two vertices and a weight); mend it", path, number));
+    collector.add([&] { return fmt::format("{}: line {}", path, number); }, edge);
+  }
+  return collector.weights(path, "line");
+}
+
+}  // namespace orbitutte
