@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace orbitutte::cli {
 
@@ -66,7 +67,8 @@ struct ReportArguments {
 int report_command(const ReportArguments& arguments);
 
 struct CompareArguments {
-  std::string mesh, cones = "auto", orbifold, flat, weights = "standard", output;
+  std::string mesh, cones = "auto", weights = "standard", output;
+  std::vector<std::string> orbifolds;
   bool json = false;
 };
 int compare_command(const CompareArguments& arguments);

@@ -73,7 +73,7 @@ Spread parse_spread(const std::string& text) {
 }
 
 // What is asked for: an orbifold, or a polygon with its corners.
-Orbifold orbifold_from(const EmbedArguments& arguments) {
+Target orbifold_from(const EmbedArguments& arguments) {
   const bool polygon = arguments.orbifold == polygon_signature;
   if (!polygon && !arguments.polygon.empty())
     throw ArgumentError(fmt::format(
@@ -87,7 +87,7 @@ Orbifold orbifold_from(const EmbedArguments& arguments) {
         "--polygon is missing: the file with the corners of the polygon, 'vertex x y z' each");
   if (!arguments.cones.empty())
     throw ArgumentError("--cones is not for polygons: the lines of --polygon name the vertices");
-  return polygon_orbifold(read_corners(arguments.polygon));
+  return polygon_target(read_corners(arguments.polygon));
 }
 
 EmbedOptions options_from(const EmbedArguments& arguments) {
@@ -126,13 +126,17 @@ AnyMesh read_input(const std::string& path, RunRecord& run) {
   }
 }
 
+std::string group_text(const Target& target) {
+  return target.group_order > 0 ? fmt::format("group of order {}", target.group_order) : "infinite group";
+}
+
 void summarize(const EmbedArguments& arguments, const EmbedResult& result) {
   const Minimum& minimum = result.minimum;
   std::vector<int> cones;
   for (const ConeCopies& cone : result.embedding.cones) cones.push_back(cone.vertex);
-  fmt::print(stderr, "{}: {} vertices, {} faces, a {}, onto {} (group of order {}), cones {}\n",
+  fmt::print(stderr, "{}: {} vertices, {} faces, a {}, onto {} ({}), cones {}\n",
              arguments.mesh, minimum.positions.rows(), result.embedding.input_faces().count(),
-             name(result.topology), result.embedding.signature, result.embedding.group_order,
+             name(result.topology), result.embedding.target.signature, group_text(result.embedding.target),
              fmt::join(cones, ","));
   fmt::print(stderr, "energy {:.12g} after {} iterations, gradient {:.1e}: {}\n", minimum.energy,
              minimum.iterations, minimum.gradient_norm, name(minimum.termination));
@@ -155,7 +159,7 @@ void summarize(const EmbedArguments& arguments, const EmbedResult& result) {
 int embed_command(const EmbedArguments& arguments) {
   const Stopwatch total;
   EmbedOptions options = options_from(arguments);
-  const Orbifold orbifold = orbifold_from(arguments);
+  const Target orbifold = orbifold_from(arguments);
   const bool automatic = arguments.cones == "auto";
   std::vector<int> cones = corner_vertices(orbifold);
   if (cones.empty() && !automatic) cones = parse_cones(arguments.cones);

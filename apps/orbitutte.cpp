@@ -163,18 +163,17 @@ void add_report(CLI::App& app, int& code) {
 void add_compare(CLI::App& app, int& code) {
   auto* command = app.add_subcommand(
       "compare",
-      "Spherical and Euclidean orbifold Tutte embeddings of one mesh: their distortion side by side");
+      "Embeddings of one mesh into several orbifolds, of the sphere and the plane: their distortion side by side");
   auto arguments = std::make_shared<CompareArguments>();
   command->add_option("mesh", arguments->mesh, "The mesh: OBJ, OFF, PLY or STL")->required();
   command
       ->add_option("--cones", arguments->cones,
-                   "The marked vertices, in the order of both symbols, or 'auto'")
+                   "The marked vertices, in the order of all symbols, or 'auto'")
       ->capture_default_str();
-  command->add_option("--orbifold", arguments->orbifold,
-                      "The spherical symbol; 432, of disks *432, unless given");
-  command->add_option(
-      "--flat", arguments->flat,
-      "The Euclidean symbol: 333, 442, 632, 2222, or with a star; 442, of disks *442, unless given");
+  command
+      ->add_option("--orbifold", arguments->orbifolds,
+                   "The symbols to compare; 432 and 442, of disks *432 and *442, unless given")
+      ->expected(1, -1);
   command->add_option("--weights", arguments->weights, "As of embed")->capture_default_str();
   command->add_option("-o,--output", arguments->output,
                       "Draw both here: .png (mesh and histogram), .svg (histogram)");

@@ -69,7 +69,7 @@ Input load(const Arguments& arguments) {
     input.mesh = to_triangle_mesh(read_mesh(arguments.mesh));
   }
   for (int k = 0; k < arguments.subdivisions; ++k) input.mesh = subdivided(input.mesh);
-  const Orbifold orbifold = parse_orbifold(arguments.orbifold);
+  const Target orbifold = parse_orbifold(arguments.orbifold);
   input.cones.resize(std::min(input.cones.size(), orbifold.marks.size()));
   return input;
 }

@@ -188,7 +188,7 @@ def areas_table(program):
     rows, pairs = [], []
     for name, path, marked in meshes:
         result = json.loads(program.run('compare', path, '--cones', marked, '--weights', 'cotan', '--json', codes=(0, 5)))
-        sides = [result['spherical'], result['euclidean']]
+        sides = result['maps']
         pairs.append(sides)
         rows.append([name] + [f'{side["area"][key]:.4g}' for key in ('mean', 'std', 'median', 'max') for side in sides] +
                     [f'{side["angle"]["mean"]:.4g}' for side in sides] + [', '.join('yes' if side['bijective'] else 'no' for side in sides)])

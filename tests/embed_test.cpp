@@ -118,7 +118,7 @@ TEST(Embed, EnergyApproachesTwiceTheAreaUnderRefinement) {
 TEST(Embed, MarksSitAtConesOfTheRightOrder) {
   for (const std::string& signature : test::sample_signatures()) {
     const test::SampleEmbedding& sample = test::sample_embedding(signature);
-    const Orbifold orbifold = parse_orbifold(signature);
+    const Target orbifold = parse_orbifold(signature);
     ASSERT_EQ(sample.embedding().cones.size(), sample.marks.size());
     for (std::size_t k = 0; k < sample.marks.size(); ++k) {
       const ConeCopies& cone = sample.embedding().cones[k];
@@ -248,7 +248,7 @@ RC_GTEST_PROP(Embed, AnyConeInsideAndAnyCornerAreEmbedded, (std::uint32_t seed))
   const int cone = static_cast<int>(seed % 169), corner = 169 + static_cast<int>(seed / 169 % 48);
   const std::vector<std::string> signatures = {"3*2", "2*2", "2*3", "2*5", "2*8", "2*", "3*", "5*", "8*"};
   const std::string& signature = signatures[seed / 8112 % signatures.size()];
-  const Orbifold orbifold = parse_orbifold(signature);
+  const Target orbifold = parse_orbifold(signature);
   std::vector<int> marks = {cone, corner};
   marks.resize(orbifold.marks.size());
   EmbedOptions options = one_thread();
@@ -596,7 +596,7 @@ TEST(Embed, FacesWithoutAreaSurvive) {
 
 TEST(Embed, ChosenMarksAreDifferentAndWhereTheyHaveToBe) {
   for (const std::string& signature : test::sample_signatures()) {
-    const Orbifold orbifold = parse_orbifold(signature);
+    const Target orbifold = parse_orbifold(signature);
     std::vector<int> marks = test::sample_embedding(signature).marks;
     EXPECT_EQ(marks.size(), orbifold.marks.size());
     if (orbifold.topology == Topology::disk) {
@@ -664,7 +664,7 @@ TEST(EmbeddingSolver, TellsOfADefectEveryTime) {
 
 TEST(Embed, DoesNotDependOnTheNumberOfThreads) {
   for (const std::string signature : {"432", "22", "*532", "3*2", "5*"}) {
-    const Orbifold orbifold = parse_orbifold(signature);
+    const Target orbifold = parse_orbifold(signature);
     const Mesh mesh = orbifold.topology == Topology::sphere ? test::perturbed(test::icosphere(5), 0.01, 6)
                                                             : test::perturbed(test::round_disk(50), 0.01, 6);
     const std::vector<int> marks = choose_marked_vertices(mesh, orbifold);

@@ -226,7 +226,7 @@ TEST_F(ExportFiles, OtherEndingsAndMissingFoldersAreRefused) {
 // Faces of five corners and more on a sphere, quadrilaterals on a disk and on a projective plane, where some
 // of the cut mesh are turned over.
 PolygonMesh polygons_for(const std::string& signature) {
-  const Orbifold orbifold = parse_orbifold(signature);
+  const Target orbifold = parse_orbifold(signature);
   if (orbifold.topology == Topology::sphere) return test::dual(test::perturbed(test::icosphere(2), 0.03, 7));
   if (orbifold.topology == Topology::disk)
     return test::quadrangulated(test::perturbed(test::round_disk(5), 0.02, 7));
@@ -235,7 +235,7 @@ PolygonMesh polygons_for(const std::string& signature) {
 
 ExportedModel polygon_model(const std::string& signature, TextureChart chart = TextureChart::stereographic) {
   const PolygonMesh mesh = polygons_for(signature);
-  const Orbifold orbifold = parse_orbifold(signature);
+  const Target orbifold = parse_orbifold(signature);
   EmbedOptions options;
   options.weights.kind = WeightKind::uniform;
   const EmbedResult result = embed(mesh, orbifold, choose_marked_vertices(mesh, orbifold), options);

@@ -379,7 +379,7 @@ TEST(Cones, TwoOnOneFaceLeaveItAsItIs) {
 
 // --- gluing
 
-std::vector<ConeAngle> cones_of(const Orbifold& orbifold, const std::vector<int>& marks) {
+std::vector<ConeAngle> cones_of(const Target& orbifold, const std::vector<int>& marks) {
   const std::vector<double> angles = metric_angles(orbifold.marks);
   std::vector<ConeAngle> cones;
   for (std::size_t k = 0; k < marks.size(); ++k) cones.push_back({marks[k], angles[k]});
@@ -624,7 +624,7 @@ TEST(IntrinsicEmbedding, AngleDistortionFallsUnderRefinement) {
 // Along the axis of NN and *NN nothing but the error of the elements holds the map.
 TEST(IntrinsicEmbedding, DoesNotSlideToOneEndOfAFreeAxis) {
   for (const std::string signature : {"22", "33", "55", "12,12", "*22", "*33", "*55", "*12,12"}) {
-    const Orbifold orbifold = parse_orbifold(signature);
+    const Target orbifold = parse_orbifold(signature);
     const Mesh mesh = orbifold.topology == Topology::sphere ? test::perturbed(test::icosphere(4), 0.01, 3)
                                                             : test::round_disk(24);
     const std::vector<int> marks = choose_marked_vertices(mesh, orbifold);

@@ -221,7 +221,7 @@ TEST(Page, IsWellNestedHtmlThatHoldsEveryCheck) {
 TEST(Page, SpeaksOfFacesWhereTheyAreNotAllTriangles) {
   const PolygonMesh mesh = test::dual(test::icosphere(1));
   const Mesh triangles = {mesh.V, on_vertices(triangulate(mesh), mesh.corners)};
-  const Orbifold orbifold = parse_orbifold("432");
+  const Target orbifold = parse_orbifold("432");
   const EmbedResult result = embed(mesh, orbifold, choose_marked_vertices(mesh, orbifold));
   const std::string report = report_json(result, run);
   const std::string page = report_page({triangles, result.embedding, report});

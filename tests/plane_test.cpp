@@ -31,7 +31,7 @@ std::vector<std::string> all_symbols() {
   return all;
 }
 
-std::vector<int> any_arrangement(const Orbifold& orbifold) {
+std::vector<int> any_arrangement(const Target& orbifold) {
   std::vector<int> result;
   for (int k = 0; k < static_cast<int>(orbifold.marks.size()); ++k) result.push_back(k);
   return result;
@@ -52,7 +52,7 @@ struct Sample {
 };
 
 Sample sample(const std::string& symbol, const EmbedOptions& options = with(WeightKind::cotan)) {
-  const Orbifold orbifold = parse_euclidean_orbifold(symbol);
+  const Target orbifold = parse_euclidean_orbifold(symbol);
   const Mesh mesh = orbifold.topology == Topology::sphere ? test::perturbed(test::icosphere(3), 0.02, 7)
                                                           : test::perturbed(test::round_disk(10), 0.02, 7);
   const std::vector<int> marks = choose_marked_vertices(mesh, orbifold);
@@ -76,7 +76,7 @@ Eigen::VectorXd edge_lengths(const Sample& sample) {
 
 TEST(PlaneTile, SidesCloseUpAndCarryTheirPartners) {
   for (const std::string& symbol : all_symbols()) {
-    const Orbifold orbifold = parse_euclidean_orbifold(symbol);
+    const Target orbifold = parse_euclidean_orbifold(symbol);
     const Tile tile = basic_tile(orbifold, any_arrangement(orbifold));
     const int n = static_cast<int>(tile.sides.size());
     for (int k = 0; k < n; ++k) {
@@ -97,7 +97,7 @@ TEST(PlaneTile, SidesCloseUpAndCarryTheirPartners) {
 
 TEST(PlaneTile, AnglesAroundAMarkAddUpToItsOrdersShare) {
   for (const std::string& symbol : all_symbols()) {
-    const Orbifold orbifold = parse_euclidean_orbifold(symbol);
+    const Target orbifold = parse_euclidean_orbifold(symbol);
     const Tile tile = basic_tile(orbifold, any_arrangement(orbifold));
     std::vector<double> angle(orbifold.marks.size(), 0);
     const std::size_t n = tile.sides.size();
@@ -223,7 +223,7 @@ Marked flat_triangle(int n) {
 
 TEST(Plane, TheEquilateralTriangleIsLaidOutAsItIs) {
   const Marked flat = flat_triangle(6);
-  const Orbifold orbifold = parse_euclidean_orbifold("*333");
+  const Target orbifold = parse_euclidean_orbifold("*333");
   expect_laid_out_as_it_is(flat.mesh, embed(flat.mesh, orbifold, flat.corners, with(WeightKind::cotan)),
                            "*333");
 }
@@ -277,7 +277,7 @@ Marked half_square(int n) {
 
 TEST(Plane, TheHalfSquareIsLaidOutAsItIs) {
   const Marked flat = half_square(6);
-  const Orbifold orbifold = parse_euclidean_orbifold("*424");
+  const Target orbifold = parse_euclidean_orbifold("*424");
   expect_laid_out_as_it_is(flat.mesh, embed(flat.mesh, orbifold, flat.corners, with(WeightKind::cotan)),
                            "*424");
 }
@@ -287,7 +287,7 @@ TEST(Plane, TheSquareAndItsDoubleAreLaidOutAsTheyAre) {
   for (const int sides : {1, 2}) {
     const Marked flat = flat_square(6, sides);
     const std::string symbol = sides == 1 ? "*2222" : "2222";
-    const Orbifold orbifold = parse_euclidean_orbifold(symbol);
+    const Target orbifold = parse_euclidean_orbifold(symbol);
     expect_laid_out_as_it_is(flat.mesh, embed(flat.mesh, orbifold, flat.corners, with(WeightKind::cotan)),
                              symbol);
   }

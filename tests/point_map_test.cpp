@@ -236,7 +236,7 @@ TEST(PointMap, OutsideOfAPolygonNothingIsFound) {
   std::sort(polygon.begin(), polygon.end(), [](const PolygonCorner& a, const PolygonCorner& b) {
     return std::atan2(a.position.y(), a.position.x()) < std::atan2(b.position.y(), b.position.x());
   });
-  const Orbifold orbifold = polygon_orbifold(polygon);
+  const Target orbifold = polygon_target(polygon);
   const EmbedResult result = embed(mesh, orbifold, corner_vertices(orbifold));
   ASSERT_TRUE(result.certificate.bijective);
   const PointLocator locator(result.embedding);
@@ -258,7 +258,7 @@ TEST(PointMap, OutsideOfAPolygonNothingIsFound) {
 
 TEST(PointMap, PointsOfThePlaneAreMappedButNotLocated) {
   const Mesh mesh = test::perturbed(test::icosphere(2), 0.03, 7);
-  const Orbifold orbifold = parse_euclidean_orbifold("442");
+  const Target orbifold = parse_euclidean_orbifold("442");
   const EmbedResult result = embed(mesh, orbifold, choose_marked_vertices(mesh, orbifold));
   const Points image = map_points(result.embedding, {{3}, Points::Constant(1, 3, 1.0 / 3), {}});
   const Faces& F = result.embedding.faces;

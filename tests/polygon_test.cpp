@@ -86,7 +86,7 @@ EmbedResult embedded(const Mesh& mesh, const Corners& corners, Spread spread = S
   EmbedOptions options;
   options.threads = 1;
   options.spread = spread;
-  const Orbifold polygon = polygon_orbifold(corners);
+  const Target polygon = polygon_target(corners);
   return embed(mesh, polygon, corner_vertices(polygon), options);
 }
 
@@ -194,7 +194,7 @@ TEST(Polygon, StraightCornersMayBeAsCloseAsCan) {
   const Vector3 here = corners[0].position, next = corners[1].position;
   for (int k = 5; k > 0; --k)
     corners.insert(corners.begin() + 1, {boundary_vertex(k), (here + 1e-7 * k * (next - here)).normalized()});
-  EXPECT_EQ(polygon_orbifold(corners).marks.size(), 8u);
+  EXPECT_EQ(polygon_target(corners).marks.size(), 8u);
 }
 
 TEST(Polygon, ASolverForManyEmbeddingsGivesTheSame) {
@@ -202,7 +202,7 @@ TEST(Polygon, ASolverForManyEmbeddingsGivesTheSame) {
   options.threads = 1;
   EmbeddingSolver solver(bent_disk(), options);
   for (const int corners : {3, 4, 3}) {
-    const Orbifold polygon = polygon_orbifold(regular_polygon(corners, 0.9));
+    const Target polygon = polygon_target(regular_polygon(corners, 0.9));
     const EmbedResult result = solver.embed(polygon, corner_vertices(polygon));
     EXPECT_EQ(result.embedding.positions, embedded(bent_disk(), polygon.corners).embedding.positions);
     expect_certified(
@@ -240,7 +240,7 @@ TEST(Polygon, TrianglesWithTwoEdgesOnASideAreRoundedOutward) {
 }
 
 TEST(Polygon, ItsAreaIsThatOfTheTriangleOfOneOctant) {
-  EXPECT_NEAR(area(polygon_orbifold({{0, {1, 0, 0}}, {1, {0, 1, 0}}, {2, {0, 0, 1}}})), pi / 2, 1e-15);
+  EXPECT_NEAR(area(polygon_target({{0, {1, 0, 0}}, {1, {0, 1, 0}}, {2, {0, 0, 1}}})), pi / 2, 1e-15);
   EXPECT_NEAR(area(parse_orbifold("532")), 4 * pi / 60, 1e-15);
 }
 
@@ -304,7 +304,7 @@ TEST(Polygon, CornersInAnotherOrderThanTheBoundaryAreRefused) {
   std::swap(corners[2].vertex, corners[3].vertex);
   EXPECT_THAT(refusal(corners), AllOf(HasSubstr("boundary"), names(corners[2].vertex)));
   corners = regular_polygon(5, 0.8);
-  std::vector<int> vertices = corner_vertices(polygon_orbifold(corners));
+  std::vector<int> vertices = corner_vertices(polygon_target(corners));
   for (int k = 0; k < 5; ++k) corners[k].vertex = vertices[4 - k];
   EXPECT_THAT(refusal(corners), AllOf(HasSubstr("boundary"), HasSubstr("vertex")));
 }

@@ -38,7 +38,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 /// An irregular sphere or disk of polygons, whichever the orbifold needs.
-PolygonMesh sample_polygons_for(const Orbifold& orbifold) {
+PolygonMesh sample_polygons_for(const Target& orbifold) {
   if (orbifold.topology == Topology::sphere) return test::dual(test::perturbed(test::icosphere(2), 0.03, 7));
   return test::quadrangulated(test::perturbed(test::round_disk(5), 0.02, 7));
 }
@@ -49,7 +49,7 @@ struct Sample {
 };
 
 Sample embedded(const PolygonMesh& mesh, const std::string& signature, const EmbedOptions& options = {}) {
-  const Orbifold orbifold = parse_orbifold(signature);
+  const Target orbifold = parse_orbifold(signature);
   return {mesh, embed(mesh, orbifold, choose_marked_vertices(mesh, orbifold), options)};
 }
 
@@ -265,7 +265,7 @@ TEST(Polygons, TrianglesGivenAsPolygonsAreEmbeddedToTheSameBytes) {
     options.threads = 1;
     options.weights.kind = WeightKind::cotan;
     const PolygonMesh mesh = to_polygon_mesh(expected.mesh);
-    const Orbifold orbifold = parse_orbifold(signature);
+    const Target orbifold = parse_orbifold(signature);
     EXPECT_EQ(choose_marked_vertices(mesh, orbifold), expected.marks);
     const EmbedResult result = embed(mesh, orbifold, expected.marks, options);
     EXPECT_EQ(serialize_embedding(result.embedding), serialize_embedding(expected.embedding()));

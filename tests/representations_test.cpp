@@ -18,7 +18,7 @@ using std::numbers::pi;
 using testing::ElementsAre;
 
 SymmetryGroup group_of(const std::string& signature) {
-  const Orbifold orbifold = parse_orbifold(signature);
+  const Target orbifold = parse_orbifold(signature);
   std::vector<int> arrangement;
   for (std::size_t k = 0; k < orbifold.marks.size(); ++k) arrangement.push_back(static_cast<int>(k));
   if (orbifold.topology == Topology::disk && orbifold.inner_marks > 0)

@@ -22,7 +22,7 @@ inline std::vector<std::string> sample_signatures() {
 
 /// An irregular sphere of 320 faces, a bent disk of 384, or a projective plane of 640, whichever the orbifold
 /// needs.
-inline Mesh sample_mesh_for(const Orbifold& orbifold) {
+inline Mesh sample_mesh_for(const Target& orbifold) {
   if (orbifold.topology == Topology::sphere) return perturbed(icosphere(2), 0.03, 7);
   if (orbifold.topology == Topology::projective_plane) return perturbed(projective_plane(3), 0.01, 7);
   Mesh mesh = round_disk(8);
@@ -39,7 +39,7 @@ struct SampleEmbedding {
 };
 
 inline SampleEmbedding make_sample(const std::string& signature, const EmbedOptions& options) {
-  const Orbifold orbifold = parse_orbifold(signature);
+  const Target orbifold = parse_orbifold(signature);
   const Mesh mesh = sample_mesh_for(orbifold);
   const std::vector<int> marks = choose_marked_vertices(mesh, orbifold);
   return {mesh, marks, embed(mesh, orbifold, marks, options)};

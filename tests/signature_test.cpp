@@ -50,7 +50,7 @@ void expect_refused(const std::vector<std::string>& texts, const std::string& re
   for (const std::string& text : texts) EXPECT_EQ(refusal(text), "'" + text + "'" + reason);
 }
 
-std::vector<int> orders(const Orbifold& orbifold) {
+std::vector<int> orders(const Target& orbifold) {
   std::vector<int> result;
   for (const Mark& mark : orbifold.marks) result.push_back(mark.order);
   return result;
@@ -88,7 +88,7 @@ TEST(Signature, EveryFamilyHasItsGroupOrderTopologyAndMarks) {
   for (const SphericalOrbifold& expected : test::arranged_orbifolds()) {
     const std::string text = test::symbol(expected);
     SCOPED_TRACE(text);
-    const Orbifold orbifold = parse_orbifold(text);
+    const Target orbifold = parse_orbifold(text);
     EXPECT_EQ(orbifold.signature, text);
     EXPECT_EQ(orbifold.group_order, expected.group_order);
     EXPECT_EQ(orbifold.topology, expected.topology());
@@ -119,8 +119,8 @@ TEST(Signature, CommasMayStandBetweenSingleDigits) {
 
 TEST(Signature, CanonicalTextIsReadAsTheSameOrbifold) {
   for (const SphericalOrbifold& expected : test::arranged_orbifolds()) {
-    const Orbifold once = parse_orbifold(test::symbol(expected, true));
-    const Orbifold twice = parse_orbifold(once.signature);
+    const Target once = parse_orbifold(test::symbol(expected, true));
+    const Target twice = parse_orbifold(once.signature);
     EXPECT_EQ(twice.signature, once.signature);
     EXPECT_EQ(once.symbol.text(), once.signature);
     EXPECT_EQ(twice.group_order, once.group_order);
@@ -298,7 +298,7 @@ TEST(Signature, EveryReadingThatIsNamedCanBeTypedAsItStands) {
 /// What holds for every text: it is refused in one sentence, or |G| is 2 over the Euler characteristic.
 void check_any(const std::string& text) {
   try {
-    const Orbifold orbifold = parse_orbifold(text);
+    const Target orbifold = parse_orbifold(text);
     const double quotient = 2 / euler_characteristic(orbifold.symbol);
     RC_ASSERT(std::abs(quotient - orbifold.group_order) <= 1e-9 * quotient);
     RC_ASSERT(spherical(orbifold.symbol));

@@ -16,7 +16,7 @@ namespace orbitutte::test {
 struct SolveCase {
   std::string signature;
   Mesh mesh;
-  Orbifold orbifold;
+  Target orbifold;
   std::vector<int> marks;
   Connectivity connectivity;
   EdgeWeights weights;

@@ -336,7 +336,7 @@ TEST(Lbfgs, EndsAtTheLastIterationAllowedAndSaysSo) {
 TEST(Ears, TriangleWithTwoEdgesOnAMirrorIsFoundAndRoundedOutward) {
   Mesh mesh = test::grid_disk(
       6, 6);  // its corners 6 and 42 are tips of ears, 0 and 48 are not, whichever way diagonals run
-  const Orbifold orbifold = parse_orbifold("*22");
+  const Target orbifold = parse_orbifold("*22");
   const std::vector<int> marks = {3, 45};
   const Connectivity connectivity = connect(mesh.F, test::vertex_count(mesh));
   const CutMesh cut = cut_to_disk(mesh, connectivity, marks, 0);

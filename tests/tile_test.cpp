@@ -23,19 +23,19 @@ constexpr double rounding = 1e-12;
 
 struct Case {
   int mirrors;
-  Orbifold orbifold;
+  Target orbifold;
   std::vector<int> arrangement;
   Tile tile;
 };
 
 /// The order and kind of a corner: of a mark, or of an ordinary point on a mirror.
-Mark mark_at(const Orbifold& orbifold, std::size_t corner) {
+Mark mark_at(const Target& orbifold, std::size_t corner) {
   return corner < orbifold.marks.size() ? orbifold.marks[corner] : Mark{1, ConeKind::corner};
 }
 
 /// All orders in which a boundary may meet the marks. Where rotations and mirrors mix, it is cut from the
 /// cone to the mirror, where it has a corner of its own, the last index.
-std::vector<std::vector<int>> arrangements(const Orbifold& orbifold) {
+std::vector<std::vector<int>> arrangements(const Target& orbifold) {
   const int marks = static_cast<int>(orbifold.marks.size());
   if (orbifold.topology == Topology::disk && orbifold.inner_marks > 0)
     return {marks == 1 ? std::vector<int>{0, 1} : std::vector<int>{0, 2, 1}};
@@ -48,7 +48,7 @@ std::vector<std::vector<int>> arrangements(const Orbifold& orbifold) {
   return result;
 }
 
-bool is_first(const std::vector<int>& arrangement, const Orbifold& orbifold) {
+bool is_first(const std::vector<int>& arrangement, const Target& orbifold) {
   return arrangement == arrangements(orbifold).front();
 }
 
@@ -58,7 +58,7 @@ const std::vector<Case>& cases() {
   static const std::vector<Case> all = [] {
     std::vector<Case> result;
     for (const test::SphericalOrbifold& spherical : test::arranged_orbifolds()) {
-      const Orbifold orbifold = parse_orbifold(test::symbol(spherical));
+      const Target orbifold = parse_orbifold(test::symbol(spherical));
       for (const std::vector<int>& arrangement : arrangements(orbifold))
         result.push_back({spherical.mirrors, orbifold, arrangement, basic_tile(orbifold, arrangement)});
     }
@@ -322,7 +322,7 @@ TEST(Tile, LargestOrdersStillCloseUp) {
   for (const std::string text : {"2,2,20000", "2,20000,2", "20000,20000", "*2,2,20000", "*20000,20000",
                                  "2*20000", "20000*", "20000x"}) {
     SCOPED_TRACE(text);
-    const Orbifold orbifold = parse_orbifold(text);
+    const Target orbifold = parse_orbifold(text);
     const Tile tile = basic_tile(orbifold, arrangements(orbifold).front());
     for (int k = 0; k < size(tile); ++k) {
       const TileSide& side = tile.sides[k];

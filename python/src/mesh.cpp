@@ -52,7 +52,7 @@ void write(const SourceMesh& mesh, const std::string& path) {
   std::visit([&](const auto& known) { write_mesh(path, known); }, mesh.input());
 }
 
-std::vector<int> choose_cones(const SourceMesh& mesh, const Orbifold& orbifold) {
+std::vector<int> choose_cones(const SourceMesh& mesh, const Target& orbifold) {
   return std::visit([&](const auto& known) { return choose_marked_vertices(known, orbifold); }, mesh.input());
 }
 

@@ -70,7 +70,7 @@ class Solver {
   Solver(std::shared_ptr<const SourceMesh> mesh, EmbedOptions options)
       : mesh_(std::move(mesh)), solver_(make_solver(*mesh_, with_hook(std::move(options)))) {}
 
-  HeldEmbedding embed(const Orbifold& orbifold, const std::vector<int>& cones, py::object listener) {
+  HeldEmbedding embed(const Target& orbifold, const std::vector<int>& cones, py::object listener) {
     const Busy busy(busy_);
     ProgressHook hook(std::move(listener));
     hook_ = &hook;
@@ -119,7 +119,7 @@ class Solver {
 };
 
 // For one embedding: without the copies of the mesh that a solver keeps.
-HeldEmbedding embed_once(const std::shared_ptr<SourceMesh>& mesh, const Orbifold& orbifold,
+HeldEmbedding embed_once(const std::shared_ptr<SourceMesh>& mesh, const Target& orbifold,
                          const std::vector<int>& cones, EmbedOptions options, py::object listener) {
   ProgressHook hook(std::move(listener));
   options.progress = [&](const Progress& progress) { return hook(progress); };

@@ -92,15 +92,14 @@ EmbedResult embed_once(const EmbedRequest& request, Preparation& prepared) {
   const InputFaces faces(prepared, mesh.F), cut_faces(prepared, cut.F, cut.turned);
   const std::vector<Ear> ears = find_ears(cut_faces.view(), tile, boundary);
   round_outward(ears, result.minimum.positions);
-  result.embedding = {orbifold.signature,
-                      orbifold.group_order,
+  result.embedding = {orbifold,
+                      placed.frame,
                       boundary.spread(result.minimum.positions, cut.source_vertex),
                       cut.F,
                       cut.source_vertex,
                       boundary.seams,
                       boundary.cones,
-                      cut_faces.polygons(),
-                      orbifold.geometry};
+                      cut_faces.polygons()};
   stage("certify", [&] { judge(request, faces.view(), result); });
 
   result.warnings = warnings_about(result.weights, ears);
@@ -172,13 +171,13 @@ EmbedResult embed_or_keep_faces(const EmbedRequest& request, Preparation& prepar
 }
 
 std::vector<int> far_from_each_other(const Mesh& mesh, const SoundSurface& surface,
-                                     const Orbifold& orbifold) {
+                                     const Target& orbifold) {
   require_topology(surface.topology, orbifold);
   return extremities(mesh, surface.connectivity, orbifold.inner_marks,
                      static_cast<int>(orbifold.marks.size()) - orbifold.inner_marks);
 }
 
-EmbedResult embed_prepared(const Mesh& mesh, Preparation& prepared, const Orbifold& orbifold,
+EmbedResult embed_prepared(const Mesh& mesh, Preparation& prepared, const Target& orbifold,
                            const std::vector<int>& marked_vertices, const EmbedOptions& options) {
   if (options.threads < 0) throw ArgumentError("the number of threads must not be negative");
   EmbedOptions chosen = options;
@@ -191,13 +190,13 @@ EmbedResult embed_prepared(const Mesh& mesh, Preparation& prepared, const Orbifo
 
 }  // namespace
 
-EmbedResult embed(const Mesh& mesh, const Orbifold& orbifold, const std::vector<int>& marked_vertices,
+EmbedResult embed(const Mesh& mesh, const Target& orbifold, const std::vector<int>& marked_vertices,
                   const EmbedOptions& options) {
   Preparation prepared;
   return embed_prepared(mesh, prepared, orbifold, marked_vertices, options);
 }
 
-EmbedResult embed(const PolygonMesh& mesh, const Orbifold& orbifold, const std::vector<int>& marked_vertices,
+EmbedResult embed(const PolygonMesh& mesh, const Target& orbifold, const std::vector<int>& marked_vertices,
                   const EmbedOptions& options) {
   if (is_triangle_mesh(mesh)) return embed(to_triangle_mesh(mesh), orbifold, marked_vertices, options);
   Preparation prepared;
@@ -228,15 +227,15 @@ EmbeddingSolver::EmbeddingSolver(const PolygonMesh& mesh, EmbedOptions options)
 EmbeddingSolver::~EmbeddingSolver() = default;
 EmbeddingSolver::EmbeddingSolver(EmbeddingSolver&&) noexcept = default;
 
-EmbedResult EmbeddingSolver::embed(const Orbifold& orbifold, const std::vector<int>& marked_vertices) {
+EmbedResult EmbeddingSolver::embed(const Target& orbifold, const std::vector<int>& marked_vertices) {
   return embed_prepared(state_->mesh, state_->prepared, orbifold, marked_vertices, state_->options);
 }
 
-std::vector<int> choose_marked_vertices(const Mesh& mesh, const Orbifold& orbifold) {
+std::vector<int> choose_marked_vertices(const Mesh& mesh, const Target& orbifold) {
   return far_from_each_other(mesh, require_surface(mesh), orbifold);
 }
 
-std::vector<int> choose_marked_vertices(const PolygonMesh& mesh, const Orbifold& orbifold) {
+std::vector<int> choose_marked_vertices(const PolygonMesh& mesh, const Target& orbifold) {
   if (is_triangle_mesh(mesh)) return choose_marked_vertices(to_triangle_mesh(mesh), orbifold);
   const DividedMesh divided = divide(mesh);
   return far_from_each_other(divided.triangles, divided.surface, orbifold);

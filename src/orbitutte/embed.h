@@ -51,21 +51,19 @@ struct EmbedResult {
   std::vector<std::string> warnings;  ///< one sentence each
 };
 
-/// Embeds a mesh into an orbifold, its marked vertices (0-based, in the order of Orbifold::marks) at the
+/// Embeds a mesh into an orbifold, its marked vertices (0-based, in the order of Target::marks) at the
 /// cones and corners. Minimises the energy (2) over the gluings of appendix A by algorithm 1, as corrected in
 /// docs/deviations.md, and judges the result. Not converging and not being bijective are results, not errors:
 /// see minimum.termination and certificate.bijective, which is true only for converged maps. Throws MeshError
 /// naming the defect and the vertex, edge or face; ArgumentError; Cancelled; std::bad_alloc.
-/// Into a Euclidean orbifold (parse_euclidean_orbifold) the energy has chords of the plane in place of arcs,
-/// and one linear solve finds its minimum.
-EmbedResult embed(const Mesh& mesh, const Orbifold& orbifold, const std::vector<int>& marked_vertices,
+EmbedResult embed(const Mesh& mesh, const Target& orbifold, const std::vector<int>& marked_vertices,
                   const EmbedOptions& options = {});
 
 /// The same for a mesh with faces of any number of corners, embedded with the edges of its faces and none
 /// else: the polygons become convex. Cotangents are those of triangulate(mesh), whose triangles are also the
 /// faces of the result beside its polygons, and the distortion is theirs. Throws ArgumentError for other
 /// weights than cotangents, uniform ones and a file.
-EmbedResult embed(const PolygonMesh& mesh, const Orbifold& orbifold, const std::vector<int>& marked_vertices,
+EmbedResult embed(const PolygonMesh& mesh, const Target& orbifold, const std::vector<int>& marked_vertices,
                   const EmbedOptions& options = {});
 
 /// For many embeddings of one mesh: keeps what depends neither on the cones nor on their orders, and those
@@ -81,7 +79,7 @@ class EmbeddingSolver {
   EmbeddingSolver(EmbeddingSolver&&) noexcept;
 
   /// As the function above. Stages that find their work done take no time in the result's timings.
-  EmbedResult embed(const Orbifold& orbifold, const std::vector<int>& marked_vertices);
+  EmbedResult embed(const Target& orbifold, const std::vector<int>& marked_vertices);
 
  private:
   struct State;
@@ -90,7 +88,7 @@ class EmbeddingSolver {
 
 /// Well separated extremities for the marks of the orbifold, inside a disk or on its boundary as each has to
 /// be. Throws MeshError where the mesh is not what the orbifold needs.
-std::vector<int> choose_marked_vertices(const Mesh& mesh, const Orbifold& orbifold);
-std::vector<int> choose_marked_vertices(const PolygonMesh& mesh, const Orbifold& orbifold);
+std::vector<int> choose_marked_vertices(const Mesh& mesh, const Target& orbifold);
+std::vector<int> choose_marked_vertices(const PolygonMesh& mesh, const Target& orbifold);
 
 }  // namespace orbitutte

@@ -29,7 +29,7 @@ const std::vector<std::array<int, 2>>& weighted_edges(const EdgeWeights& weights
   return weights.triangulation ? weights.triangulation->connectivity.edges : connectivity.edges;
 }
 
-std::vector<ConeAngle> cone_angles(const Orbifold& orbifold, const std::vector<int>& marked_vertices) {
+std::vector<ConeAngle> cone_angles(const Target& orbifold, const std::vector<int>& marked_vertices) {
   const std::vector<double> angles = metric_angles(orbifold.marks);
   std::vector<ConeAngle> cones;
   for (std::size_t k = 0; k < angles.size(); ++k)
@@ -50,7 +50,7 @@ Mesh prepare(const PolygonMesh& mesh, const EmbedOptions& options, Preparation& 
   return std::move(divided.triangles);
 }
 
-void require_topology(Topology topology, const Orbifold& orbifold) {
+void require_topology(Topology topology, const Target& orbifold) {
   if (topology == orbifold.topology) return;
   throw MeshError(
       fmt::format("the mesh is a {}, but {} needs a {}; choose an orbifold for it (see 'orbitutte types')",

@@ -16,7 +16,7 @@ namespace orbitutte {
 /// What embed is asked for.
 struct EmbedRequest {
   const Mesh& mesh;
-  const Orbifold& orbifold;
+  const Target& orbifold;
   const std::vector<int>& marked_vertices;
   const EmbedOptions& options;
 };
@@ -39,7 +39,7 @@ struct Preparation {
 Mesh prepare(const PolygonMesh& mesh, const EmbedOptions& options, Preparation& prepared);
 
 /// Throws MeshError where the mesh has not the topology that the orbifold needs.
-void require_topology(Topology topology, const Orbifold& orbifold);
+void require_topology(Topology topology, const Target& orbifold);
 
 /// Recognises the surface; throws MeshError where it is not the one that the orbifold needs.
 void find_surface(const EmbedRequest& request, Preparation& prepared);

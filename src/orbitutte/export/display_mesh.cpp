@@ -101,7 +101,7 @@ DisplayMesh display_mesh(const Mesh& mesh, const Embedding& embedding, const Dis
   result.cut_vertex = compact(result.fine.faces, static_cast<int>(embedding.positions.rows()));
   result.fine.outline = outline(result.fine.faces);
 
-  const int share = limits.tiling_faces / std::max(embedding.group_order, 1);
+  const int share = limits.tiling_faces / std::max(embedding.target.group_order, 1);
   result.coarse.faces = coarsened(result.fine.faces, image(embedding, result.cut_vertex), share);
   result.coarse.outline = outline(result.coarse.faces);
   return result;

@@ -170,7 +170,7 @@ std::vector<double> vertex_quality(const ExportedModel& model) {
 }
 
 std::string obj_text(const ExportedModel& model) {
-  std::string text = "# texture coordinates: orbitutte embedding " + model.embedding.signature + "\n";
+  std::string text = "# texture coordinates: orbitutte embedding " + model.embedding.target.signature + "\n";
   const auto out = std::back_inserter(text);
   const PolygonMesh& mesh = model.mesh;
   const std::vector<int> rows = texture_rows(model);
@@ -224,7 +224,7 @@ std::string ply_bytes(const ExportedModel& model) {
                            static_cast<std::size_t>(mesh.face_count()),
                            {faces_of(mesh), floats("quality", face_quality(model))}};
   return serialize_ply(
-      {{"quality: log2 of the area distortion of the orbitutte embedding " + model.embedding.signature},
+      {{"quality: log2 of the area distortion of the orbitutte embedding " + model.embedding.target.signature},
        {vertex, face}});
 }
 

@@ -13,7 +13,7 @@
 #include <numbers>
 #include <span>
 
-#include "orbitutte/geometry/spherical_triangle.h"
+#include "orbitutte/geometry/space.h"
 
 namespace orbitutte {
 namespace {
@@ -33,7 +33,7 @@ Matrix3 frame(const Embedding& embedding) {
   Matrix3 spread = Matrix3::Zero();
   for (Eigen::Index f = 0; f < embedding.faces.rows(); ++f) {
     const auto [a, b, c] = corners(embedding, f);
-    const double area = std::abs(signed_area(a, b, c));
+    const double area = std::abs(Space::sphere().area(a, b, c));
     const Vector3 middle = (a + b + c) / 3;
     sum += area * middle;
     spread += area * middle * middle.transpose();
@@ -133,7 +133,7 @@ FaceAreas face_areas(const Embedding& embedding, const Eigen::MatrixX2d& uv, std
   FaceAreas areas;
   for (std::size_t k = 2; k < face.size(); ++k) {
     areas.flat += plane_area(in_square(0), in_square(k - 1), in_square(k));
-    areas.round += signed_area(on_sphere(0), on_sphere(k - 1), on_sphere(k));
+    areas.round += Space::sphere().area(on_sphere(0), on_sphere(k - 1), on_sphere(k));
   }
   areas.flat = std::abs(areas.flat);
   return areas;

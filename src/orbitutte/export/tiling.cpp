@@ -43,26 +43,19 @@ void check_embedding(const Embedding& embedding) {
         "tile the sphere");
   const auto corners = static_cast<long long>(embedding.polygons.corners.size());
   const long long largest = std::max<long long>({vertices, embedding.faces.rows(), corners});
-  if (largest * std::max(embedding.group_order, 1) > std::numeric_limits<int>::max())
+  if (largest * std::max(embedding.target.group_order, 1) > std::numeric_limits<int>::max())
     throw ArgumentError(fmt::format("{} copies of {} faces are more than an int can count",
-                                    embedding.group_order, embedding.faces.rows()));
-}
-
-SymmetryGroup symmetry_group(const Embedding& embedding) {
-  std::vector<Matrix3> generators;
-  for (const Seam& seam : embedding.seams) generators.push_back(seam.transform);
-  SymmetryGroup group(generators, embedding.group_order);
-  if (group.order() != embedding.group_order)
-    throw ArgumentError(
-        fmt::format("the transforms of the seams generate {} symmetries, but the orbifold has {}",
-                    group.order(), embedding.group_order));
-  return group;
+                                    embedding.target.group_order, embedding.faces.rows()));
 }
 
 /// across[s][g]: the copy that meets the left bank of seam s of copy g, with its right bank.
 std::vector<std::vector<int>> copies_across_seams(const Embedding& embedding, const SymmetryGroup& group) {
   std::vector<std::vector<int>> across;
-  for (const Seam& seam : embedding.seams) across.push_back(group.right_products(seam.transform));
+  for (const Seam& seam : embedding.seams) {
+    across.push_back(group.right_products(seam.transform));
+    if (std::count(across.back().begin(), across.back().end(), -1) > 0)
+      throw ArgumentError("the transform of a seam does not belong to the group of the orbifold");
+  }
   return across;
 }
 
@@ -92,8 +85,8 @@ std::vector<TileCopy> tile_copies(const SymmetryGroup& group, const std::vector<
   const std::vector<int> colours = greedy_colours(across, group.order());
   std::vector<TileCopy> copies;
   copies.reserve(group.elements().size());
-  for (const Matrix3& g : group.elements())
-    copies.push_back({g, g.determinant() < 0, colours[copies.size()]});
+  for (const Isometry& g : group.elements())
+    copies.push_back({g, g.reverses_orientation(), colours[copies.size()]});
   return copies;
 }
 
@@ -146,12 +139,12 @@ Welding weld(const Embedding& embedding, const std::vector<std::vector<int>>& ac
     if (in_face[v] && in_seam[v]) welding.on_seam[v] = welding.seam_vertices++;
   }
 
-  DisjointSets sets(embedding.group_order * welding.seam_vertices);
+  DisjointSets sets(embedding.target.group_order * welding.seam_vertices);
   for (std::size_t s = 0; s < across.size(); ++s) unite_banks(embedding.seams[s], across[s], welding, sets);
 
   const int inside = static_cast<int>(welding.copied.size()) - welding.seam_vertices;
-  welding.vertices = embedding.group_order * inside;
-  welding.smallest.resize(embedding.group_order * welding.seam_vertices);
+  welding.vertices = embedding.target.group_order * inside;
+  welding.smallest.resize(embedding.target.group_order * welding.seam_vertices);
   for (int i = 0; i < static_cast<int>(welding.smallest.size()); ++i) {
     welding.smallest[i] = sets.find(i);
     if (welding.smallest[i] == i) ++welding.vertices;
@@ -198,7 +191,7 @@ class VertexSweep {
 
   int append(int g, int v) {
     const Vector3 position = tiling_.copies[g].transform * embedding_.positions.row(v).transpose();
-    tiling_.mesh.V.row(next_) = position.normalized().transpose();
+    tiling_.mesh.V.row(next_) = embedding_.space().retract(position);
     tiling_.source_vertex[next_] = embedding_.source_vertex[v];
     return next_++;
   }
@@ -250,13 +243,13 @@ void place_faces(const Embedding& embedding, int g, const std::vector<int>& vert
 
 std::vector<TileCopy> tile_copies(const Embedding& embedding) {
   check_embedding(embedding);
-  const SymmetryGroup group = symmetry_group(embedding);
+  const SymmetryGroup group = group_of(embedding);
   return tile_copies(group, copies_across_seams(embedding, group));
 }
 
 Tiling tile_sphere(const Embedding& embedding) {
   check_embedding(embedding);
-  const SymmetryGroup group = symmetry_group(embedding);
+  const SymmetryGroup group = group_of(embedding);
   const std::vector<std::vector<int>> across = copies_across_seams(embedding, group);
   const Welding welding = weld(embedding, across);
   const Eigen::Index faces = group.order() * embedding.faces.rows();

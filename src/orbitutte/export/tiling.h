@@ -11,7 +11,7 @@ namespace orbitutte {
 
 /// One of the |G| copies of the basic tile.
 struct TileCopy {
-  Matrix3 transform = Matrix3::Identity();  ///< the group element: takes the embedding to this copy
+  Isometry transform;  ///< the group element: takes the embedding to this copy
   bool mirrored = false;  ///< det(transform) < 0: its faces run the other way than the embedding's
   int colour = 0;         ///< a small number, another one for every neighbour across a seam
 };

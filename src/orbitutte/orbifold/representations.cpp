@@ -20,7 +20,7 @@ constexpr double same = 1e-8;  // of traces, entries, and eigenvalues in units o
 std::vector<std::vector<int>> multiplication_table(const SymmetryGroup& group) {
   std::vector<std::vector<int>> products;
   products.reserve(group.elements().size());
-  for (const Matrix3& h : group.elements()) products.push_back(group.right_products(h));
+  for (const Isometry& h : group.elements()) products.push_back(group.right_products(h));
   return products;
 }
 
@@ -124,7 +124,7 @@ std::vector<Representation> irreducible_representations(const SymmetryGroup& gro
 int occurrences_in_space(const Representation& representation, const SymmetryGroup& group) {
   double sum = 0;
   for (int g = 0; g < group.order(); ++g)
-    sum += representation.matrices[g].trace() * group.elements()[g].trace();
+    sum += representation.matrices[g].trace() * group.elements()[g].matrix().trace();
   return static_cast<int>(std::lround(sum / group.order()));
 }
 

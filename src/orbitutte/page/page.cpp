@@ -133,8 +133,8 @@ std::string verdict_sentence(const Judgement& judgement, const Embedding& embedd
     return fmt::format(
         "The map is a bijection: {} the sphere exactly once, which the certificate below proves on the "
         "stored numbers.",
-        embedding.group_order == 1 ? "the tile covers"
-                                   : fmt::format("its {} symmetric copies cover", embedding.group_order));
+        embedding.target.group_order == 1 ? "the tile covers"
+                                   : fmt::format("its {} symmetric copies cover", embedding.target.group_order));
   if (judgement.certificate.bijective)
     return "The optimiser stopped before it converged: the map passes every check, but it is not the "
            "minimiser.";
@@ -150,8 +150,8 @@ std::string summary(const Json& report, const Embedding& embedding, const Judgem
   return fmt::format(
       "A {} of {} vertices and {} {}, mapped onto the orbifold <b>{}</b>, whose group has {}. {}",
       figure_html(report, "/mesh/topology"), figure_html(report, "/mesh/vertices"),
-      figure_html(report, "/mesh/faces"), face_noun(embedding) + "s", escape_html(embedding.signature),
-      plural(embedding.group_order, "element"), verdict_sentence(judgement, embedding));
+      figure_html(report, "/mesh/faces"), face_noun(embedding) + "s", escape_html(embedding.target.signature),
+      plural(embedding.target.group_order, "element"), verdict_sentence(judgement, embedding));
 }
 
 std::string warnings(const Json& report, const Judgement& judgement) {
@@ -174,7 +174,7 @@ std::string figure(const std::string& name, const std::string& value) {
 }
 
 std::string key_figures(const Json& report, const Embedding& embedding) {
-  const double conformal = 8 * std::numbers::pi / embedding.group_order;
+  const double conformal = 8 * std::numbers::pi / embedding.target.group_order;
   return figure("angle distortion, mean", measure_html(number_at(report, "/distortion/angle/mean"))) +
          figure("area distortion, median", measure_html(number_at(report, "/distortion/area/median"))) +
          figure("energy", measure_html(number_at(report, "/energy"))) +
@@ -287,7 +287,7 @@ std::string cones_table(const Embedding& embedding) {
   std::vector<int> vertices;
   for (const ConeCopies& cone : embedding.cones) {
     vertices.push_back(cone.vertex);
-    rows += row({std::to_string(cone.vertex), std::to_string(cone.order), name(cone.kind),
+    rows += row({std::to_string(cone.vertex), std::to_string(cone.mark.order()), name(cone.mark.kind),
                  std::to_string(cone.copies.size())});
   }
   return table(head({"Vertex", "Order", "Kind", "Copies"}), rows) +
@@ -300,7 +300,7 @@ std::string seams_table(const Embedding& embedding) {
     rows +=
         row({name(seam.kind()), grouped_digits(static_cast<long long>(seam.left.size())),
              fmt::format("{:.4g}&deg;",
-                         std::acos(std::clamp((seam.transform.determinant() * seam.transform.trace() - 1) / 2,
+                         std::acos(std::clamp((seam.transform.matrix().determinant() * seam.transform.matrix().trace() - 1) / 2,
                                               -1.0, 1.0)) *
                              180 / std::numbers::pi)});
   return table(head({"Seam", "Vertices", "Angle"}), rows);
@@ -444,7 +444,7 @@ Slots slots(const PageSubject& subject, const PageOptions& options) {
   const Json report = parse(subject.report);
   const Embedding& embedding = subject.embedding;
   const Judgement judgement = {certificate_of(subject), at(report, "/termination") == "converged"};
-  const std::string name = escape_html(mesh_name(report)), signature = escape_html(embedding.signature);
+  const std::string name = escape_html(mesh_name(report)), signature = escape_html(embedding.target.signature);
   return {{"policy", policy(options)},
           {"style", std::string(page_style)},
           {"title", name + " onto " + signature},

@@ -116,7 +116,7 @@ Json copies_json(const Embedding& embedding) {
   Json rows = Json::array();
   for (const TileCopy& copy : tile_copies(embedding)) {
     const Rgb colour = tile_colour(copy.colour, copy.mirrored);
-    rows.push_back({{"transform", transform_json(copy.transform)},
+    rows.push_back({{"transform", transform_json(copy.transform.matrix())},
                     {"colour", fmt::format("#{:02x}{:02x}{:02x}", colour.red, colour.green, colour.blue)}});
   }
   return rows;
@@ -130,7 +130,7 @@ Json cones_json(const Embedding& embedding, const std::vector<int>& cut_vertex) 
       const auto at = std::lower_bound(cut_vertex.begin(), cut_vertex.end(), v);
       if (at != cut_vertex.end() && *at == v) drawn.push_back(at - cut_vertex.begin());
     }
-    rows.push_back({{"vertex", cone.vertex}, {"order", cone.order}, {"drawn", std::move(drawn)}});
+    rows.push_back({{"vertex", cone.vertex}, {"order", cone.mark.order()}, {"drawn", std::move(drawn)}});
   }
   return rows;
 }

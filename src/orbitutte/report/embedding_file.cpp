@@ -80,7 +80,7 @@ void take_faces(PolygonMesh& mesh, Embedding& embedding) {
 std::string serialize_embedding(const Embedding& embedding) {
   return write_ply_faces(embedding.positions, embedding.input_faces(),
                          {{"source_vertex", embedding.source_vertex}},
-                         {fmt::format("orbitutte embedding {}", embedding.signature)});
+                         {fmt::format("orbitutte embedding {}", embedding.target.signature)});
 }
 
 Embedding parse_embedding(std::string_view bytes) {

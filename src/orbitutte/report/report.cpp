@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "orbitutte/io/file.h"
+#include "orbitutte/orbifold/polygon.h"
 #include "orbitutte/report/embedding_file.h"
 #include "orbitutte/version.h"
 
@@ -24,15 +25,26 @@ Json to_json(const Matrix3& M) {
   return rows;
 }
 
+Json to_json(const Target& target) {
+  return {{"signature", target.signature},
+          {"group_order", target.group_order > 0 ? Json(target.group_order) : Json()},
+          {"space", target.space.name()}};
+}
+
 Json to_json(const ConeCopies& cone) {
-  return {{"vertex", cone.vertex}, {"order", cone.order}, {"kind", name(cone.kind)}, {"copies", cone.copies}};
+  const int order = cone.mark.order();
+  return {{"vertex", cone.vertex},
+          {"order", order > 0 ? Json(order) : Json()},
+          {"angle", cone.mark.angle},
+          {"kind", name(cone.mark.kind)},
+          {"copies", cone.copies}};
 }
 
 Json to_json(const Seam& seam) {
   return {{"kind", name(seam.kind())},
           {"left", seam.left},
           {"right", seam.right},
-          {"transform", to_json(seam.transform)}};
+          {"transform", to_json(seam.transform.matrix())}};
 }
 
 Json to_json(const EdgeWeights& weights) {
@@ -175,8 +187,14 @@ Kind one_of(std::initializer_list<Kind> kinds, const std::string& word, const ch
   throw MeshError(fmt::format("the 'kind' of {} is '{}', which means nothing", what, word));
 }
 
-Seam to_seam(const Json& json) {
-  Seam seam = {integers(json, "left"), integers(json, "right"), matrix(json, "transform")};
+Space to_space(const std::string& name) {
+  for (const Space space : {Space::sphere(), Space::plane(), Space::hyperbolic_plane()})
+    if (space.name() == name) return space;
+  throw MeshError(fmt::format("the 'space' is '{}', not spherical, euclidean or hyperbolic", name));
+}
+
+Seam to_seam(Space space, const Json& json) {
+  Seam seam = {integers(json, "left"), integers(json, "right"), space.isometry(matrix(json, "transform"))};
   if (seam.left.size() != seam.right.size())
     throw MeshError("the banks 'left' and 'right' of a seam have different lengths");
   return seam;
@@ -185,7 +203,10 @@ Seam to_seam(const Json& json) {
 ConeCopies to_cone(const Json& json) {
   const ConeKind kind =
       one_of({ConeKind::rotation, ConeKind::corner, ConeKind::fixed}, text(json, "kind"), "a cone");
-  return {integer(json, "vertex"), integer(json, "order"), kind, integers(json, "copies")};
+  const Mark mark = json.contains("angle") && !json["angle"].is_null()
+                        ? Mark{number(json, "angle"), kind}
+                        : Mark::of_order(integer(json, "order"), kind);
+  return {integer(json, "vertex"), mark, integers(json, "copies")};
 }
 
 WeightOptions to_weights(const Json& json) {
@@ -212,9 +233,13 @@ Report to_report(const Json& json) {
   Report report;
   const Json& orbifold = object(json, "orbifold");
   report.signature = text(orbifold, "signature");
-  report.group_order = integer(orbifold, "group_order");
-  if (report.group_order < 1) throw MeshError("the value of 'group_order' is not positive");
-  for (const Json& seam : array(json, "seams")) report.seams.push_back(to_seam(seam));
+  if (orbifold.contains("space")) report.space = to_space(text(orbifold, "space"));
+  if (!orbifold.contains("group_order") || !orbifold["group_order"].is_null()) {
+    report.group_order = integer(orbifold, "group_order");
+    if (report.group_order < 1) throw MeshError("the value of 'group_order' is not positive");
+  }
+  if (json.contains("placement")) report.placement = report.space.isometry(matrix(json, "placement"));
+  for (const Json& seam : array(json, "seams")) report.seams.push_back(to_seam(report.space, seam));
   for (const Json& cone : array(json, "cones")) report.cones.push_back(to_cone(cone));
   report.weights = to_weights(object(json, "weights"));
   report.energy = number(json, "energy");
@@ -243,7 +268,8 @@ std::string report_json(const EmbedResult& result, const RunRecord& run) {
                  {"topology", name(result.topology)},
                  {"unreferenced_vertices", result.unreferenced_vertices},
                  {"zero_area_faces", result.zero_area_faces}}},
-               {"orbifold", {{"signature", embedding.signature}, {"group_order", embedding.group_order}}},
+               {"orbifold", to_json(embedding.target)},
+               {"placement", to_json(embedding.placement.matrix())},
                {"cones", list(embedding.cones, [](const ConeCopies& cone) { return to_json(cone); })},
                {"seams", list(embedding.seams, [](const Seam& seam) { return to_json(seam); })},
                {"weights", to_json(result.weights)},
@@ -282,9 +308,25 @@ Report read_report(const std::string& path) {
   }
 }
 
+namespace {
+
+Target target_of(const Report& report, const Points& positions) {
+  try {
+    Target target = read_target(report.signature, report.cones, positions);
+    if (target.space != report.space)
+      throw MeshError(fmt::format("the report says that {} is {}, but it is {}", report.signature,
+                                  report.space.name(), target.space.name()));
+    target.group_order = report.group_order;  // a claim, which `verify` judges
+    return target;
+  } catch (const ArgumentError& error) {
+    throw MeshError(fmt::format("the signature of the report {}", error.what()));
+  }
+}
+
+}  // namespace
+
 Embedding with_report(Embedding embedding, const Report& report) {
-  embedding.signature = report.signature;
-  embedding.group_order = report.group_order;
+  embedding.placement = report.placement;
   embedding.seams = report.seams;
   embedding.cones = report.cones;
   const int count = static_cast<int>(embedding.source_vertex.size());
@@ -298,6 +340,7 @@ Embedding with_report(Embedding embedding, const Report& report) {
     require(seam.right);
   }
   for (const ConeCopies& cone : embedding.cones) require(cone.copies);
+  embedding.target = target_of(report, embedding.positions);
   return embedding;
 }
 

@@ -27,7 +27,11 @@ std::string report_json(const EmbedResult& result, const RunRecord& run);
 /// What a report says that can be checked against the files that it speaks of.
 struct Report {
   std::string signature;
+
+  /// 0 if the group is infinite.
   int group_order = 0;
+  Space space;
+  Isometry placement;
   std::vector<Seam> seams;
   std::vector<ConeCopies> cones;
   WeightOptions weights;

@@ -162,7 +162,7 @@ std::string verdict_json(const Verdict& verdict) {
 EdgeWeights weights_of(const Mesh& mesh, const Connectivity& connectivity, const WeightOptions& options,
                        const Embedding& embedding) {
   std::vector<Mark> marks;
-  for (const ConeCopies& cone : embedding.cones) marks.push_back({cone.order, cone.kind});
+  for (const ConeCopies& cone : embedding.cones) marks.push_back(cone.mark);
   const std::vector<double> angles = metric_angles(marks);
   std::vector<ConeAngle> cones;
   for (std::size_t k = 0; k < angles.size(); ++k)

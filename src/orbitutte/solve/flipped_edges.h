@@ -3,7 +3,7 @@
 #pragma once
 
 #include "orbitutte/mesh/intrinsic_triangulation.h"
-#include "orbitutte/solve/spherical_energy.h"
+#include "orbitutte/solve/dirichlet_energy.h"
 
 namespace orbitutte {
 

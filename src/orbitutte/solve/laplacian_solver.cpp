@@ -58,7 +58,8 @@ Points LaplacianSolver::extend_harmonically(const Points& positions) const {
   // An edge between an unknown position and a given one pulls at the former.
   const auto pull_at = [&](int node, int other, double w) {
     if (!graph.unknown_at_start(node) || graph.unknown_at_start(other)) return;
-    pull.row(node) += w * (positions.row(graph.vertex[other]) * graph.transform(other).transpose());
+    const Vector3 image = graph.transform(other) * positions.row(graph.vertex[other]).transpose();
+    pull.row(node) += w * image.transpose();
   };
   for (std::size_t e = 0; e < graph.ends.size(); ++e) {
     const auto [a, b] = graph.ends[e];

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "orbitutte/linear/sparse_factor.h"
-#include "orbitutte/solve/spherical_energy.h"
+#include "orbitutte/solve/dirichlet_energy.h"
 
 namespace orbitutte {
 

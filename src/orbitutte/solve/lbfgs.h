@@ -47,7 +47,7 @@ struct Minimum {
 };
 
 /// Minimises E from unit positions. Throws ArgumentError for options out of range, and Cancelled.
-Minimum minimize(const SphericalEnergy& energy, const LaplacianSolver& laplacian, const Points& start,
+Minimum minimize(const DirichletEnergy& energy, const LaplacianSolver& laplacian, const Points& start,
                  const LbfgsOptions& options = {});
 
 }  // namespace orbitutte

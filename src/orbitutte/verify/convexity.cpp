@@ -11,11 +11,11 @@
 namespace orbitutte {
 namespace {
 
-Vector3 middle(const Points& positions, std::span<const int> corners) {
+Vector3 middle(Space space, const Points& positions, std::span<const int> corners) {
   const Vector3 first = positions.row(corners.front());
   Vector3 sum = Vector3::Zero();
   for (const int v : corners) sum += positions.row(v).transpose() - first;
-  return (first + sum / static_cast<double>(corners.size())).normalized();
+  return space.retract(first + sum / static_cast<double>(corners.size()));
 }
 
 // The neighbours of corner k along the polygon.
@@ -57,6 +57,7 @@ DividedPolygons divide_from_middles(const Embedding& embedding) {
   const FaceView faces = embedding.input_faces();
   DividedPolygons result;
   Embedding& divided = result.embedding;
+  divided.target = embedding.target;
   divided.source_vertex = embedding.source_vertex;
   divided.seams = embedding.seams;
   divided.cones = embedding.cones;
@@ -75,7 +76,7 @@ DividedPolygons divide_from_middles(const Embedding& embedding) {
       result.face_of.push_back(f);
     }
     divided.source_vertex.push_back(-1);
-    middles.push_back(middle(embedding.positions, face));
+    middles.push_back(middle(embedding.space(), embedding.positions, face));
   }
   divided.faces = Eigen::Map<const Faces>(corners.data(), static_cast<Eigen::Index>(corners.size() / 3), 3);
   divided.positions.resize(static_cast<Eigen::Index>(divided.source_vertex.size()), 3);

@@ -6,15 +6,14 @@
 #include <cmath>
 #include <utility>
 
-#include "orbitutte/geometry/spherical_triangle.h"
 #include "orbitutte/verify/edge_images.h"
 #include "orbitutte/verify/laid_out.h"
 
 namespace orbitutte {
 namespace {
 
-int element(const SymmetryGroup& group, const Matrix3& matrix) {
-  const int g = group.find(matrix);
+int element(const SymmetryGroup& group, const Isometry& isometry) {
+  const int g = group.find(isometry);
   if (g < 0) throw ArgumentError("a transform does not belong to the symmetry group");
   return g;
 }
@@ -22,7 +21,7 @@ int element(const SymmetryGroup& group, const Matrix3& matrix) {
 // position(to) = transform * position(from), for two cut vertices that a seam pairs.
 struct Passage {
   int to;
-  Matrix3 transform;
+  Isometry transform;
 };
 
 // Both directions of every pair.
@@ -31,7 +30,7 @@ std::vector<std::vector<Passage>> passages(const Embedding& embedding) {
   for (const Seam& seam : embedding.seams) {
     for (std::size_t k = 0; k < seam.left.size(); ++k) {
       from[seam.right[k]].push_back({seam.left[k], seam.transform});
-      from[seam.left[k]].push_back({seam.right[k], seam.transform.transpose()});
+      from[seam.left[k]].push_back({seam.right[k], seam.transform.inverse()});
     }
   }
   return from;
@@ -58,7 +57,7 @@ class Lifting {
   // The element lift(from)^-1 lift(to).
   int between(int from, int to) const {
     if (lift[from] == lift[to]) return identity;
-    return element(group_, group_.elements()[lift[from]].transpose() * group_.elements()[lift[to]]);
+    return element(group_, group_.elements()[lift[from]].inverse() * group_.elements()[lift[to]]);
   }
 
  private:
@@ -77,15 +76,15 @@ class Lifting {
     lift[v] = identity;
     std::vector<int> reached = {v};
     for (std::size_t k = 0; k < reached.size(); ++k) {
-      const Matrix3& here = group_.elements()[lift[reached[k]]];
+      const Isometry& here = group_.elements()[lift[reached[k]]];
       for (const auto& [to, transform] : passages_[reached[k]]) {
-        const Matrix3 there = transform * here;
+        const Isometry there = transform * here;
         if (lift[to] == unknown) {
           lift[to] = element(group_, there);
           reached.push_back(to);
           continue;
         }
-        const int loop = element(group_, group_.elements()[lift[to]].transpose() * there);
+        const int loop = element(group_, group_.elements()[lift[to]].inverse() * there);
         if (loop != identity) stabilizers[v].push_back(loop);
       }
     }
@@ -100,7 +99,7 @@ Eigen::VectorXd vertex_areas(const Embedding& embedding, int vertices) {
   const Points& X = embedding.positions;
   for (int f = 0; f < embedding.faces.rows(); ++f) {
     const auto v = embedding.faces.row(f);
-    const double third = std::abs(signed_area(X.row(v[0]), X.row(v[1]), X.row(v[2]))) / 3;
+    const double third = std::abs(embedding.space().area(X.row(v[0]), X.row(v[1]), X.row(v[2]))) / 3;
     for (int k = 0; k < 3; ++k) area[embedding.source_vertex[v[k]]] += third;
   }
   return area;
@@ -113,7 +112,8 @@ std::vector<CoverEdge> cover_edges(const Connectivity& connectivity, const EdgeW
   edges.reserve(connectivity.edges.size());
   visit_edges(connectivity, embedding, [&](int e, int from, int to) {
     edges.push_back({embedding.source_vertex[from], embedding.source_vertex[to], lifting.between(from, to),
-                     weights.w[e], arc_length(embedding.positions.row(from), embedding.positions.row(to))});
+                     weights.w[e],
+                     embedding.space().distance(embedding.positions.row(from), embedding.positions.row(to))});
   });
   return edges;
 }
@@ -144,8 +144,8 @@ std::vector<CoverEdge> layout_edges(const Embedding& layout, const EdgeWeights& 
               at_to = element_between(positions.row(j), to, group);
     const int g = at_from == at_to
                       ? 0
-                      : element(group, group.elements()[at_from].transpose() * group.elements()[at_to]);
-    edges.push_back({i, j, g, weights.w[edge_of[h]], arc_length(from, to)});
+                      : element(group, group.elements()[at_from].inverse() * group.elements()[at_to]);
+    edges.push_back({i, j, g, weights.w[edge_of[h]], layout.space().distance(from, to)});
   }
   return edges;
 }

@@ -9,7 +9,6 @@
 #include <numeric>
 #include <optional>
 
-#include "orbitutte/geometry/metric.h"
 #include "orbitutte/parallel.h"
 
 namespace orbitutte {
@@ -84,12 +83,12 @@ struct FaceAreas {
 };
 
 FaceDistortion face_distortion(const std::array<Vector3, 3>& source, const std::array<Vector3, 3>& image,
-                               const FaceAreas& area, const FaceAreas& total, const Metric& metric) {
+                               const FaceAreas& area, const FaceAreas& total, Space space) {
   FaceDistortion result;
   const auto length = [&](int i, int j) { return (source[i] - source[j]).norm(); };
   const std::array<double, 3> lengths = {length(0, 1), length(1, 2), length(2, 0)};
-  const std::array<double, 3> arcs = {metric.length(image[0], image[1]), metric.length(image[1], image[2]),
-                                      metric.length(image[2], image[0])};
+  const std::array<double, 3> arcs = {space.distance(image[0], image[1]), space.distance(image[1], image[2]),
+                                      space.distance(image[2], image[0])};
   const double longest = std::max({lengths[0], lengths[1], lengths[2]}),
                longest_arc = std::max({arcs[0], arcs[1], arcs[2]});
   if (!(area.source > area_rounding * longest * longest) || !(area.image > position_rounding * longest_arc))
@@ -109,7 +108,7 @@ FaceDistortion face_distortion(const std::array<Vector3, 3>& source, const std::
 std::vector<FaceDistortion> measure_faces(const Mesh& mesh, const Embedding& embedding) {
   const int m = static_cast<int>(mesh.F.rows());
   const double unit = length_unit(mesh);
-  const Metric& metric = metric_of(embedding.geometry);
+  const Space space = embedding.space();
   const auto source = [&](int f) {
     const auto corner = [&](int k) {
       return mesh.V.row(embedding.source_vertex[embedding.faces(f, k)]) / unit;
@@ -129,13 +128,13 @@ std::vector<FaceDistortion> measure_faces(const Mesh& mesh, const Embedding& emb
   });
   total.image = parallel_sum(m, [&](int f) {
     const auto p = image(f);
-    area[f].image = metric.area(p[0], p[1], p[2]);
+    area[f].image = space.area(p[0], p[1], p[2]);
     return std::max(area[f].image, 0.0);  // a map that is turned over in places still has shares
   });
   std::vector<FaceDistortion> of_face(m);
   parallel_ranges(m, [&](int begin, int end) {
     for (int f = begin; f < end; ++f)
-      of_face[f] = face_distortion(source(f), image(f), area[f], total, metric);
+      of_face[f] = face_distortion(source(f), image(f), area[f], total, space);
   });
   return of_face;
 }

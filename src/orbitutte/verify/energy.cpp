@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "orbitutte/verify/energy.h"
 
-#include "orbitutte/geometry/spherical_triangle.h"
 #include "orbitutte/verify/edge_images.h"
 #include "orbitutte/verify/laid_out.h"
 
@@ -14,7 +13,7 @@ double energy_of_layout(const Embedding& layout, const std::vector<int>& edge_of
   double energy = 0;
   for (int h = 0; h < static_cast<int>(edge_of.size()); ++h) {
     if (std::exchange(done[edge_of[h]], 1)) continue;
-    const double d = arc_length(layout.positions.row(h), layout.positions.row(next_halfedge(h)));
+    const double d = layout.space().distance(layout.positions.row(h), layout.positions.row(next_halfedge(h)));
     energy += w[edge_of[h]] * d * d;
   }
   return energy;
@@ -26,7 +25,7 @@ double dirichlet_energy(const Connectivity& connectivity, const EdgeWeights& wei
                         const Embedding& embedding) {
   double energy = 0;
   visit_edges(connectivity, embedding, [&](int e, int a, int b) {
-    const double d = arc_length(embedding.positions.row(a), embedding.positions.row(b));
+    const double d = embedding.space().distance(embedding.positions.row(a), embedding.positions.row(b));
     energy += weights.w[e] * d * d;
   });
   return energy;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// N. Aigerman, S. Z. Kovalsky, Y. Lipman, "Spherical Orbifold Tutte Embeddings" (2017), theorem 2; after L.
+// N. Aigerman, S. Z. Kovalsky, Y. Lipman, "Spherical Target Tutte Embeddings" (2017), theorem 2; after L.
 // Lovasz, "Steinitz representations of polyhedra and the Colin de Verdiere number", Journal of Combinatorial
 // Theory B 82 (2001).
 #include "orbitutte/verify/theorem2.h"
@@ -62,9 +62,9 @@ Points coordinate_residuals(const Cover& cover, const SymmetryGroup& group) {
   Points r = Points::Zero(cover.positions.rows(), 3);
   const Points& X = cover.positions;
   for (const CoverEdge& e : cover.edges) {
-    const Matrix3& g = group.elements()[e.g];
-    r.row(e.i) += diagonal_part(e) * X.row(e.i) - coupling(e) * X.row(e.j) * g.transpose();
-    r.row(e.j) += diagonal_part(e) * X.row(e.j) - coupling(e) * X.row(e.i) * g;
+    const Isometry& g = group.elements()[e.g];
+    r.row(e.i) += diagonal_part(e) * X.row(e.i) - coupling(e) * (g * Vector3(X.row(e.j))).transpose();
+    r.row(e.j) += diagonal_part(e) * X.row(e.j) - coupling(e) * (g.inverse_matrix() * X.row(e.i).transpose()).transpose();
   }
   return r;
 }
@@ -73,7 +73,7 @@ Points coordinate_residuals(const Cover& cover, const SymmetryGroup& group) {
 Representation space(const SymmetryGroup& group) {
   Representation result;
   result.dimension = 3;
-  result.matrices.assign(group.elements().begin(), group.elements().end());
+  for (const Isometry& g : group.elements()) result.matrices.emplace_back(g.matrix());
   return result;
 }
 
@@ -97,7 +97,7 @@ double residual_norm(const Cover& cover, const SymmetryGroup& group, const Vecto
 Matrix3 coordinate_gram(const Cover& cover, const SymmetryGroup& group, const VectorXd& scale) {
   const Matrix3 here = cover.positions.transpose() * scale.asDiagonal() * cover.positions;
   Matrix3 sum = Matrix3::Zero();
-  for (const Matrix3& g : group.elements()) sum += g * here * g.transpose();
+  for (const Isometry& g : group.elements()) sum += g.matrix() * here * g.matrix().transpose();
   return sum;
 }
 
@@ -246,12 +246,6 @@ void judge(const Problem& problem, Theorem2& result) {
         "{:.1e}",
         result.kernel_residual);
   }
-}
-
-SymmetryGroup group_of(const Embedding& embedding) {
-  std::vector<Matrix3> generators;
-  for (const Seam& seam : embedding.seams) generators.push_back(seam.transform);
-  return {generators, embedding.group_order};
 }
 
 double longest_edge(const Cover& cover) {

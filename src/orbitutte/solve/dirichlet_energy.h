@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The discrete spherical Dirichlet energy (equation (2)) and its gradient.
+// The discrete Dirichlet energy of maps into a space of constant curvature (equation (2)) and its gradient.
 #pragma once
 
 #include <array>
@@ -22,26 +22,24 @@ struct GluedEdge {
 /// The edges of the energy, each with the group element that is applied to its second end.
 struct GluedEdges {
   std::vector<GluedEdge> edges;     ///< in the order of Connectivity::edges
-  std::vector<Matrix3> transforms;  ///< distinct elements of G; the first is the identity
+  std::vector<Isometry> transforms;  ///< distinct elements of G; the first is the identity
 };
 
 /// The group element of every edge: that of one of its images in the cut mesh.
 GluedEdges glued_edges(const CutMesh& cut, const Connectivity& connectivity,
                        const BoundaryConditions& boundary);
 
-/// E(p) = sum over edges of w_ij d(p_i, g_ij p_j)^2 of unit vectors, with d the spherical distance, computed
-/// from the chord |p - q| without the loss of digits between neighbours that the paper's atan2(|p x q|, <p,
-/// q>) has.
-class SphericalEnergy {
+/// E(p) = sum over edges of w_ij d(p_i, g_ij p_j)^2, with d the distance of the space (see Curvature::distance).
+class DirichletEnergy {
  public:
-  SphericalEnergy(const GluedEdges& glued, const EdgeWeights& weights, const BoundaryConditions& boundary);
+  DirichletEnergy(const GluedEdges& glued, const EdgeWeights& weights, const BoundaryConditions& boundary);
 
   struct Value {
     double energy = 0;
     Points gradient;  ///< n x 3: tangential, and feasible (along mirrors; zero where held)
   };
 
-  /// positions: n x 3, unit. The same bits whatever the number of threads.
+  /// positions: n x 3, points of the space. The same bits whatever the number of threads.
   Value evaluate(const Points& positions) const;
 
   /// The same, into a value whose memory is used again.
@@ -58,8 +56,10 @@ class SphericalEnergy {
   /// it.
   void relax_small(Points& positions, double length, int sweeps) const;
 
-  /// How exactly the gradient at unit vectors can be known in double precision: per vertex, the rounding
-  /// error of a position times the sum of its weights. n.
+  Space space() const { return space_; }
+
+  /// How exactly the gradient can be known in double precision: per vertex, the rounding error of a position
+  /// of length one times the sum of its weights. n.
   const Eigen::VectorXd& rounding_floor() const { return rounding_floor_; }
 
  private:
@@ -70,9 +70,19 @@ class SphericalEnergy {
   };
 
   Vector3 image(const Points& p, const Incidence& incidence) const;
+
+  // The tangential, feasible part of sum over j of w_ij d/sn d (g_ij p_j - p_i) at vertex i, and the sums that
+  // are met on the way.
+  struct Pull {
+    Vector3 force;
+    double energy, weight;  // sum of w d^2, and of w d/sn d
+  };
+  template <int k>
+  Pull pull_at(const Points& p, int v) const;
   void relax(Points& p, int v) const;
 
-  std::vector<Matrix3> transforms_;
+  Space space_;
+  std::vector<Isometry> transforms_;
   std::vector<Matrix3> projectors_;  // onto the room of each vertex, by BoundaryConditions::basis_of
   std::vector<int> basis_of_;
   std::vector<int> start_;  // incidences of vertex v: start_[v] .. start_[v + 1] - 1
