@@ -44,8 +44,8 @@ cholmod_dense dense_view(const Eigen::MatrixXd& matrix) {
   view.nrow = view.d = static_cast<std::size_t>(matrix.rows());
   view.ncol = static_cast<std::size_t>(matrix.cols());
   view.nzmax = view.nrow * view.ncol;
-  view.x = const_cast<double*>(
-      matrix.data());  // CHOLMOD takes inputs that are not const, but does not write to them
+  // CHOLMOD takes inputs that are not const, but does not write to them.
+  view.x = const_cast<double*>(matrix.data());
   view.xtype = CHOLMOD_REAL;
   view.dtype = CHOLMOD_DOUBLE;
   return view;

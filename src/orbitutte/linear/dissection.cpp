@@ -64,9 +64,8 @@ ClusterGraph graph_of(const Clusters& clusters, const Neighbors& graph) {
   for (int v = 0; v < n; ++v) members[fill[clusters.of[v]]++] = v;
 
   ClusterGraph result;
-  std::vector<int> place(
-      clusters.count,
-      -1);  // the place of a cluster in result.neighbor; valid if it is not before this cluster's begin
+  // The place of each cluster in result.neighbor; valid if it is not before the current cluster's begin.
+  std::vector<int> place(clusters.count, -1);
   for (int c = 0; c < clusters.count; ++c) {
     const int begin = static_cast<int>(result.neighbor.size());
     for (int m = first[c]; m < first[c + 1]; ++m) {
@@ -161,8 +160,8 @@ std::vector<int> depths_of_separation(const Neighbors& graph, const std::vector<
     }
     for (const int v : candidates) {
       const auto& count = on_side[part[v] >> (shift + 1)];
-      if ((part[v] >> shift & 1) == (count[1] < count[0]))
-        depth[v] = d;  // separators come from the side with fewer vertices
+      // The separator comes from the side with fewer vertices.
+      if ((part[v] >> shift & 1) == (count[1] < count[0])) depth[v] = d;
     }
   }
   return depth;
