@@ -7,23 +7,24 @@ namespace orbitutte {
 namespace {
 
 constexpr double orthogonality_tolerance = 1e-9;
-constexpr double identity_tolerance = 1e-6;  // elements nearer to each other than this are one
+constexpr double identity_tolerance = 1e-6;  // elements nearer to each other than this are equal
 
 void check_orthogonal(const Matrix3& matrix) {
   const double defect = (matrix.transpose() * matrix - Matrix3::Identity()).cwiseAbs().maxCoeff();
-  if (!(defect <= orthogonality_tolerance))  // refuses NaN too
+  if (!(defect <= orthogonality_tolerance))  // true for NaN, too
     throw ArgumentError(
         fmt::format("a generator of the symmetry group is not orthogonal (off by {:.2g})", defect));
 }
 
-/// The orthogonal matrix nearest to one that is almost orthogonal: a step of Newton's iteration for the polar
+/// The orthogonal matrix nearest to an almost orthogonal one: one step of Newton's iteration for the polar
 /// factor, X (3 I - X'X) / 2, which squares the error.
 Matrix3 orthogonalized(const Matrix3& matrix) {
   return 0.5 * matrix * (3 * Matrix3::Identity() - matrix.transpose() * matrix);
 }
 
-/// A linear function of the entries that changes by no more than the matrix does (in the Frobenius norm): its
-/// coefficients have norm below 1, and no relation that would give many elements of a group the same value.
+/// A linear function of the entries that changes by no more than the matrix does (Frobenius norm), since the
+/// norm of its coefficients is below 1. The coefficients satisfy no relation that would give many elements of
+/// a group the same value.
 double index_key(const Matrix3& matrix) {
   static const Matrix3 coefficients =
       (Matrix3() << 0.3141, -0.2236, 0.4358, 0.1732, 0.3605, -0.2828, -0.4123, 0.1414, 0.2645).finished();
@@ -35,7 +36,7 @@ double index_key(const Matrix3& matrix) {
 SymmetryGroup::SymmetryGroup(const std::vector<Matrix3>& generators, int max_order) {
   for (const Matrix3& generator : generators) check_orthogonal(generator);
   insert(Matrix3::Identity());
-  // Products with the generators reach every element: in a finite group inverses are powers.
+  // Products with the generators reach every element, since in a finite group inverses are powers.
   for (int g = 0; g < order(); ++g) {
     for (const Matrix3& generator : generators) {
       const Matrix3 product = orthogonalized(elements_[g] * generator);

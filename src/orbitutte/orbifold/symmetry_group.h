@@ -9,21 +9,21 @@
 
 namespace orbitutte {
 
-/// A finite subgroup of O(3). Element 0 is the identity; the sequence depends on the generators alone.
+/// A finite subgroup of O(3). Element 0 is the identity. The sequence of elements depends only on the
+/// generators.
 class SymmetryGroup {
  public:
-  /// All products of the generators (3 x 3, orthogonal). Throws ArgumentError where one is not orthogonal (to
-  /// 1e-9), or where more than `max_order` elements come out: no finite group of that size.
+  /// All products of the generators (3 x 3, orthogonal). Throws ArgumentError if a generator is not
+  /// orthogonal (to 1e-9), or if there are more than `max_order` elements: no finite group of that size.
   SymmetryGroup(const std::vector<Matrix3>& generators, int max_order);
 
   int order() const { return static_cast<int>(elements_.size()); }
   const std::vector<Matrix3>& elements() const { return elements_; }
 
-  /// The index of the element nearest to `matrix`, or -1 where none is within 1e-6 (Frobenius norm).
-  /// O(log |G|).
+  /// The index of the element nearest to `matrix`, or -1 if none is within 1e-6 (Frobenius norm). O(log |G|).
   int find(const Matrix3& matrix) const;
 
-  /// For every element g the index of g * element, a permutation of 0 .. |G| - 1. Throws ArgumentError where
+  /// For every element g, the index of g * element: a permutation of 0 .. |G| - 1. Throws ArgumentError if
   /// `element` does not belong to the group.
   std::vector<int> right_products(const Matrix3& element) const;
 
@@ -31,7 +31,8 @@ class SymmetryGroup {
   void insert(const Matrix3& element);
 
   std::vector<Matrix3> elements_;
-  std::multimap<double, int> index_;  ///< the elements by a linear function of their entries
+  /// The elements, sorted by a linear function of their entries.
+  std::multimap<double, int> index_;
 };
 
 }  // namespace orbitutte
