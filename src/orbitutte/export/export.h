@@ -33,11 +33,11 @@ ExportedModel exported_model(const Mesh& mesh, const Embedding& embedding, Textu
 /// Writes the format that the path's ending names (any case):
 /// - OBJ: the input's vertices and faces, untouched; only `vt` has seams;
 /// - GLB: the faces as triangles, a vertex for every pair of position and texture coordinates, smooth
-/// normals, log area distortion as vertex colours, single precision;
+///   normals, log area distortion as vertex colours, single precision;
 /// - PLY, binary: the input's vertices and faces with `quality`, the base-2 logarithm of the area distortion
-/// A; at a vertex it is the mean over the faces around it;
+///   A; at a vertex it is the mean over the faces around it;
 /// - VTP (XML, base64): the cut mesh in space, with its sphere positions, texture coordinates and source
-/// vertices as point arrays, and area and angle distortion as cell arrays.
+///   vertices as point arrays, and area and angle distortion as cell arrays.
 ///
 /// The file appears whole or not at all. Throws ArgumentError for another ending or a model too large for the
 /// format, and FileError.

@@ -53,7 +53,7 @@ Tiling tile_sphere(const Embedding& embedding);
 
 /// Writes the format that the path's ending names (any case):
 /// - PLY, binary: double x y z, int source_vertex; vertex_indices, uchar red green blue, int tile, int
-/// source_face;
+///   source_face;
 /// - OBJ: a group `tile_g` per tile, a material per colour in an .mtl file beside it, which is written first;
 /// - STL, binary: the colour in the attribute word: bit 15 set, then 5 bits each of red, green and blue;
 /// - GLB: a material and a primitive per colour, all on the same vertices, in single precision.

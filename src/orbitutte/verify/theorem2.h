@@ -52,8 +52,7 @@ struct Theorem2 {
   std::vector<RepresentationInertia> representations;
 
   /// theorem2_edges: the longest edge is below pi/2. If the eigenvalues were measured, also theorem2_inertia:
-  /// exactly one of them is
-  /// negative; and theorem2_kernel: the kernel has dimension three.
+  /// exactly one of them is negative; and theorem2_kernel: the kernel has dimension three.
   std::vector<Check> checks() const;
   /// Measured, and all checks passed.
   bool holds() const;
