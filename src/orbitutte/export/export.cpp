@@ -24,7 +24,8 @@
 namespace orbitutte {
 namespace {
 
-// Has face f of the cut mesh the corners of the input's, in either direction from the same one on?
+// Does face f of the cut mesh have the corners of the input's face, in either direction from the same corner
+// on?
 bool is_cut_face(const PolygonMesh& mesh, const Embedding& embedding, int f) {
   const std::span<const int> cut = embedding.input_faces()[f];
   const int first = mesh.face_start[f], degree = mesh.face_degree(f);
@@ -90,8 +91,8 @@ double triangle_area(const Mesh& mesh, Eigen::Index t) {
   return (b - a).cross(c - a).norm() / 2;
 }
 
-// The means over a range of triangles, by their areas in the source. What was left out does
-// not count.
+// The mean distortion of a range of triangles, weighted by their areas in the source. Triangles that were not
+// measured do not count.
 FaceDistortion mean_distortion(const Mesh& mesh, const std::vector<FaceDistortion>& of_triangle,
                                std::pair<Eigen::Index, Eigen::Index> range) {
   FaceDistortion mean;
@@ -119,8 +120,8 @@ std::vector<FaceDistortion> distortion_of_faces(const PolygonMesh& polygons, con
   return result;
 }
 
-// From blue (shrunk) by white to red (stretched), a factor of 8 at the ends: the diverging map of K. Moreland
-// (2009) in straight lines.
+// From blue (shrunk) through white to red (stretched), with a factor of 8 at the ends: the diverging map of
+// K. Moreland (2009), linear between its ends.
 Rgb distortion_colour(double log_area) {
   const double t = std::clamp(log_area / 3, -1.0, 1.0);
   const auto between = [&](double end) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// VTK's XML format for polygonal data (VTK file formats, "XML file formats"), arrays as base64 behind their
-// length.
+// VTK's XML format for polygonal data (VTK file formats, "XML file formats"). Arrays are base64, preceded by
+// their length.
 #include <fmt/format.h>
 
 #include <cstdint>
@@ -46,7 +46,7 @@ std::string polygons(const FaceView& faces) {
 
 std::vector<double> flattened(const Points& points) { return {points.data(), points.data() + points.size()}; }
 
-// Every cut vertex in space.
+// The position in space of every cut vertex.
 std::vector<double> source_positions(const ExportedModel& model) {
   std::vector<double> result;
   for (const int v : model.embedding.source_vertex)
@@ -54,7 +54,7 @@ std::vector<double> source_positions(const ExportedModel& model) {
   return result;
 }
 
-// Of the cut vertices only: a vertex of VTK has one pair.
+// The pairs of the cut vertices only, since a vertex of VTK has one pair.
 std::vector<double> texture_pairs(const ExportedModel& model) {
   std::vector<double> result;
   for (std::size_t v = 0; v < model.embedding.source_vertex.size(); ++v)

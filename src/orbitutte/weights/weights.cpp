@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "orbitutte/weights/weights.h"
 
-
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
@@ -18,18 +17,18 @@
 namespace orbitutte {
 namespace {
 
-// A weight of an intrinsic triangulation that is zero, between concyclic points, becomes this: the theory
-// asks for positive ones, and so little moves nothing that can be seen.
+// Replaces weights of zero in an intrinsic triangulation, which concyclic points cause. The theory requires
+// positive weights; one as small as this has no visible effect.
 constexpr double concyclic_weight = 1e-6;
 
-// Half the cotangent of the angle at vertex o of a triangle (i, j, o); zero where the triangle has no area
-// but rounding errors, as `inspect` counts them: their cotangents, 1e15 or so, would be rounding errors too.
+// Half the cotangent of the angle at vertex o of a triangle (i, j, o). Zero if the area is nothing but
+// rounding error, by the criterion of `inspect`: the cotangent, 1e15 or so, would be rounding error, too.
 double half_cotangent(const Points& V, int i, int j, int o) {
   Vector3 a = V.row(i) - V.row(o), b = V.row(j) - V.row(o);
   const double longest =
       std::max({a.lpNorm<Eigen::Infinity>(), b.lpNorm<Eigen::Infinity>(), (b - a).lpNorm<Eigen::Infinity>()});
   if (!(longest > 0)) return 0;
-  // A power of two near 1/longest: nothing overflows, and right angles stay exact.
+  // A power of two near 1/longest prevents overflow and keeps right angles exact.
   const double scale = std::exp2(-std::clamp(std::ilogb(longest), -1000, 1000));
   a *= scale;
   b *= scale;
@@ -37,7 +36,7 @@ double half_cotangent(const Points& V, int i, int j, int o) {
   return twice_area > 8 * std::numeric_limits<double>::epsilon() ? 0.5 * a.dot(b) / twice_area : 0.0;
 }
 
-// The sum of a half-edge's value and its opposite's, for every edge.
+// For every edge, the sum of the values of its half-edges.
 Eigen::VectorXd summed_over_sides(const Connectivity& connectivity, const std::vector<double>& value) {
   Eigen::VectorXd sum(static_cast<Eigen::Index>(connectivity.edges.size()));
   parallel_ranges(static_cast<int>(value.size()), [&](int begin, int end) {
@@ -85,7 +84,7 @@ EdgeWeights delaunay_weights(const Mesh& mesh, const Connectivity& connectivity,
   return intrinsic_weights(std::move(triangulation), options.clamp);
 }
 
-// Half the mean length of the edges at every vertex.
+// For every vertex, half the mean length of its edges.
 std::vector<double> half_mean_lengths(const Connectivity& connectivity, const std::vector<double>& length,
                                       int vertex_count) {
   std::vector<double> sum(vertex_count, 0.0);
@@ -104,7 +103,8 @@ EdgeWeights mean_value_weights(const Mesh& mesh, const Connectivity& connectivit
   const std::vector<double> length = mollified_lengths(mesh, connectivity);
   const std::vector<double> scale = half_mean_lengths(connectivity, length, static_cast<int>(mesh.V.rows()));
   const auto side = [&](int h) { return length[connectivity.edge_of[h]]; };
-  std::vector<double> share(connectivity.edge_of.size());  // of the weight, from one face
+  // of each half-edge: the part of the weight that its face contributes
+  std::vector<double> share(connectivity.edge_of.size());
   parallel_ranges(static_cast<int>(share.size()), [&](int begin, int end) {
     for (int h = begin; h < end; ++h) {
       const double a = side(h), b = side(next_halfedge(h)), c = side(previous_halfedge(h));
@@ -118,7 +118,7 @@ EdgeWeights mean_value_weights(const Mesh& mesh, const Connectivity& connectivit
   return result;
 }
 
-// The blank-separated words of a line, each without copying.
+// Removes the next blank-separated word from a line and returns it; empty at the end.
 std::string_view next_word(std::string_view& line) {
   const auto first = line.find_first_not_of(" \t\r");
   if (first == std::string_view::npos) return line = {};
@@ -151,7 +151,8 @@ EdgeWeights weights_of_kind(const Mesh& mesh, const Connectivity& connectivity,
   return uniform;
 }
 
-// Weights that are given edge by edge. `place()` tells where one stands, `where` all of them.
+// Collects weights that are given edge by edge. For messages, `place()` names one entry and `where` the whole
+// list.
 class WeightCollector {
  public:
   explicit WeightCollector(const Connectivity& connectivity) : connectivity_(connectivity) {
@@ -173,7 +174,7 @@ class WeightCollector {
     result_.w[edge] = w;
   }
 
-  /// All of them, when every edge has one; `row` is what would hold one more.
+  /// All weights, once every edge has one. For messages, `row` names an entry of the list.
   EdgeWeights weights(const std::string& where, const char* row) {
     const auto absent = std::find(result_.w.begin(), result_.w.end(), missing);
     if (absent != result_.w.end()) {
