@@ -9,7 +9,6 @@
 #include "command_arguments.h"
 #include "commands.h"
 #include "orbitutte/embed.h"
-#include "orbitutte/inspect/inspection.h"
 #include "orbitutte/io/mesh_io.h"
 #include "orbitutte/report/comparison.h"
 
@@ -49,21 +48,18 @@ Json to_json(const Compared& compared) {
       {"angle", {{"mean", d.angle.mean}, {"max", d.angle.max}}}};
 }
 
-ComparedMap compared_map(const Mesh& mesh, const Compared& compared) {
+ComparedMap compared_map(const Surface& surface, const Compared& compared) {
   const bool is_spherical = compared.orbifold.geometry == Geometry::spherical;
   const std::string verdict = compared.result.certificate.bijective ? "" : " (not certified)";
   return {(is_spherical ? "sphere: " : "plane: ") + compared.orbifold.signature + verdict,
-          compared.result.distortion.area, measure_faces(mesh, compared.result.embedding)};
+          compared.result.distortion.area, measure_faces(surface, compared.result.embedding)};
 }
 
 }  // namespace
 
 int compare_command(const CompareArguments& arguments) {
-  PolygonMesh polygons = read_mesh(arguments.mesh);
-  const Inspection inspection = inspect(polygons);
-  require_embeddable(inspection);
-  const Mesh mesh = to_triangle_mesh(std::move(polygons));
-  const std::string star = inspection.topology == Topology::disk ? "*" : "";
+  const Surface surface = make_surface(read_mesh(arguments.mesh));
+  const std::string star = surface.topology == Topology::disk ? "*" : "";
   const std::array orbifolds = {orbifold_or(arguments.orbifold, star + "432"),
                                 flat_or(arguments.flat, star + "442")};
   EmbedOptions options;
@@ -74,9 +70,9 @@ int compare_command(const CompareArguments& arguments) {
   std::vector<int> cones;
   if (arguments.cones != "auto") cones = parse_cones(arguments.cones);
   for (const Orbifold& orbifold : orbifolds) {
-    if (cones.empty()) cones = choose_marked_vertices(mesh, orbifold);
-    maps.push_back({orbifold, embed(mesh, orbifold, cones, options)});
-    pictures.push_back(compared_map(mesh, maps.back()));
+    if (cones.empty()) cones = choose_marked_vertices(surface, orbifold);
+    maps.push_back({orbifold, embed(surface, orbifold, cones, options)});
+    pictures.push_back(compared_map(surface, maps.back()));
   }
   if (arguments.json) {
     fmt::print("{}\n", Json({{"mesh", arguments.mesh},
@@ -85,12 +81,13 @@ int compare_command(const CompareArguments& arguments) {
                              {"euclidean", to_json(maps[1])}})
                            .dump(1));
   } else {
-    fmt::print("{}: {} triangles, cones {}\n", arguments.mesh, mesh.F.rows(), fmt::join(cones, ","));
+    fmt::print("{}: {} triangles, cones {}\n", arguments.mesh, surface.triangles.rows(),
+               fmt::join(cones, ","));
     fmt::print("{:<10} {:<10} {:>9} {:>9} {:>9} {:>10} {:>9} {:>9}  {}\n", "", "orbifold", "area mean", "std",
                "median", "max", "angle", "max", "certified");
     for (const Compared& compared : maps) print_row(compared);
   }
-  if (!arguments.output.empty()) write_comparison(arguments.output, {mesh, cones, std::move(pictures)});
+  if (!arguments.output.empty()) write_comparison(arguments.output, {surface, cones, std::move(pictures)});
   const bool certified = maps[0].result.certificate.bijective && maps[1].result.certificate.bijective;
   return certified ? succeeded : not_certified;
 }

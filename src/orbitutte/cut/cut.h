@@ -2,11 +2,11 @@
 // Cutting a sphere, disk or projective plane along edge paths through the marked vertices (section 4.1).
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "orbitutte/cut/paths.h"
-#include "orbitutte/mesh/connectivity.h"
+#include "orbitutte/mesh/surface.h"
+#include "orbitutte/options.h"
 
 namespace orbitutte {
 
@@ -26,11 +26,6 @@ struct CutMesh {
   int vertex_count() const { return static_cast<int>(source_vertex.size()); }
 };
 
-/// Which of all cuts through the same marked vertices.
-struct CutOptions {
-  std::uint64_t seed = 0;  ///< another seed takes another cut through the same marks; 0 takes the shortest
-};
-
 /// Cuts so that every marked vertex lies on the boundary of a disk. The first `inner_marks` of the marks lie
 /// inside the surface, the others on its boundary.
 /// A sphere with two marks is cut along the shortest edge path between them; with three, along two disjoint
@@ -40,11 +35,11 @@ struct CutOptions {
 /// boundary nowhere else. A projective plane with one mark is cut along a one-sided loop through it, and its
 /// faces are turned so that those of the disk agree (see one_sided_loop). Throws MeshError for marks that are
 /// not vertices of a face, repeated, too few or too many, or not where they have to be.
-CutMesh cut_to_disk(const Mesh& mesh, const Connectivity& connectivity, const std::vector<int>& marks,
-                    int inner_marks, const CutOptions& options = {});
+CutMesh cut_to_disk(const Surface& surface, const std::vector<int>& marks, int inner_marks,
+                    const CutOptions& options = {});
 
 /// The edges with their lengths in space. Edges of length zero get a tiny length, so that paths stay short in
 /// edges too. Every path may pass through every vertex: no vertex is a dead end.
-EdgeGraph edge_length_graph(const Mesh& mesh, const Connectivity& connectivity);
+EdgeGraph edge_length_graph(const Surface& surface);
 
 }  // namespace orbitutte

@@ -4,9 +4,8 @@
 
 #include <Eigen/SparseCore>
 #include <memory>
-#include <string>
-#include <vector>
 
+#include "orbitutte/options.h"
 #include "orbitutte/types.h"
 
 namespace orbitutte {
@@ -15,17 +14,6 @@ using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, long>;
 
 /// Have both the same entries, stored in the same order?
 bool equal(const SparseMatrix& A, const SparseMatrix& B);
-
-enum class Backend { cholmod, eigen };
-
-/// "cholmod" or "eigen".
-std::string name(Backend backend);
-
-/// The backends in this binary; the first is the default (CMake option ORBITUTTE_SOLVER).
-std::vector<Backend> available_backends();
-
-/// The BLAS of this binary: OpenBLAS's own description where it can be asked, else "unknown".
-std::string blas_description();
 
 /// A matrix that is not positive definite; `column` is the first that shows it, or -1 where that is not
 /// known.

@@ -51,9 +51,9 @@ double evaluate(const GluedEdges& glued, const EdgeWeights& weights, const Bound
 }  // namespace
 
 PlanarMinimum planar_minimum(const CutMesh& cut, const GluedEdges& glued, const EdgeWeights& weights,
-                             const BoundaryConditions& boundary, const LaplacianOptions& options) {
+                             const BoundaryConditions& boundary, const LaplacianSetup& setup) {
   const GluedEdges linear = linear_parts(glued);
-  const LaplacianSolver laplacian(cut, linear, weights, boundary, options);
+  const LaplacianSolver laplacian(cut, linear, weights, boundary, setup);
   PlanarMinimum minimum = {feasible_positions(boundary)};
   Points gradient;
   for (int step = 0; step < 2; ++step) {

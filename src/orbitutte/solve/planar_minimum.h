@@ -17,6 +17,6 @@ struct PlanarMinimum {
 /// quadratic, so one Newton step from any of them ends at the minimum, and a second, with the same factor,
 /// takes its rounding errors away. Throws as LaplacianSolver does.
 PlanarMinimum planar_minimum(const CutMesh& cut, const GluedEdges& glued, const EdgeWeights& weights,
-                             const BoundaryConditions& boundary, const LaplacianOptions& options);
+                             const BoundaryConditions& boundary, const LaplacianSetup& setup);
 
 }  // namespace orbitutte
