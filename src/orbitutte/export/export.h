@@ -6,29 +6,22 @@
 #include <string>
 
 #include "orbitutte/export/texture_chart.h"
-#include "orbitutte/mesh/polygon_mesh.h"
+#include "orbitutte/mesh/surface.h"
 #include "orbitutte/verify/distortion.h"
 
 namespace orbitutte {
 
-/// A source mesh and everything about its embedding that is written.
+/// A surface and all that is written of its embedding.
 struct ExportedModel {
-  /// The input.
-  PolygonMesh mesh;
-  /// T x 3: its faces divided into triangles, as indices into mesh.corners.
-  Faces triangles;
-  /// The embedding of the input.
-  Embedding embedding;
-  /// Texture coordinates of the embedding.
-  TextureCoordinates texture;
-  /// m: the distortion of the input's faces. A polygon's is the mean over its triangles, weighted by area, so
-  /// that A is the polygon's own.
-  std::vector<FaceDistortion> of_face;
+  Surface surface;                      ///< the input
+  Embedding embedding;                  ///< of it
+  TextureCoordinates texture;           ///< of the embedding
+  std::vector<FaceDistortion> of_face;  ///< m: of the input's faces, of polygons the means of their triangles
+                                        ///< by area, so that A is the polygon's own
 };
 
-/// The mesh must have passed `inspect`. Throws MeshError if the embedding is not one of the mesh.
-ExportedModel exported_model(const PolygonMesh& mesh, const Embedding& embedding, TextureChart chart);
-ExportedModel exported_model(const Mesh& mesh, const Embedding& embedding, TextureChart chart);
+/// Throws MeshError where the embedding is none of the surface.
+ExportedModel exported_model(Surface surface, const Embedding& embedding, TextureChart chart);
 
 /// Writes the format that the path's ending names (any case):
 /// - OBJ: the input's vertices and faces, untouched; only `vt` has seams;

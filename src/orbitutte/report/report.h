@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "orbitutte/embed.h"
+#include "orbitutte/embed_types.h"
 
 namespace orbitutte {
 
@@ -16,6 +16,7 @@ struct RunRecord {
   std::string mesh_path;
   std::string input_sha256;  ///< hexadecimal
   double read_seconds = 0;
+  double validate_seconds = 0;  ///< where the surface was made before it was embedded
   double write_seconds = 0;
   double total_seconds = 0;
   long long peak_memory_bytes = 0;
@@ -35,6 +36,7 @@ struct Report {
   std::vector<Seam> seams;
   std::vector<ConeCopies> cones;
   WeightOptions weights;
+  std::vector<int> kept_faces;  ///< triangles of which no edge was flipped
   double energy = 0;
   std::vector<Iteration> history;
   bool converged = false;

@@ -502,21 +502,16 @@ Certificate certify(int vertex_count, const FaceView& faces, const Embedding& em
   return certificate;
 }
 
-Certificate certify(const Mesh& mesh, const Embedding& embedding) {
-  return certify(static_cast<int>(mesh.V.rows()), FaceView(mesh.F), embedding);
+Certificate certify(const Surface& surface, const Embedding& embedding) {
+  return certify(surface.vertex_count(), surface.faces(), embedding);
 }
 
-Certificate certify(const PolygonMesh& mesh, const Embedding& embedding) {
-  return certify(mesh.vertex_count(), FaceView(mesh.corners, mesh.face_start), embedding);
-}
-
-Certificate certify_intrinsic(const Mesh& mesh, const Embedding& embedding,
+Certificate certify_intrinsic(const Surface& surface, const Embedding& embedding,
                               const IntrinsicTriangulation& triangulation) {
   Certificate certificate;
-  if (!check_input(static_cast<int>(mesh.V.rows()), FaceView(mesh.F), embedding, certificate))
-    return certificate;
+  if (!check_input(surface.vertex_count(), surface.faces(), embedding, certificate)) return certificate;
   if (!check_gluing(embedding, embedding, certificate)) return certificate;
-  const Embedding layout = laid_out(mesh, embedding, triangulation);
+  const Embedding layout = laid_out(surface, embedding, triangulation);
   if (check_layout(layout, triangulation, certificate)) check_faces(layout, layout, {}, certificate);
   return certificate;
 }

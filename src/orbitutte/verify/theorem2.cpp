@@ -320,23 +320,16 @@ Theorem2 check_cover(const Cover& cover, const SymmetryGroup& group, const Theor
 
 }  // namespace
 
-Theorem2 check_theorem2(const Connectivity& connectivity, const EdgeWeights& weights,
-                        const Embedding& embedding, const Theorem2Options& options) {
+Theorem2 check_theorem2(const Surface& surface, const EdgeWeights& weights, const Embedding& embedding,
+                        const Theorem2Options& options) {
   const SymmetryGroup group = group_of(embedding);
-  return check_cover(cover_of(connectivity, weights, embedding, group), group, options);
+  return check_cover(cover_of(surface, weights, embedding, group), group, options);
 }
 
-Theorem2 check_theorem2(const Mesh& mesh, const Connectivity& connectivity, const EdgeWeights& weights,
-                        const Embedding& embedding, const Theorem2Options& options) {
-  if (!weights.triangulation) return check_theorem2(connectivity, weights, embedding, options);
+long cover_eigenvalues_below(const Surface& surface, const EdgeWeights& weights, const Embedding& embedding,
+                             double shift, const Theorem2Options& options) {
   const SymmetryGroup group = group_of(embedding);
-  return check_cover(cover_of_layout(mesh, weights, embedding, group), group, options);
-}
-
-long cover_eigenvalues_below(const Connectivity& connectivity, const EdgeWeights& weights,
-                             const Embedding& embedding, double shift, const Theorem2Options& options) {
-  const SymmetryGroup group = group_of(embedding);
-  const Cover cover = cover_of(connectivity, weights, embedding, group);
+  const Cover cover = cover_of(surface, weights, embedding, group);
   const Problem problem = {cover, group, vertex_scale(cover), least_shift, options.method};
   long below = 0;
   for (const Representation& rho : irreducible_representations(group)) {
