@@ -32,8 +32,9 @@ std::vector<std::string> symbols_or_both_spaces(const std::vector<std::string>& 
 void print_row(const Compared& compared) {
   const Distortion& d = compared.result.distortion;
   fmt::print("{:<10} {:<10} {:>9.4g} {:>9.4g} {:>9.4g} {:>10.4g} {:>9.4g} {:>9.4g}  {}\n",
-             compared.orbifold.space.name(), compared.orbifold.signature, d.area.mean, d.area.std, d.area.median, d.area.max, d.angle.mean,
-             d.angle.max, compared.result.certificate.bijective ? "yes" : "no");
+             compared.orbifold.space.name(), compared.orbifold.signature, d.area.mean, d.area.std,
+             d.area.median, d.area.max, d.angle.mean, d.angle.max,
+             compared.result.certificate.bijective ? "yes" : "no");
 }
 
 Json to_json(const Compared& compared) {

@@ -126,10 +126,9 @@ void summarize(const EmbedArguments& arguments, const EmbedResult& result) {
   const Minimum& minimum = result.minimum;
   std::vector<int> cones;
   for (const ConeCopies& cone : result.embedding.cones) cones.push_back(cone.vertex);
-  fmt::print(stderr, "{}: {} vertices, {} faces, a {}, onto {} ({}), cones {}\n",
-             arguments.mesh, minimum.positions.rows(), result.embedding.input_faces().count(),
-             name(result.topology), result.embedding.target.signature, group_text(result.embedding.target),
-             fmt::join(cones, ","));
+  fmt::print(stderr, "{}: {} vertices, {} faces, a {}, onto {} ({}), cones {}\n", arguments.mesh,
+             minimum.positions.rows(), result.embedding.input_faces().count(), name(result.topology),
+             result.embedding.target.signature, group_text(result.embedding.target), fmt::join(cones, ","));
   fmt::print(stderr, "energy {:.12g} after {} iterations, gradient {:.1e}: {}\n", minimum.energy,
              minimum.iterations, minimum.gradient_norm, name(minimum.termination));
   fmt::print(stderr, "area distortion: mean {:.4g}, max {:.4g}; angle distortion: mean {:.4g}, max {:.4g}\n",

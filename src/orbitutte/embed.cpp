@@ -76,14 +76,9 @@ EmbedResult embed_once(const EmbedRequest& request, const std::vector<int>& kept
   const Tile& tile = placed.tile;
   const BoundaryConditions& boundary = placed.boundary;
 
-  result.embedding = {orbifold,
-                      placed.frame,
-                      Points(),
-                      cut.F,
-                      cut.source_vertex,
-                      boundary.seams,
-                      boundary.cones,
-                      surface.polygons_on(cut.F, cut.turned)};
+  result.embedding = {
+      orbifold,          placed.frame,   Points(),       cut.F,
+      cut.source_vertex, boundary.seams, boundary.cones, surface.polygons_on(cut.F, cut.turned)};
   const std::vector<Ear> ears = find_ears(result.embedding.input_faces(), tile, boundary);
   round_outward(ears, result.minimum.positions);
   result.embedding.positions = boundary.spread(result.minimum.positions, cut.source_vertex);

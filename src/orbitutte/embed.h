@@ -25,8 +25,8 @@ namespace orbitutte {
 EmbedResult embed(const Surface& surface, const Target& orbifold, const std::vector<int>& marked_vertices,
                   const EmbedOptions& options = {});
 
-/// The same of the surface that a mesh is; throws as make_surface does, too. The mesh is copied: a caller who
-/// has no further use for it saves that by make_surface(std::move(mesh)).
+/// The same of the surface that a mesh is; throws as make_surface does, too. It copies the mesh; a caller who
+/// has no further use for the mesh avoids that by make_surface(std::move(mesh)).
 EmbedResult embed(const Mesh& mesh, const Target& orbifold, const std::vector<int>& marked_vertices,
                   const EmbedOptions& options = {});
 EmbedResult embed(const PolygonMesh& mesh, const Target& orbifold, const std::vector<int>& marked_vertices,
@@ -55,7 +55,7 @@ class EmbeddingSolver {
 };
 
 /// Well separated extremities for the marks of the orbifold, inside a disk or on its boundary as each has to
-/// be. Throws MeshError where the surface is not what the orbifold needs.
+/// be. Throws MeshError if the surface is not what the orbifold needs.
 std::vector<int> choose_marked_vertices(const Surface& surface, const Target& orbifold);
 
 /// The same of the surface that a mesh is; throws as make_surface does, too.

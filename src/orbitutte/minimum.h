@@ -17,13 +17,16 @@ std::string name(Termination termination);
 /// One row of the history: the state after an iteration (the first row: the start).
 struct Iteration {
   double energy = 0;
-  double gradient_norm = 0;  ///< infinity norm of the feasible, tangential gradient
-  double step = 0;           ///< infinity norm of the displacement that led here, radians
+  /// The infinity norm of the feasible, tangential gradient.
+  double gradient_norm = 0;
+  /// The infinity norm of the displacement that led here, radians.
+  double step = 0;
 };
 
 /// Where the optimiser ended, and how it came there.
 struct Minimum {
-  Points positions;  ///< n x 3, unit
+  /// n x 3, points of the space.
+  Points positions;
   double energy = 0;
   double gradient_norm = 0;
   int iterations = 0;

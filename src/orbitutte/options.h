@@ -8,14 +8,16 @@
 
 namespace orbitutte {
 
-/// Which of all cuts through the same marked vertices.
+/// Chooses between the cuts through the same marked vertices.
 struct CutOptions {
-  std::uint64_t seed = 0;  ///< another seed takes another cut through the same marks; 0 takes the shortest
+  /// Another seed gives another cut; 0 gives the shortest.
+  std::uint64_t seed = 0;
 };
 
 /// How vertices are spread along an arc.
 enum class Spread {
-  arc_length,  ///< in proportion to the lengths of the boundary's edges in the source
+  /// In proportion to the lengths of the boundary's edges in the source.
+  arc_length,
   equidistant
 };
 
@@ -28,7 +30,7 @@ std::string name(Backend backend);
 /// The backends in this binary; the first is the default (CMake option ORBITUTTE_SOLVER).
 std::vector<Backend> available_backends();
 
-/// The BLAS of this binary: OpenBLAS's own description where it can be asked, else "unknown".
+/// The BLAS of this binary: OpenBLAS's own description if it can be asked for, else "unknown".
 std::string blas_description();
 
 /// How the linear systems are solved.

@@ -18,7 +18,8 @@ namespace orbitutte {
 /// A surface, and what is known of it before its cones are.
 struct PreparedSurface {
   const Surface& surface;
-  std::vector<std::string> warnings;  ///< about its polygons, one sentence each
+  /// About its polygons, one sentence each.
+  std::vector<std::string> warnings;
 };
 
 /// What embed is asked for.
@@ -32,12 +33,13 @@ struct EmbedRequest {
 /// The weights before they were sharpened at cones.
 struct KnownWeights {
   std::optional<EdgeWeights> weights;
-  std::vector<int> kept_faces;  ///< with which these were computed
+  /// The kept faces with which these were computed.
+  std::vector<int> kept_faces;
 };
 
 /// The last cut.
 struct KnownCut {
-  /// The marked vertices of `cut`, and how many lie inside; none where no cut was completed.
+  /// The marked vertices of `cut`, and how many lie inside; none if no cut was completed.
   std::optional<std::pair<std::vector<int>, int>> through;
   CutMesh cut;
 };
@@ -52,15 +54,15 @@ struct EmbeddingCache {
   std::shared_ptr<LaplacianReuse> laplacians;
 };
 
-/// Looks for what the polygons of the surface should be warned of. Throws ArgumentError where the options ask
+/// Looks for what the polygons of the surface should be warned of. Throws ArgumentError if the options ask
 /// for weights that they do not have. The surface must outlive the result.
 PreparedSurface prepare(const Surface& surface, const EmbedOptions& options);
 
-/// Throws MeshError where the surface has not the topology that the orbifold needs, and where there are not
-/// as many marked vertices as it has marks.
+/// Throws MeshError if the surface has not the topology that the orbifold needs, or if there are not as many
+/// marked vertices as it has marks.
 void require_fit(const EmbedRequest& request);
 
-/// Throws MeshError where the surface has not the topology that the orbifold needs.
+/// Throws MeshError if the surface has not the topology that the orbifold needs.
 void require_topology(const Surface& surface, const Target& orbifold);
 
 /// The weights (section 4), those of a metric that is flat at the cones. No edge of the kept faces, triangles

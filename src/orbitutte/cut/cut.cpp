@@ -30,8 +30,8 @@ double straight_distance(const Surface& surface, int i, int j) {
   return (surface.V.row(i) - surface.V.row(j)).norm();
 }
 
-// Which of three marks the cut passes through: the one nearest to the two others in space, or any, by the
-// seed.
+// Chooses which of three marks the cut passes through: the one nearest to the other two in space, or one that
+// the seed decides.
 int middle_mark(const Surface& surface, const std::vector<int>& marks, std::uint64_t seed) {
   if (seed != 0) return static_cast<int>(3 * random_unit(seed, 0));
   const auto detour = [&](int k) {
@@ -118,8 +118,8 @@ double straight_length(const Surface& surface, const Path& path) {
   return length;
 }
 
-// The shortest over the choices of the two marks in the middle; two that lie on the surface such that one way
-// is barred can be joined in another.
+// The shortest path over all choices of the two marks in the middle. If one choice has no path, another may
+// have one.
 Path shortest_path_through_four(const Surface& surface, const EdgeGraph& graph,
                                 const std::vector<int>& marks) {
   Path best;

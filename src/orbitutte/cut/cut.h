@@ -32,20 +32,23 @@ struct CutMesh {
   int vertex_count() const { return static_cast<int>(source_vertex.size()); }
 };
 
-/// Cuts so that every marked vertex lies on the boundary of a disk. The first `inner_marks` of the marks lie
-/// inside the surface, the others on its boundary.
-/// A sphere with two marks is cut along the shortest edge path between them; with three, along two disjoint
-/// paths from one of them to the other two; with four, along a path between two of them that disjoint paths
-/// extend to the others. A disk whose marks are on its boundary is left as it is; one with a mark inside is
-/// cut along the shortest edge path from it to a vertex of the boundary that is not marked, and meets the
-/// boundary nowhere else. A projective plane with one mark is cut along a one-sided loop through it, and its
-/// faces are turned so that those of the disk agree (see one_sided_loop). Throws MeshError for marks that are
-/// not vertices of a face, repeated, too few or too many, or not where they have to be.
+/// Cuts the surface so that every marked vertex lies on the boundary of a disk. The first `inner_marks` marks
+/// lie inside the surface, the others on its boundary.
+///
+/// A sphere with two marks is cut along the shortest edge path between them; with three marks, along two
+/// disjoint paths from one of them to the other two; with four, along a path between two of them that
+/// disjoint paths extend to the other two. A disk whose marks are on its boundary is left as it is. A disk
+/// with a mark inside is cut along the shortest edge path from it to an unmarked vertex of the boundary; the
+/// path meets the boundary only at its end. A projective plane with one mark is cut along a one-sided loop
+/// through the mark, and its faces are turned so that those of the disk agree (see one_sided_loop).
+///
+/// Throws MeshError if a mark is not a vertex of a face, is given twice or lies in the wrong place, or if
+/// there are too few or too many marks.
 CutMesh cut_to_disk(const Surface& surface, const std::vector<int>& marks, int inner_marks,
                     const CutOptions& options = {});
 
-/// The edges with their lengths in space. Edges of length zero get a tiny length, so that paths stay short in
-/// edges too. Every path may pass through every vertex: no vertex is a dead end.
+/// The edges with their lengths in space. Every length is increased by a tiny one, so that paths have few
+/// edges even if edges have length zero. Paths may pass through any vertex: no vertex is a dead end.
 EdgeGraph edge_length_graph(const Surface& surface);
 
 }  // namespace orbitutte

@@ -35,7 +35,8 @@ DisjointSets vertices_of_double_cover(const Faces& F, const std::vector<int>& op
   return vertices;
 }
 
-// Per edge: does it join different lifts of its ends? The lift 0 of a vertex is that of its first corner.
+// Per edge: does it join different lifts of its ends? Lift 0 of a vertex is that of its first corner on sheet
+// 0.
 std::vector<char> lift_changes(const Surface& surface) {
   const Faces& F = surface.triangles;
   const Connectivity& connectivity = surface.connectivity;

@@ -13,10 +13,10 @@ namespace orbitutte {
 /// Do any two faces run along a common edge in the same direction?
 bool has_turned_faces(const Faces& F, const std::vector<int>& opposite);
 
-/// A simple closed edge path through a vertex of the projective plane that turns the orientation over: first
-/// and last vertex are the given one. The shortest such path where that is simple; otherwise the shortest
-/// one-sided loop that it contains, joined to the vertex by two disjoint paths of least total length. Opening
-/// it leaves a disk. O(n log n).
+/// A simple closed edge path through a vertex of the projective plane that reverses orientation. Its first
+/// and last vertex are the given one. It is the shortest such path if that is simple. Otherwise it joins the
+/// vertex, by two disjoint paths of least total length, to the shortest one-sided loop inside that path.
+/// Opening it leaves a disk. O(n log n).
 Path one_sided_loop(const EdgeGraph& graph, const Surface& surface, int vertex);
 
 /// The faces of a closed surface, some of them turned over so that all agree across every half-edge that is

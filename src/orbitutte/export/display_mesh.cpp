@@ -17,9 +17,9 @@ using FloatPoints = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 /// No collapse is too coarse: only the number of triangles matters.
 constexpr float any_error = std::numeric_limits<float>::max();
 
-/// Where the collapses measure their error: the source in a unit box, plus half the image. Of the source
-/// alone flat parts would collapse that are round on the sphere; of the image alone, limbs that are tiny
-/// there.
+/// The points at which collapses measure their error: the source in a unit box, plus half the image. With the
+/// source alone, flat parts that are round on the sphere would collapse; with the image alone, limbs that are
+/// tiny there would.
 FloatPoints source_and_image(const Surface& surface, const Embedding& embedding) {
   const Eigen::RowVector3d low = surface.V.colwise().minCoeff();
   const double size = std::max((surface.V.colwise().maxCoeff() - low).maxCoeff(), 1e-300);

@@ -24,7 +24,8 @@
 namespace orbitutte {
 namespace {
 
-// Has face f of the cut mesh the corners of the input's, in either direction from the same one on?
+// Does face f of the cut mesh have the corners of the input's face, in either direction from the same corner
+// on?
 bool is_cut_face(const Surface& surface, const Embedding& embedding, int f) {
   const std::span<const int> face = surface.faces()[f], cut = embedding.input_faces()[f];
   if (cut.size() != face.size()) return false;
@@ -95,8 +96,8 @@ double triangle_area(const Surface& surface, Eigen::Index t) {
   return (b - a).cross(c - a).norm() / 2;
 }
 
-// The means over a range of triangles, by their areas in the source. What was left out does
-// not count.
+// The mean distortion of a range of triangles, weighted by their areas in the source. Triangles that were not
+// measured do not count.
 FaceDistortion mean_distortion(const Surface& surface, const std::vector<FaceDistortion>& of_triangle,
                                std::pair<Eigen::Index, Eigen::Index> range) {
   FaceDistortion mean;
@@ -233,9 +234,9 @@ std::string ply_bytes(const ExportedModel& model) {
   const PlyElement face = {"face",
                            static_cast<std::size_t>(faces.count()),
                            {property_of(faces), floats("quality", face_quality(model))}};
-  return serialize_ply(
-      {{"quality: log2 of the area distortion of the orbitutte embedding " + model.embedding.target.signature},
-       {vertex, face}});
+  return serialize_ply({{"quality: log2 of the area distortion of the orbitutte embedding " +
+                         model.embedding.target.signature},
+                        {vertex, face}});
 }
 
 ExportedModel exported_model(Surface surface, const Embedding& embedding, TextureChart chart) {

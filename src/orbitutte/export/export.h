@@ -11,16 +11,20 @@
 
 namespace orbitutte {
 
-/// A surface and all that is written of its embedding.
+/// A surface and everything about its embedding that is written.
 struct ExportedModel {
-  Surface surface;                      ///< the input
-  Embedding embedding;                  ///< of it
-  TextureCoordinates texture;           ///< of the embedding
-  std::vector<FaceDistortion> of_face;  ///< m: of the input's faces, of polygons the means of their triangles
-                                        ///< by area, so that A is the polygon's own
+  /// The input.
+  Surface surface;
+  /// The embedding of the input.
+  Embedding embedding;
+  /// Texture coordinates of the embedding.
+  TextureCoordinates texture;
+  /// m: the distortion of the input's faces. A polygon's is the mean over its triangles, weighted by area, so
+  /// that A is the polygon's own.
+  std::vector<FaceDistortion> of_face;
 };
 
-/// Throws MeshError where the embedding is none of the surface.
+/// Throws MeshError if the embedding is not one of the surface.
 ExportedModel exported_model(Surface surface, const Embedding& embedding, TextureChart chart);
 
 /// Writes the format that the path's ending names (any case):

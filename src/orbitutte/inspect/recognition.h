@@ -10,8 +10,8 @@
 namespace orbitutte {
 
 /// The surface that a mesh is: a sphere, a disk or a projective plane. Throws MeshError with the first defect
-/// that `inspect` finds. Where a mesh is moved in, its memory becomes the surface's; one in which a defect is
-/// found stays as it was.
+/// that `inspect` finds. If a mesh is moved in, its memory becomes the surface's; a mesh with a defect stays
+/// as it was.
 Surface make_surface(Mesh&& mesh);
 Surface make_surface(const Mesh& mesh);
 
@@ -20,8 +20,8 @@ Surface make_surface(const Mesh& mesh);
 Surface make_surface(PolygonMesh&& mesh);
 Surface make_surface(const PolygonMesh& mesh);
 
-/// The mesh as a sphere or disk, in a few linear sweeps. Nothing where it is another surface, or has a defect
-/// of any kind; then the mesh stays as it was.
+/// The mesh as a sphere or disk, in a few linear sweeps. Nothing if it is another surface, or has a defect of
+/// any kind; then the mesh stays as it was.
 std::optional<Surface> recognize(Mesh&& mesh);
 
 /// Has the triangle no area but rounding errors, for the largest coordinate of its edges as the unit?

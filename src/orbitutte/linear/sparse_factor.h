@@ -15,7 +15,7 @@ using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, long>;
 /// Do both have the same entries, stored in the same order?
 bool equal(const SparseMatrix& A, const SparseMatrix& B);
 
-/// A matrix that is not positive definite; `column` is the first that shows it, or -1 where that is not
+/// The matrix is not positive definite. `column` is the first column that shows it, or -1 if that is not
 /// known.
 class NotPositiveDefinite : public Error {
  public:

@@ -8,18 +8,25 @@
 
 namespace orbitutte {
 
-/// Vertices, faces of any size, their triangles and how these hang together. Made once, by make_surface
-/// (inspect/recognition.h), which judges the mesh; const from then on.
+/// Vertices, faces of any size, their triangles and how these hang together. make_surface
+/// (inspect/recognition.h) makes it once and judges the mesh; it is const from then on.
 struct Surface {
-  Points V;                   ///< n x 3
-  Faces triangles;            ///< T x 3: its faces in their order, larger ones divided into triangles
-  Connectivity connectivity;  ///< the half-edges of the triangles, and the edges of the faces alone
-  Polygons polygons;  ///< its faces, where some have more than three corners; none where all are triangles
-  Faces division;     ///< T x 3: the triangles as indices into polygons.corners (triangulate); none likewise
+  /// n x 3 positions.
+  Points V;
+  /// T x 3: the faces in their order, larger ones divided into triangles.
+  Faces triangles;
+  /// The half-edges of the triangles, and the edges of the faces alone.
+  Connectivity connectivity;
+  /// The faces, if some have more than three corners; none if all are triangles.
+  Polygons polygons;
+  /// T x 3: the triangles as indices into polygons.corners (triangulate); none if all faces are triangles.
+  Faces division;
   Topology topology = Topology::other;
   int unreferenced_vertices = 0;
-  int zero_area_faces = 0;        ///< as Inspection counts them
-  Points colours = Points(0, 3);  ///< n x 3, of the vertices: sRGB, 0 .. 1; or none
+  /// As Inspection counts them.
+  int zero_area_faces = 0;
+  /// n x 3, of the vertices: sRGB, 0 .. 1; none if the mesh has no colours.
+  Points colours = Points(0, 3);
 
   bool has_polygons() const { return polygons.count() > 0; }
   int vertex_count() const { return static_cast<int>(V.rows()); }
@@ -28,9 +35,9 @@ struct Surface {
   /// The faces as they were given.
   FaceView faces() const { return has_polygons() ? FaceView(polygons) : FaceView(triangles); }
 
-  /// The polygons that the triangles make up on other vertices, such as those of a cut mesh. cut: T x 3, the
-  /// triangles there. Where one is turned over (T: second and third vertex exchanged; or empty), its polygon
-  /// is, too. None where all faces are triangles.
+  /// The polygons that the triangles make up on other vertices, such as those of a cut mesh; none if all
+  /// faces are triangles. cut: T x 3, the triangles there. turned: T, or empty; if a triangle is turned over
+  /// (its second and third vertex exchanged), its polygon is, too.
   Polygons polygons_on(const Faces& cut, const std::vector<char>& turned = {}) const;
 };
 

@@ -133,8 +133,9 @@ std::string verdict_sentence(const Judgement& judgement, const Embedding& embedd
     return fmt::format(
         "The map is a bijection: {} the sphere exactly once, which the certificate below proves on the "
         "stored numbers.",
-        embedding.target.group_order == 1 ? "the tile covers"
-                                   : fmt::format("its {} symmetric copies cover", embedding.target.group_order));
+        embedding.target.group_order == 1
+            ? "the tile covers"
+            : fmt::format("its {} symmetric copies cover", embedding.target.group_order));
   if (judgement.certificate.bijective)
     return "The optimiser stopped before it converged: the map passes every check, but it is not the "
            "minimiser.";
@@ -297,12 +298,13 @@ std::string cones_table(const Embedding& embedding) {
 std::string seams_table(const Embedding& embedding) {
   std::string rows;
   for (const Seam& seam : embedding.seams)
-    rows +=
-        row({name(seam.kind()), grouped_digits(static_cast<long long>(seam.left.size())),
-             fmt::format("{:.4g}&deg;",
-                         std::acos(std::clamp((seam.transform.matrix().determinant() * seam.transform.matrix().trace() - 1) / 2,
-                                              -1.0, 1.0)) *
-                             180 / std::numbers::pi)});
+    rows += row(
+        {name(seam.kind()), grouped_digits(static_cast<long long>(seam.left.size())),
+         fmt::format("{:.4g}&deg;",
+                     std::acos(std::clamp(
+                         (seam.transform.matrix().determinant() * seam.transform.matrix().trace() - 1) / 2,
+                         -1.0, 1.0)) *
+                         180 / std::numbers::pi)});
   return table(head({"Seam", "Vertices", "Angle"}), rows);
 }
 
@@ -436,7 +438,8 @@ Slots slots(const PageSubject& subject, const PageOptions& options) {
   const Embedding& embedding = subject.embedding;
   const Judgement judgement = {certify(subject.surface, embedding),
                                at(report, "/termination") == "converged"};
-  const std::string name = escape_html(mesh_name(report)), signature = escape_html(embedding.target.signature);
+  const std::string name = escape_html(mesh_name(report)),
+                    signature = escape_html(embedding.target.signature);
   return {{"policy", policy(options)},
           {"style", std::string(page_style)},
           {"title", name + " onto " + signature},

@@ -16,7 +16,8 @@ struct RunRecord {
   std::string mesh_path;
   std::string input_sha256;  ///< hexadecimal
   double read_seconds = 0;
-  double validate_seconds = 0;  ///< where the surface was made before it was embedded
+  /// If the surface was made before it was embedded.
+  double validate_seconds = 0;
   double write_seconds = 0;
   double total_seconds = 0;
   long long peak_memory_bytes = 0;
@@ -36,7 +37,8 @@ struct Report {
   std::vector<Seam> seams;
   std::vector<ConeCopies> cones;
   WeightOptions weights;
-  std::vector<int> kept_faces;  ///< triangles of which no edge was flipped
+  /// Triangles of which no edge was flipped.
+  std::vector<int> kept_faces;
   double energy = 0;
   std::vector<Iteration> history;
   bool converged = false;

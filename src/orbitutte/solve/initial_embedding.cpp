@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "orbitutte/solve/initial_embedding.h"
 
-
 #include "orbitutte/solve/boundary_arcs.h"
 
 namespace orbitutte {

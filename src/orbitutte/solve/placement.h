@@ -40,8 +40,8 @@ BoundaryConditions boundary_conditions(const Surface& surface, const CutMesh& cu
 
 /// Factorises, starts (appendix B) and minimises (algorithm 1, with `options`, whose callback is not called).
 /// A map that the target leaves free to rotate is turned so that one vertex has longitude 0; where edges are
-/// tiny, the map is moved to a frame that resolves them. Throws MeshError if an edge joins marked vertices whose
-/// images are opposite to each other.
+/// tiny, the map is moved to a frame that resolves them. Throws MeshError if an edge joins marked vertices
+/// whose images are opposite to each other.
 Placement place(const GluingProblem& problem, const LbfgsOptions& options, Stages& stage);
 
 }  // namespace orbitutte

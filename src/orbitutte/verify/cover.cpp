@@ -143,9 +143,8 @@ std::vector<CoverEdge> layout_edges(const Embedding& layout, const EdgeWeights& 
     const Vector3 from = layout.positions.row(h), to = layout.positions.row(next);
     const int at_from = element_between(positions.row(i), from, group),
               at_to = element_between(positions.row(j), to, group);
-    const int g = at_from == at_to
-                      ? 0
-                      : element(group, group.elements()[at_from].inverse() * group.elements()[at_to]);
+    const int g =
+        at_from == at_to ? 0 : element(group, group.elements()[at_from].inverse() * group.elements()[at_to]);
     edges.push_back({i, j, g, weights.w[edge_of[h]], layout.space().distance(from, to)});
   }
   return edges;

@@ -35,10 +35,10 @@ struct Cover {
   std::vector<CoverEdge> edges;
 };
 
-/// The edges are those of the surface, or those of the intrinsic triangulation that has the weights, with its
-/// faces; the group is that of the seams. The embedding must have passed the
-/// certificate's checks cut_mesh, seam_transforms, seam_gluing and group_order. Throws MeshError where the
-/// seams do not join the copies of a vertex, ArgumentError where a transform is not in the group.
+/// The edges are those of the surface, or those of the intrinsic triangulation to which the weights belong,
+/// with its faces; the group is that of the seams. The embedding must have passed the certificate's checks
+/// cut_mesh, seam_transforms, seam_gluing and group_order. Throws MeshError if the seams do not join the
+/// copies of a vertex, and ArgumentError if a transform is not in the group.
 Cover cover_of(const Surface& surface, const EdgeWeights& weights, const Embedding& embedding,
                const SymmetryGroup& group);
 

@@ -58,8 +58,7 @@ class Layout {
         Side{opposite_[ka], beyond(ka)}, Side{opposite_[al], into * beyond(al)},
         Side{opposite_[lb], into * beyond(lb)}, Side{opposite_[bk], beyond(bk)}};
     for (const int s : {1, 2})
-      if (sides[s].opposite >= 0)
-        set_beyond(sides[s].opposite, beyond(sides[s].opposite) * into.inverse());
+      if (sides[s].opposite >= 0) set_beyond(sides[s].opposite, beyond(sides[s].opposite) * into.inverse());
     set_corner(h, l), set_corner(bk, k), set_corner(ka, a);
     set_corner(g, k), set_corner(next_halfedge(g), l), set_corner(previous_halfedge(g), b);
     set_beyond(h, {});
@@ -106,7 +105,7 @@ class Layout {
 
   Faces F_;
   std::vector<int> opposite_;
-  Points positions_;                         // of the corner where each half-edge begins
+  Points positions_;                          // of the corner where each half-edge begins
   std::unordered_map<int, Isometry> beyond_;  // takes the face beyond a half-edge to where its own goes on
 };
 

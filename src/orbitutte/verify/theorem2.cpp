@@ -64,7 +64,8 @@ Points coordinate_residuals(const Cover& cover, const SymmetryGroup& group) {
   for (const CoverEdge& e : cover.edges) {
     const Isometry& g = group.elements()[e.g];
     r.row(e.i) += diagonal_part(e) * X.row(e.i) - coupling(e) * (g * Vector3(X.row(e.j))).transpose();
-    r.row(e.j) += diagonal_part(e) * X.row(e.j) - coupling(e) * (g.inverse_matrix() * X.row(e.i).transpose()).transpose();
+    r.row(e.j) += diagonal_part(e) * X.row(e.j) -
+                  coupling(e) * (g.inverse_matrix() * X.row(e.i).transpose()).transpose();
   }
   return r;
 }

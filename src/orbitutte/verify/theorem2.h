@@ -79,13 +79,13 @@ std::string name(Theorem2::Status status);
 /// coordinates belong there. s stays at least ten times the residual, and at least 1e-6; if the residual
 /// leaves no such s, the check is inconclusive.
 ///
-/// The embedding must be as cover_of wants it. Not run: a group too large, a factorisation that broke down,
-/// memory that ran out. Throws as cover_of does.
+/// The check is not run if the group is too large, if the factorisation breaks down or if memory runs out.
+/// The embedding must meet the conditions of cover_of; throws as cover_of does.
 Theorem2 check_theorem2(const Surface& surface, const EdgeWeights& weights, const Embedding& embedding,
                         const Theorem2Options& options = {});
 
-/// How many eigenvalues of W x = lambda D x, as above, the whole cover has below `shift`, with multiplicity.
-/// Throws InertiaNotFound, and as cover_of does.
+/// The number of eigenvalues of W x = lambda D x, as above, that the whole cover has below `shift`, with
+/// multiplicity. Throws InertiaNotFound, and as cover_of does.
 long cover_eigenvalues_below(const Surface& surface, const EdgeWeights& weights, const Embedding& embedding,
                              double shift, const Theorem2Options& options = {});
 

@@ -12,10 +12,10 @@
 
 namespace orbitutte {
 
-/// The lengths of the edges in space, divided by their mean, and all longer by one small number (at most
-/// 1e-8), so that every triangle inequality holds by that much: triangles without area become thin ones, and
-/// nothing else changes (N. Sharp, K. Crane, "A Laplacian for nonmanifold triangle meshes", SGP 2020:
-/// intrinsic mollification).
+/// The lengths of the edges in space, divided by their mean and then mollified: all grow by the same small
+/// number (at most 1e-8), so that every triangle inequality holds with that slack. Triangles without area
+/// become thin ones, and nothing else changes (N. Sharp, K. Crane, "A Laplacian for nonmanifold triangle
+/// meshes", SGP 2020: intrinsic mollification).
 std::vector<double> mollified_lengths(const Surface& surface);
 
 /// Half the cotangent of the angle opposite to the side a of a triangle: (b^2 + c^2 - a^2)/(8 area).

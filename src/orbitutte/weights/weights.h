@@ -20,21 +20,24 @@ struct WeightedEdge {
 /// How the weights of the energy are chosen.
 struct WeightOptions {
   WeightKind kind = WeightKind::standard;
-  double clamp = 0.01;                   ///< of cotangents that are not positive, > 0: the paper's value
-  std::vector<WeightedEdge> given = {};  ///< of kind `file`: every edge once, w >= 0
+  /// Replaces cotangent weights that are negative or zero; must be positive. The default is the paper's
+  /// value.
+  double clamp = 0.01;
+  /// For kind `file`: every edge once, w >= 0.
+  std::vector<WeightedEdge> given = {};
 };
 
-/// The kind of weights that a surface gets where this one is asked for: of `standard` it is `delaunay`, or
-/// `cotan` where faces have more than three corners. Throws ArgumentError for kinds that such faces do not
-/// have: `delaunay` and `mean_value`.
+/// The kind of weights that a surface gets if this kind is asked for. `standard` stands for `delaunay`, or
+/// for `cotan` if some faces have more than three corners. Throws ArgumentError if such faces are to have
+/// `delaunay` or `mean_value` weights, which are defined on triangles only.
 WeightKind weight_kind(const Surface& surface, WeightKind asked);
 
 /// Weights on the uncut mesh, so that no cut can change them. Zero-area triangles have no cotangents and add
-/// nothing to `cotan`; `delaunay` and `mean_value` go by mollified_lengths. Mean value weights are made
-/// symmetric, since a minimiser of an energy knows no others: they are positive, but no longer reproduce
-/// linear maps (M. Floater, "Mean value coordinates", CAGD 20 (2003)). Throws ArgumentError for a clamp that
-/// is not positive and finite, as weight_kind does, and MeshError as given_weights does and for kept faces
-/// that are not there. kept_faces: triangles whose edges are not flipped, of kind `delaunay`.
+/// nothing to `cotan`; `delaunay` and `mean_value` use mollified_lengths. Mean value weights are made
+/// symmetric, since weights of an energy must be; they are positive, but no longer reproduce linear maps (M.
+/// Floater, "Mean value coordinates", CAGD 20 (2003)). For kind `delaunay`, no edge of the kept faces
+/// (triangles of the surface) is flipped. Throws ArgumentError if the clamp is not positive and finite, and
+/// as weight_kind does; MeshError as given_weights does, and if a kept face does not exist.
 EdgeWeights edge_weights(const Surface& surface, const WeightOptions& options,
                          const std::vector<int>& kept_faces = {});
 
