@@ -54,11 +54,11 @@ py::tuple polygons(const Held& held) {
 // The edges (k x 2) and one weight for each.
 py::tuple weights(const HeldEmbedding& held) {
   const EdgeWeights weights = held.edge_weights();
-  const Connectivity connectivity =
-      weights.triangulation ? Connectivity() : held.source("the list of edges").connectivity();
-  const auto& edges = weights.triangulation ? weights.triangulation->connectivity.edges : connectivity.edges;
+  const Connectivity& connectivity = weights.triangulation
+                                         ? weights.triangulation->connectivity
+                                         : held.source("the list of edges").surface()->connectivity;
   std::vector<int> i, j;
-  for (const auto& edge : edges) {
+  for (const auto& edge : connectivity.edges) {
     i.push_back(edge[0]);
     j.push_back(edge[1]);
   }
@@ -69,7 +69,7 @@ py::tuple weights(const HeldEmbedding& held) {
 // A and the ratio of singular values of every triangle.
 py::tuple face_distortion(const HeldEmbedding& held) {
   const std::vector<FaceDistortion> faces =
-      measure_faces(held.source("distortion").triangles(), held.embedding);
+      measure_faces(*held.source("distortion").surface(), held.embedding);
   std::vector<double> area, angle;
   for (const FaceDistortion& face : faces) {
     area.push_back(face.area);
@@ -81,7 +81,7 @@ py::tuple face_distortion(const HeldEmbedding& held) {
 // With the keys of the report.
 py::dict distortion(const HeldEmbedding& held) {
   using namespace py::literals;
-  const Distortion measured = measure_distortion(held.source("distortion").triangles(), held.embedding);
+  const Distortion measured = measure_distortion(*held.source("distortion").surface(), held.embedding);
   const auto& [mean, std, median, max] = measured.area;
   return py::dict(
       "area"_a = py::dict("mean"_a = mean, "std"_a = std, "median"_a = median, "max"_a = max),
@@ -107,7 +107,7 @@ std::string verify_again(const HeldEmbedding& held, const MaybeMesh& mesh, const
                          const std::string& depth) {
   require_spherical(held.embedding, "verifications");
   const SourceMesh& judge = mesh ? *mesh : held.source("verification");
-  return verdict_json(verify(judge.polygons(), held.embedding, parse_report(held.report),
+  return verdict_json(verify(*judge.surface(), held.embedding, parse_report(held.report),
                              verification_options(held, weights_file, depth)));
 }
 

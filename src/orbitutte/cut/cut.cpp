@@ -26,15 +26,17 @@ void perturb_lengths(EdgeGraph& graph, std::uint64_t seed) {
   for (std::size_t e = 0; e < graph.length.size(); ++e) graph.length[e] *= 1 + 2 * random_unit(seed, e);
 }
 
-double straight_distance(const Mesh& mesh, int i, int j) { return (mesh.V.row(i) - mesh.V.row(j)).norm(); }
+double straight_distance(const Surface& surface, int i, int j) {
+  return (surface.V.row(i) - surface.V.row(j)).norm();
+}
 
 // Chooses which of three marks the cut passes through: the one nearest to the other two in space, or one that
 // the seed decides.
-int middle_mark(const Mesh& mesh, const std::vector<int>& marks, std::uint64_t seed) {
+int middle_mark(const Surface& surface, const std::vector<int>& marks, std::uint64_t seed) {
   if (seed != 0) return static_cast<int>(3 * random_unit(seed, 0));
   const auto detour = [&](int k) {
-    return straight_distance(mesh, marks[k], marks[(k + 1) % 3]) +
-           straight_distance(mesh, marks[k], marks[(k + 2) % 3]);
+    return straight_distance(surface, marks[k], marks[(k + 1) % 3]) +
+           straight_distance(surface, marks[k], marks[(k + 2) % 3]);
   };
   int best = 0;
   for (const int k : {1, 2})
@@ -52,9 +54,9 @@ Path path_through_two(const EdgeGraph& graph, const std::vector<int>& marks) {
   return path;
 }
 
-Path path_through_three(const Mesh& mesh, const EdgeGraph& graph, const std::vector<int>& marks,
+Path path_through_three(const Surface& surface, const EdgeGraph& graph, const std::vector<int>& marks,
                         std::uint64_t seed) {
-  const int middle = middle_mark(mesh, marks, seed);
+  const int middle = middle_mark(surface, marks, seed);
   const int first = marks[(middle + 2) % 3], last = marks[(middle + 1) % 3];
   auto [back, forth] = disjoint_paths(graph, marks[middle], {first, last});
   if (back.empty()) throw no_path(marks[middle], first);
@@ -110,20 +112,21 @@ Path path_through_four(const EdgeGraph& graph, const std::vector<int>& marks, in
   return path;
 }
 
-double straight_length(const Mesh& mesh, const Path& path) {
+double straight_length(const Surface& surface, const Path& path) {
   double length = 0;
-  for (std::size_t k = 1; k < path.size(); ++k) length += straight_distance(mesh, path[k - 1], path[k]);
+  for (std::size_t k = 1; k < path.size(); ++k) length += straight_distance(surface, path[k - 1], path[k]);
   return length;
 }
 
 // The shortest path over all choices of the two marks in the middle. If one choice has no path, another may
 // have one.
-Path shortest_path_through_four(const Mesh& mesh, const EdgeGraph& graph, const std::vector<int>& marks) {
+Path shortest_path_through_four(const Surface& surface, const EdgeGraph& graph,
+                                const std::vector<int>& marks) {
   Path best;
   for (int first = 0; first < 4; ++first) {
     for (int second = first + 1; second < 4; ++second) {
       const Path path = path_through_four(graph, marks, first, second);
-      if (!path.empty() && (best.empty() || straight_length(mesh, path) < straight_length(mesh, best)))
+      if (!path.empty() && (best.empty() || straight_length(surface, path) < straight_length(surface, best)))
         best = path;
     }
   }
@@ -131,11 +134,11 @@ Path shortest_path_through_four(const Mesh& mesh, const EdgeGraph& graph, const 
   return best;
 }
 
-Path path_through(const Mesh& mesh, const EdgeGraph& graph, const std::vector<int>& marks,
+Path path_through(const Surface& surface, const EdgeGraph& graph, const std::vector<int>& marks,
                   std::uint64_t seed) {
   if (marks.size() == 2) return path_through_two(graph, marks);
-  if (marks.size() == 3) return path_through_three(mesh, graph, marks, seed);
-  return shortest_path_through_four(mesh, graph, marks);
+  if (marks.size() == 3) return path_through_three(surface, graph, marks, seed);
+  return shortest_path_through_four(surface, graph, marks);
 }
 
 // A half-edge that leaves each vertex (-1 if no face uses it). At a boundary vertex it lies on the boundary.
@@ -223,18 +226,19 @@ struct OpenedMesh {
   std::vector<int> opposite;  // -1 on the boundary and at the cut
 };
 
-CutMesh uncut(const Mesh& mesh, const Connectivity& connectivity) {
+CutMesh uncut(const Surface& surface) {
   CutMesh cut;
-  cut.F = mesh.F;
-  cut.edge_of = connectivity.edge_of;
-  cut.source_vertex.resize(mesh.V.rows());
+  cut.F = surface.triangles;
+  cut.edge_of = surface.connectivity.edge_of;
+  cut.source_vertex.resize(surface.V.rows());
   for (int v = 0; v < cut.vertex_count(); ++v) cut.source_vertex[v] = v;
   return cut;
 }
 
-OpenedMesh opened_along(const CutPath& path, const Mesh& mesh, const Connectivity& connectivity) {
-  OpenedMesh result = {uncut(mesh, connectivity), connectivity.opposite};
+OpenedMesh opened_along(const CutPath& path, const Surface& surface) {
+  OpenedMesh result = {uncut(surface), surface.connectivity.opposite};
   if (path.edges.empty()) return result;
+  const Connectivity& connectivity = surface.connectivity;
   std::vector<char> is_cut(connectivity.edges.size(), 0);
   for (const int e : path.edges) is_cut[e] = 1;
   parallel_ranges(static_cast<int>(result.opposite.size()), [&](int begin, int end) {
@@ -309,41 +313,40 @@ std::vector<int> order_met(const std::vector<int>& boundary, const std::vector<i
 
 }  // namespace
 
-EdgeGraph edge_length_graph(const Mesh& mesh, const Connectivity& connectivity) {
-  EdgeGraph graph = {neighbors(connectivity.edges, static_cast<int>(mesh.V.rows())),
-                     std::vector<double>(connectivity.edges.size()),
-                     {}};
+EdgeGraph edge_length_graph(const Surface& surface) {
+  const std::vector<std::array<int, 2>>& edges = surface.connectivity.edges;
+  EdgeGraph graph = {neighbors(edges, surface.vertex_count()), std::vector<double>(edges.size()), {}};
   const double total = parallel_sum(static_cast<int>(graph.length.size()), [&](int e) {
-    const auto [i, j] = connectivity.edges[e];
-    return graph.length[e] = straight_distance(mesh, i, j);
+    const auto [i, j] = edges[e];
+    return graph.length[e] = straight_distance(surface, i, j);
   });
   const double tiny = total > 0 ? 1e-6 * total / static_cast<double>(graph.length.size()) : 1.0;
   for (double& length : graph.length) length += tiny;
   return graph;
 }
 
-CutMesh cut_to_disk(const Mesh& mesh, const Connectivity& connectivity, const std::vector<int>& marks,
-                    int inner_marks, const CutOptions& options) {
-  const std::vector<int>& opposite = connectivity.opposite;
-  const std::vector<int> outgoing = outgoing_halfedges(mesh.F, opposite, static_cast<int>(mesh.V.rows()));
+CutMesh cut_to_disk(const Surface& surface, const std::vector<int>& marks, int inner_marks,
+                    const CutOptions& options) {
+  const std::vector<int>& opposite = surface.connectivity.opposite;
+  const std::vector<int> outgoing = outgoing_halfedges(surface.triangles, opposite, surface.vertex_count());
   check_marks(marks, outgoing);
   std::vector<char> on_boundary(outgoing.size(), 0);
   for (std::size_t v = 0; v < outgoing.size(); ++v)
     on_boundary[v] = outgoing[v] >= 0 && opposite[outgoing[v]] < 0;
   const bool closed = std::find(on_boundary.begin(), on_boundary.end(), 1) == on_boundary.end();
-  const bool one_sided = closed && has_turned_faces(mesh.F, opposite);
+  const bool one_sided = closed && has_turned_faces(surface.triangles, opposite);
   if (closed) check_number_of_marks(marks, one_sided);
   if (!closed) check_marks_of_disk(marks, inner_marks, on_boundary);
   CutPath path = {{marks[0]}, {}};  // for a disk that is not cut
   if (closed || inner_marks > 0) {
-    EdgeGraph graph = edge_length_graph(mesh, connectivity);
+    EdgeGraph graph = edge_length_graph(surface);
     perturb_lengths(graph, options.seed);
-    path = with_edges(one_sided ? one_sided_loop(graph, mesh.F, connectivity, marks[0])
-                      : closed  ? path_through(mesh, graph, marks, options.seed)
+    path = with_edges(one_sided ? one_sided_loop(graph, surface, marks[0])
+                      : closed  ? path_through(surface, graph, marks, options.seed)
                                 : path_to_boundary(graph, marks, on_boundary),
                       graph);
   }
-  OpenedMesh opened = opened_along(path, mesh, connectivity);
+  OpenedMesh opened = opened_along(path, surface);
   if (one_sided) turn_faces(opened);
   CutMesh cut = split_along_boundary(path.vertices.front(), std::move(opened));
   cut.marks = marks;

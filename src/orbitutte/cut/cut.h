@@ -2,11 +2,11 @@
 // Cutting a sphere, disk or projective plane along edge paths through the marked vertices (section 4.1).
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "orbitutte/cut/paths.h"
-#include "orbitutte/mesh/connectivity.h"
+#include "orbitutte/mesh/surface.h"
+#include "orbitutte/options.h"
 
 namespace orbitutte {
 
@@ -32,13 +32,7 @@ struct CutMesh {
   int vertex_count() const { return static_cast<int>(source_vertex.size()); }
 };
 
-/// Chooses between the cuts through the same marked vertices.
-struct CutOptions {
-  /// Another seed gives another cut; 0 gives the shortest.
-  std::uint64_t seed = 0;
-};
-
-/// Cuts the mesh so that every marked vertex lies on the boundary of a disk. The first `inner_marks` marks
+/// Cuts the surface so that every marked vertex lies on the boundary of a disk. The first `inner_marks` marks
 /// lie inside the surface, the others on its boundary.
 ///
 /// A sphere with two marks is cut along the shortest edge path between them; with three marks, along two
@@ -50,11 +44,11 @@ struct CutOptions {
 ///
 /// Throws MeshError if a mark is not a vertex of a face, is given twice or lies in the wrong place, or if
 /// there are too few or too many marks.
-CutMesh cut_to_disk(const Mesh& mesh, const Connectivity& connectivity, const std::vector<int>& marks,
-                    int inner_marks, const CutOptions& options = {});
+CutMesh cut_to_disk(const Surface& surface, const std::vector<int>& marks, int inner_marks,
+                    const CutOptions& options = {});
 
 /// The edges with their lengths in space. Every length is increased by a tiny one, so that paths have few
 /// edges even if edges have length zero. Paths may pass through any vertex: no vertex is a dead end.
-EdgeGraph edge_length_graph(const Mesh& mesh, const Connectivity& connectivity);
+EdgeGraph edge_length_graph(const Surface& surface);
 
 }  // namespace orbitutte

@@ -37,9 +37,11 @@ DisjointSets vertices_of_double_cover(const Faces& F, const std::vector<int>& op
 
 // Per edge: does it join different lifts of its ends? Lift 0 of a vertex is that of its first corner on sheet
 // 0.
-std::vector<char> lift_changes(const Faces& F, const Connectivity& connectivity, int vertex_count) {
+std::vector<char> lift_changes(const Surface& surface) {
+  const Faces& F = surface.triangles;
+  const Connectivity& connectivity = surface.connectivity;
   DisjointSets vertices = vertices_of_double_cover(F, connectivity.opposite);
-  std::vector<int> first(vertex_count, -1);
+  std::vector<int> first(surface.vertex_count(), -1);
   for (int h = 0; h < static_cast<int>(F.size()); ++h)
     if (first[origin(F, h)] < 0) first[origin(F, h)] = vertices.find(lift(h, 0));
   const auto lift_of = [&](int h) { return vertices.find(lift(h, 0)) != first[origin(F, h)]; };
@@ -135,9 +137,9 @@ bool has_turned_faces(const Faces& F, const std::vector<int>& opposite) {
          }) > 0;
 }
 
-Path one_sided_loop(const EdgeGraph& graph, const Faces& F, const Connectivity& connectivity, int vertex) {
+Path one_sided_loop(const EdgeGraph& graph, const Surface& surface, int vertex) {
   const int n = graph.vertex_count();
-  const std::vector<char> changes = lift_changes(F, connectivity, n);
+  const std::vector<char> changes = lift_changes(surface);
   Path path = shortest_path(double_cover(graph, changes), vertex, {n + vertex});
   if (path.empty()) throw std::logic_error("the surface has an orientation");
   for (int& v : path) v %= n;

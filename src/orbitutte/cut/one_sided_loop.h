@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "orbitutte/cut/paths.h"
+#include "orbitutte/mesh/surface.h"
 
 namespace orbitutte {
 
@@ -16,7 +17,7 @@ bool has_turned_faces(const Faces& F, const std::vector<int>& opposite);
 /// and last vertex are the given one. It is the shortest such path if that is simple. Otherwise it joins the
 /// vertex, by two disjoint paths of least total length, to the shortest one-sided loop inside that path.
 /// Opening it leaves a disk. O(n log n).
-Path one_sided_loop(const EdgeGraph& graph, const Faces& F, const Connectivity& connectivity, int vertex);
+Path one_sided_loop(const EdgeGraph& graph, const Surface& surface, int vertex);
 
 /// The faces of a closed surface, some of them turned over so that all agree across every half-edge that is
 /// not opened (opposite[h] >= 0). A face keeps its first vertex when it is turned over; face 0 is never

@@ -20,12 +20,12 @@ constexpr float any_error = std::numeric_limits<float>::max();
 /// The points at which collapses measure their error: the source in a unit box, plus half the image. With the
 /// source alone, flat parts that are round on the sphere would collapse; with the image alone, limbs that are
 /// tiny there would.
-FloatPoints source_and_image(const Mesh& mesh, const Embedding& embedding) {
-  const Eigen::RowVector3d low = mesh.V.colwise().minCoeff();
-  const double size = std::max((mesh.V.colwise().maxCoeff() - low).maxCoeff(), 1e-300);
+FloatPoints source_and_image(const Surface& surface, const Embedding& embedding) {
+  const Eigen::RowVector3d low = surface.V.colwise().minCoeff();
+  const double size = std::max((surface.V.colwise().maxCoeff() - low).maxCoeff(), 1e-300);
   FloatPoints points(embedding.positions.rows(), 3);
   for (Eigen::Index v = 0; v < points.rows(); ++v) {
-    const Eigen::RowVector3d source = (mesh.V.row(embedding.source_vertex[v]) - low) / size;
+    const Eigen::RowVector3d source = (surface.V.row(embedding.source_vertex[v]) - low) / size;
     points.row(v) = (source + 0.5 * embedding.positions.row(v)).cast<float>();
   }
   return points;
@@ -93,11 +93,11 @@ FloatPoints image(const Embedding& embedding, const std::vector<int>& cut_vertex
 
 }  // namespace
 
-DisplayMesh display_mesh(const Mesh& mesh, const Embedding& embedding, const DisplayLimits& limits) {
+DisplayMesh display_mesh(const Surface& surface, const Embedding& embedding, const DisplayLimits& limits) {
   DisplayMesh result;
   result.fine.faces = embedding.faces;
   if (embedding.faces.rows() > limits.faces)
-    result.fine.faces = coarsened(embedding.faces, source_and_image(mesh, embedding), limits.faces);
+    result.fine.faces = coarsened(embedding.faces, source_and_image(surface, embedding), limits.faces);
   result.cut_vertex = compact(result.fine.faces, static_cast<int>(embedding.positions.rows()));
   result.fine.outline = outline(result.fine.faces);
 

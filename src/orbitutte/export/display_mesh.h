@@ -6,6 +6,7 @@
 #include <array>
 #include <vector>
 
+#include "orbitutte/mesh/surface.h"
 #include "orbitutte/orbifold/embedding.h"
 
 namespace orbitutte {
@@ -37,6 +38,7 @@ struct DisplayLimits {
 /// A level is the whole cut mesh if that is within the limit; otherwise edge collapses make it (quadric
 /// error, meshoptimizer). The outline is never coarsened, so that copies still meet; therefore a level may
 /// exceed its limit. Vertices that no face uses are left out.
-DisplayMesh display_mesh(const Mesh& mesh, const Embedding& embedding, const DisplayLimits& limits = {});
+DisplayMesh display_mesh(const Surface& surface, const Embedding& embedding,
+                         const DisplayLimits& limits = {});
 
 }  // namespace orbitutte

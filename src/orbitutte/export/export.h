@@ -6,17 +6,15 @@
 #include <string>
 
 #include "orbitutte/export/texture_chart.h"
-#include "orbitutte/mesh/polygon_mesh.h"
+#include "orbitutte/mesh/surface.h"
 #include "orbitutte/verify/distortion.h"
 
 namespace orbitutte {
 
-/// A source mesh and everything about its embedding that is written.
+/// A surface and everything about its embedding that is written.
 struct ExportedModel {
   /// The input.
-  PolygonMesh mesh;
-  /// T x 3: its faces divided into triangles, as indices into mesh.corners.
-  Faces triangles;
+  Surface surface;
   /// The embedding of the input.
   Embedding embedding;
   /// Texture coordinates of the embedding.
@@ -26,9 +24,8 @@ struct ExportedModel {
   std::vector<FaceDistortion> of_face;
 };
 
-/// The mesh must have passed `inspect`. Throws MeshError if the embedding is not one of the mesh.
-ExportedModel exported_model(const PolygonMesh& mesh, const Embedding& embedding, TextureChart chart);
-ExportedModel exported_model(const Mesh& mesh, const Embedding& embedding, TextureChart chart);
+/// Throws MeshError if the embedding is not one of the surface.
+ExportedModel exported_model(Surface surface, const Embedding& embedding, TextureChart chart);
 
 /// Writes the format that the path's ending names (any case):
 /// - OBJ: the input's vertices and faces, untouched; only `vt` has seams;

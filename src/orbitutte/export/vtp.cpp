@@ -50,7 +50,7 @@ std::vector<double> flattened(const Points& points) { return {points.data(), poi
 std::vector<double> source_positions(const ExportedModel& model) {
   std::vector<double> result;
   for (const int v : model.embedding.source_vertex)
-    for (int k = 0; k < 3; ++k) result.push_back(model.mesh.V(v, k));
+    for (int k = 0; k < 3; ++k) result.push_back(model.surface.V(v, k));
   return result;
 }
 
@@ -79,7 +79,7 @@ std::string vtp_text(const ExportedModel& model) {
              "<PolyData>\n<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" "
              "NumberOfStrips=\"0\" "
              "NumberOfPolys=\"{}\">\n",
-             points, model.mesh.face_count()) +
+             points, model.surface.faces().count()) +
          "<PointData TCoords=\"texture\">\n" +
          float_array("sphere", 3, flattened(model.embedding.positions)) +
          float_array("texture", 2, texture_pairs(model)) +

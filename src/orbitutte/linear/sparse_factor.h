@@ -4,9 +4,8 @@
 
 #include <Eigen/SparseCore>
 #include <memory>
-#include <string>
-#include <vector>
 
+#include "orbitutte/options.h"
 #include "orbitutte/types.h"
 
 namespace orbitutte {
@@ -15,17 +14,6 @@ using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, long>;
 
 /// Do both have the same entries, stored in the same order?
 bool equal(const SparseMatrix& A, const SparseMatrix& B);
-
-enum class Backend { cholmod, eigen };
-
-/// "cholmod" or "eigen".
-std::string name(Backend backend);
-
-/// The backends in this binary; the first is the default (CMake option ORBITUTTE_SOLVER).
-std::vector<Backend> available_backends();
-
-/// The BLAS of this binary: OpenBLAS's own description if it can be asked for, else "unknown".
-std::string blas_description();
 
 /// The matrix is not positive definite. `column` is the first column that shows it, or -1 if that is not
 /// known.

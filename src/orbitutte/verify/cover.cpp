@@ -143,31 +143,31 @@ std::vector<CoverEdge> layout_edges(const Embedding& layout, const EdgeWeights& 
     const Vector3 from = layout.positions.row(h), to = layout.positions.row(next);
     const int at_from = element_between(positions.row(i), from, group),
               at_to = element_between(positions.row(j), to, group);
-    const int g = at_from == at_to
-                      ? 0
-                      : element(group, group.elements()[at_from].inverse() * group.elements()[at_to]);
+    const int g =
+        at_from == at_to ? 0 : element(group, group.elements()[at_from].inverse() * group.elements()[at_to]);
     edges.push_back({i, j, g, weights.w[edge_of[h]], layout.space().distance(from, to)});
   }
   return edges;
 }
 
-}  // namespace
-
-Cover cover_of_layout(const Mesh& mesh, const EdgeWeights& weights, const Embedding& embedding,
+Cover cover_of_layout(const Surface& surface, const EdgeWeights& weights, const Embedding& embedding,
                       const SymmetryGroup& group) {
   Lifting lifting(embedding, group);
   const int vertices = static_cast<int>(lifting.stabilizers.size());
-  const Embedding layout = laid_out(mesh, embedding, *weights.triangulation);
+  const Embedding layout = laid_out(surface, embedding, *weights.triangulation);
   const Points positions = embedding.positions.topRows(vertices);
   std::vector<CoverEdge> edges = layout_edges(layout, weights, positions, group);
   return {positions, std::move(lifting.stabilizers), vertex_areas(layout, vertices), std::move(edges)};
 }
 
-Cover cover_of(const Connectivity& connectivity, const EdgeWeights& weights, const Embedding& embedding,
+}  // namespace
+
+Cover cover_of(const Surface& surface, const EdgeWeights& weights, const Embedding& embedding,
                const SymmetryGroup& group) {
+  if (weights.triangulation) return cover_of_layout(surface, weights, embedding, group);
   Lifting lifting(embedding, group);
   const int vertices = static_cast<int>(lifting.stabilizers.size());
-  std::vector<CoverEdge> edges = cover_edges(connectivity, weights, embedding, lifting);
+  std::vector<CoverEdge> edges = cover_edges(surface.connectivity, weights, embedding, lifting);
   return {embedding.positions.topRows(vertices), std::move(lifting.stabilizers),
           vertex_areas(embedding, vertices), std::move(edges)};
 }

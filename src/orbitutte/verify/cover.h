@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "orbitutte/mesh/edge_weights.h"
+#include "orbitutte/mesh/surface.h"
 #include "orbitutte/orbifold/embedding.h"
 #include "orbitutte/orbifold/symmetry_group.h"
 
@@ -34,14 +35,11 @@ struct Cover {
   std::vector<CoverEdge> edges;
 };
 
-/// The edges are those of the uncut mesh; the group is that of the seams. The embedding must have passed the
-/// certificate's checks cut_mesh, seam_transforms, seam_gluing and group_order. Throws MeshError if the seams
-/// do not join the copies of a vertex, and ArgumentError if a transform is not in the group.
-Cover cover_of(const Connectivity& connectivity, const EdgeWeights& weights, const Embedding& embedding,
+/// The edges are those of the surface, or those of the intrinsic triangulation to which the weights belong,
+/// with its faces; the group is that of the seams. The embedding must have passed the certificate's checks
+/// cut_mesh, seam_transforms, seam_gluing and group_order. Throws MeshError if the seams do not join the
+/// copies of a vertex, and ArgumentError if a transform is not in the group.
+Cover cover_of(const Surface& surface, const EdgeWeights& weights, const Embedding& embedding,
                const SymmetryGroup& group);
-
-/// The same with the edges and faces of the intrinsic triangulation to which the weights belong.
-Cover cover_of_layout(const Mesh& mesh, const EdgeWeights& weights, const Embedding& embedding,
-                      const SymmetryGroup& group);
 
 }  // namespace orbitutte

@@ -64,7 +64,8 @@ Points coordinate_residuals(const Cover& cover, const SymmetryGroup& group) {
   for (const CoverEdge& e : cover.edges) {
     const Isometry& g = group.elements()[e.g];
     r.row(e.i) += diagonal_part(e) * X.row(e.i) - coupling(e) * (g * Vector3(X.row(e.j))).transpose();
-    r.row(e.j) += diagonal_part(e) * X.row(e.j) - coupling(e) * (g.inverse_matrix() * X.row(e.i).transpose()).transpose();
+    r.row(e.j) += diagonal_part(e) * X.row(e.j) -
+                  coupling(e) * (g.inverse_matrix() * X.row(e.i).transpose()).transpose();
   }
   return r;
 }
@@ -320,23 +321,16 @@ Theorem2 check_cover(const Cover& cover, const SymmetryGroup& group, const Theor
 
 }  // namespace
 
-Theorem2 check_theorem2(const Connectivity& connectivity, const EdgeWeights& weights,
-                        const Embedding& embedding, const Theorem2Options& options) {
+Theorem2 check_theorem2(const Surface& surface, const EdgeWeights& weights, const Embedding& embedding,
+                        const Theorem2Options& options) {
   const SymmetryGroup group = group_of(embedding);
-  return check_cover(cover_of(connectivity, weights, embedding, group), group, options);
+  return check_cover(cover_of(surface, weights, embedding, group), group, options);
 }
 
-Theorem2 check_theorem2(const Mesh& mesh, const Connectivity& connectivity, const EdgeWeights& weights,
-                        const Embedding& embedding, const Theorem2Options& options) {
-  if (!weights.triangulation) return check_theorem2(connectivity, weights, embedding, options);
+long cover_eigenvalues_below(const Surface& surface, const EdgeWeights& weights, const Embedding& embedding,
+                             double shift, const Theorem2Options& options) {
   const SymmetryGroup group = group_of(embedding);
-  return check_cover(cover_of_layout(mesh, weights, embedding, group), group, options);
-}
-
-long cover_eigenvalues_below(const Connectivity& connectivity, const EdgeWeights& weights,
-                             const Embedding& embedding, double shift, const Theorem2Options& options) {
-  const SymmetryGroup group = group_of(embedding);
-  const Cover cover = cover_of(connectivity, weights, embedding, group);
+  const Cover cover = cover_of(surface, weights, embedding, group);
   const Problem problem = {cover, group, vertex_scale(cover), least_shift, options.method};
   long below = 0;
   for (const Representation& rho : irreducible_representations(group)) {

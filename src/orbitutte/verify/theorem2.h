@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "orbitutte/mesh/edge_weights.h"
+#include "orbitutte/mesh/surface.h"
 #include "orbitutte/orbifold/embedding.h"
 #include "orbitutte/verify/certificate.h"
 #include "orbitutte/verify/inertia.h"
@@ -80,16 +81,12 @@ std::string name(Theorem2::Status status);
 ///
 /// The check is not run if the group is too large, if the factorisation breaks down or if memory runs out.
 /// The embedding must meet the conditions of cover_of; throws as cover_of does.
-Theorem2 check_theorem2(const Connectivity& connectivity, const EdgeWeights& weights,
-                        const Embedding& embedding, const Theorem2Options& options = {});
-
-/// The same with weights of any kind; intrinsic weights belong to the edges of their triangulation.
-Theorem2 check_theorem2(const Mesh& mesh, const Connectivity& connectivity, const EdgeWeights& weights,
-                        const Embedding& embedding, const Theorem2Options& options = {});
+Theorem2 check_theorem2(const Surface& surface, const EdgeWeights& weights, const Embedding& embedding,
+                        const Theorem2Options& options = {});
 
 /// The number of eigenvalues of W x = lambda D x, as above, that the whole cover has below `shift`, with
 /// multiplicity. Throws InertiaNotFound, and as cover_of does.
-long cover_eigenvalues_below(const Connectivity& connectivity, const EdgeWeights& weights,
-                             const Embedding& embedding, double shift, const Theorem2Options& options = {});
+long cover_eigenvalues_below(const Surface& surface, const EdgeWeights& weights, const Embedding& embedding,
+                             double shift, const Theorem2Options& options = {});
 
 }  // namespace orbitutte

@@ -172,11 +172,12 @@ class DelaunayFlips {
 
 }  // namespace
 
-std::vector<double> mollified_lengths(const Mesh& mesh, const Connectivity& connectivity) {
+std::vector<double> mollified_lengths(const Surface& surface) {
+  const Connectivity& connectivity = surface.connectivity;
   const int count = static_cast<int>(connectivity.edges.size());
   const auto difference = [&](int e) -> Vector3 {
     const auto [i, j] = connectivity.edges[e];
-    return mesh.V.row(i) - mesh.V.row(j);
+    return surface.V.row(i) - surface.V.row(j);
   };
   const double largest = parallel_max(count, [&](int e) { return difference(e).lpNorm<Eigen::Infinity>(); });
   // A power of two near 1/largest prevents overflow.
@@ -209,13 +210,14 @@ void measure_angles(IntrinsicTriangulation& triangulation, int face) {
         half_cotangent(length[k], length[(k + 1) % 3], length[(k + 2) % 3]);
 }
 
-IntrinsicTriangulation intrinsic_triangulation(const Mesh& mesh, const Connectivity& connectivity) {
-  const std::vector<double> length = mollified_lengths(mesh, connectivity);
-  IntrinsicTriangulation result = {mesh.F, connectivity, {}, {}, {}, {}};
-  result.length.resize(mesh.F.size());
-  result.half_cotangent.resize(mesh.F.size());
-  parallel_ranges(static_cast<int>(mesh.F.rows()), [&](int begin, int end) {
-    for (int h = 3 * begin; h < 3 * end; ++h) result.length[h] = length[connectivity.edge_of[h]];
+IntrinsicTriangulation intrinsic_triangulation(const Surface& surface) {
+  const std::vector<double> length = mollified_lengths(surface);
+  const std::vector<int>& edge_of = surface.connectivity.edge_of;
+  IntrinsicTriangulation result = {surface.triangles, surface.connectivity, {}, {}, {}, {}};
+  result.length.resize(edge_of.size());
+  result.half_cotangent.resize(edge_of.size());
+  parallel_ranges(surface.triangle_count(), [&](int begin, int end) {
+    for (int h = 3 * begin; h < 3 * end; ++h) result.length[h] = length[edge_of[h]];
     for (int f = begin; f < end; ++f) measure_angles(result, f);
   });
   return result;

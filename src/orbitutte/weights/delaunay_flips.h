@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "orbitutte/mesh/intrinsic_triangulation.h"
+#include "orbitutte/mesh/surface.h"
 
 namespace orbitutte {
 
@@ -15,7 +16,7 @@ namespace orbitutte {
 /// number (at most 1e-8), so that every triangle inequality holds with that slack. Triangles without area
 /// become thin ones, and nothing else changes (N. Sharp, K. Crane, "A Laplacian for nonmanifold triangle
 /// meshes", SGP 2020: intrinsic mollification).
-std::vector<double> mollified_lengths(const Mesh& mesh, const Connectivity& connectivity);
+std::vector<double> mollified_lengths(const Surface& surface);
 
 /// Half the cotangent of the angle opposite to the side a of a triangle: (b^2 + c^2 - a^2)/(8 area).
 double half_cotangent(double a, double b, double c);
@@ -26,8 +27,8 @@ double half_angle_tangent(double a, double b, double c);
 /// Computes half the cotangents of a face's angles anew after its lengths have changed.
 void measure_angles(IntrinsicTriangulation& triangulation, int face);
 
-/// The mesh's own triangulation, with mollified lengths.
-IntrinsicTriangulation intrinsic_triangulation(const Mesh& mesh, const Connectivity& connectivity);
+/// The surface's own triangulation, with mollified lengths. All its faces are triangles.
+IntrinsicTriangulation intrinsic_triangulation(const Surface& surface);
 
 /// Flips edges until each is Delaunay: its opposite angles add up to at most pi, up to rounding. All edges
 /// but the given ones must be Delaunay before. An edge is not flipped if it is on the boundary or belongs to

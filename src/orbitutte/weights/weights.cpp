@@ -50,17 +50,17 @@ Eigen::VectorXd summed_over_sides(const Connectivity& connectivity, const std::v
   return sum;
 }
 
-EdgeWeights cotangent_weights(const Mesh& mesh, const Connectivity& connectivity, double clamp) {
+EdgeWeights cotangent_weights(const Surface& surface, double clamp) {
   EdgeWeights result;
   result.clamp = clamp;
-  const int halfedges = static_cast<int>(mesh.F.size());
+  const Faces& F = surface.triangles;
+  const int halfedges = static_cast<int>(F.size());
   std::vector<double> cotangent(halfedges);
   parallel_ranges(halfedges, [&](int begin, int end) {
     for (int h = begin; h < end; ++h)
-      cotangent[h] =
-          half_cotangent(mesh.V, origin(mesh.F, h), target(mesh.F, h), origin(mesh.F, previous_halfedge(h)));
+      cotangent[h] = half_cotangent(surface.V, origin(F, h), target(F, h), origin(F, previous_halfedge(h)));
   });
-  result.w = summed_over_sides(connectivity, cotangent);
+  result.w = summed_over_sides(surface.connectivity, cotangent);
   for (double& w : result.w) {
     if (!(w > 0)) {
       w = clamp;
@@ -70,18 +70,17 @@ EdgeWeights cotangent_weights(const Mesh& mesh, const Connectivity& connectivity
   return result;
 }
 
-EdgeWeights delaunay_weights(const Mesh& mesh, const Connectivity& connectivity,
-                             const WeightOptions& options) {
-  IntrinsicTriangulation triangulation = intrinsic_triangulation(mesh, connectivity);
-  for (const int f : options.kept_faces)
-    if (f < 0 || f >= mesh.F.rows())
-      throw MeshError(
-          fmt::format("there is no face {} to keep; the mesh has the faces 0 to {}", f, mesh.F.rows() - 1));
-  triangulation.kept_faces = options.kept_faces;
-  std::vector<int> all(connectivity.edges.size());
+EdgeWeights delaunay_weights(const Surface& surface, double clamp, const std::vector<int>& kept_faces) {
+  for (const int f : kept_faces)
+    if (f < 0 || f >= surface.triangle_count())
+      throw MeshError(fmt::format("there is no face {} to keep; the mesh has the faces 0 to {}", f,
+                                  surface.triangle_count() - 1));
+  IntrinsicTriangulation triangulation = intrinsic_triangulation(surface);
+  triangulation.kept_faces = kept_faces;
+  std::vector<int> all(surface.connectivity.edges.size());
   std::iota(all.begin(), all.end(), 0);
   make_delaunay(triangulation, all);
-  return intrinsic_weights(std::move(triangulation), options.clamp);
+  return intrinsic_weights(std::move(triangulation), clamp);
 }
 
 // For every vertex, half the mean length of its edges.
@@ -99,17 +98,19 @@ std::vector<double> half_mean_lengths(const Connectivity& connectivity, const st
   return sum;
 }
 
-EdgeWeights mean_value_weights(const Mesh& mesh, const Connectivity& connectivity) {
-  const std::vector<double> length = mollified_lengths(mesh, connectivity);
-  const std::vector<double> scale = half_mean_lengths(connectivity, length, static_cast<int>(mesh.V.rows()));
+EdgeWeights mean_value_weights(const Surface& surface) {
+  const Faces& F = surface.triangles;
+  const Connectivity& connectivity = surface.connectivity;
+  const std::vector<double> length = mollified_lengths(surface);
+  const std::vector<double> scale = half_mean_lengths(connectivity, length, surface.vertex_count());
   const auto side = [&](int h) { return length[connectivity.edge_of[h]]; };
   // of each half-edge: the part of the weight that its face contributes
   std::vector<double> share(connectivity.edge_of.size());
   parallel_ranges(static_cast<int>(share.size()), [&](int begin, int end) {
     for (int h = begin; h < end; ++h) {
       const double a = side(h), b = side(next_halfedge(h)), c = side(previous_halfedge(h));
-      const double at_origin = scale[origin(mesh.F, h)] * half_angle_tangent(b, c, a),
-                   at_target = scale[target(mesh.F, h)] * half_angle_tangent(c, a, b);
+      const double at_origin = scale[origin(F, h)] * half_angle_tangent(b, c, a),
+                   at_target = scale[target(F, h)] * half_angle_tangent(c, a, b);
       share[h] = (at_origin + at_target) / (2 * a);
     }
   });
@@ -141,14 +142,10 @@ int find_edge(const Connectivity& connectivity, int i, int j) {
                                                        : -1;
 }
 
-EdgeWeights weights_of_kind(const Mesh& mesh, const Connectivity& connectivity,
-                            const WeightOptions& options) {
-  if (options.kind == WeightKind::cotan) return cotangent_weights(mesh, connectivity, options.clamp);
-  if (options.kind == WeightKind::delaunay) return delaunay_weights(mesh, connectivity, options);
-  if (options.kind == WeightKind::mean_value) return mean_value_weights(mesh, connectivity);
-  EdgeWeights uniform;
-  uniform.w = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(connectivity.edges.size()));
-  return uniform;
+EdgeWeights uniform_weights(const Surface& surface) {
+  EdgeWeights result;
+  result.w = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(surface.connectivity.edges.size()));
+  return result;
 }
 
 // Collects weights that are given edge by edge. For messages, `place()` names one entry and `where` the whole
@@ -210,17 +207,31 @@ EdgeWeights intrinsic_weights(IntrinsicTriangulation triangulation, double clamp
   return result;
 }
 
-EdgeWeights edge_weights(const Mesh& mesh, const Connectivity& connectivity, const WeightOptions& options) {
+WeightKind weight_kind(const Surface& surface, WeightKind asked) {
+  if (asked == WeightKind::standard) return surface.has_polygons() ? WeightKind::cotan : WeightKind::delaunay;
+  const bool of_triangles = asked == WeightKind::delaunay || asked == WeightKind::mean_value;
+  if (of_triangles && surface.has_polygons())
+    throw ArgumentError(fmt::format(
+        "{} weights are not there for faces of more than three corners; take cotan or uniform, or a "
+        "file of weights",
+        name(asked)));
+  return asked;
+}
+
+EdgeWeights edge_weights(const Surface& surface, const WeightOptions& options,
+                         const std::vector<int>& kept_faces) {
   if (!(options.clamp > 0) || !std::isfinite(options.clamp))
     throw ArgumentError(
         fmt::format("the clamp of the weights is {}; it must be positive and finite", options.clamp));
   if (options.kind == WeightKind::file && options.given.empty())
     throw ArgumentError("weights of the kind 'file' are read by read_weights");
-  if (options.kind == WeightKind::file) return given_weights(options.given, connectivity);
-  if (options.kind == WeightKind::standard)
-    return edge_weights(mesh, connectivity, {WeightKind::delaunay, options.clamp, options.kept_faces});
-  EdgeWeights result = weights_of_kind(mesh, connectivity, options);
-  result.kind = options.kind;
+  if (options.kind == WeightKind::file) return given_weights(options.given, surface.connectivity);
+  const WeightKind kind = weight_kind(surface, options.kind);
+  EdgeWeights result = kind == WeightKind::cotan        ? cotangent_weights(surface, options.clamp)
+                       : kind == WeightKind::delaunay   ? delaunay_weights(surface, options.clamp, kept_faces)
+                       : kind == WeightKind::mean_value ? mean_value_weights(surface)
+                                                        : uniform_weights(surface);
+  result.kind = kind;
   result.clamp = options.clamp;
   return result;
 }

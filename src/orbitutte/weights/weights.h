@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "orbitutte/mesh/edge_weights.h"
+#include "orbitutte/mesh/surface.h"
 
 namespace orbitutte {
 
@@ -22,19 +23,23 @@ struct WeightOptions {
   /// Replaces cotangent weights that are negative or zero; must be positive. The default is the paper's
   /// value.
   double clamp = 0.01;
-  /// For kind `delaunay`: faces whose edges are not flipped.
-  std::vector<int> kept_faces;
   /// For kind `file`: every edge once, w >= 0.
   std::vector<WeightedEdge> given = {};
 };
 
+/// The kind of weights that a surface gets if this kind is asked for. `standard` stands for `delaunay`, or
+/// for `cotan` if some faces have more than three corners. Throws ArgumentError if such faces are to have
+/// `delaunay` or `mean_value` weights, which are defined on triangles only.
+WeightKind weight_kind(const Surface& surface, WeightKind asked);
+
 /// Weights on the uncut mesh, so that no cut can change them. Zero-area triangles have no cotangents and add
 /// nothing to `cotan`; `delaunay` and `mean_value` use mollified_lengths. Mean value weights are made
 /// symmetric, since weights of an energy must be; they are positive, but no longer reproduce linear maps (M.
-/// Floater, "Mean value coordinates", CAGD 20 (2003)). `standard` means `delaunay` here, since all faces are
-/// triangles. Throws ArgumentError if the clamp is not positive and finite, and MeshError as given_weights
-/// does.
-EdgeWeights edge_weights(const Mesh& mesh, const Connectivity& connectivity, const WeightOptions& options);
+/// Floater, "Mean value coordinates", CAGD 20 (2003)). For kind `delaunay`, no edge of the kept faces
+/// (triangles of the surface) is flipped. Throws ArgumentError if the clamp is not positive and finite, and
+/// as weight_kind does; MeshError as given_weights does, and if a kept face does not exist.
+EdgeWeights edge_weights(const Surface& surface, const WeightOptions& options,
+                         const std::vector<int>& kept_faces = {});
 
 /// Cotangent weights of an intrinsic triangulation: see WeightKind::delaunay.
 EdgeWeights intrinsic_weights(IntrinsicTriangulation triangulation, double clamp);
