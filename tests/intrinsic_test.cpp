@@ -8,10 +8,12 @@
 #include <random>
 #include <set>
 
+#include "orbitutte/report/verification.h"
 #include "orbitutte/solve/flipped_edges.h"
 #include "orbitutte/verify/energy.h"
 #include "orbitutte/verify/laid_out.h"
 #include "orbitutte/weights/cone_weights.h"
+#include "orbitutte/weights/delaunay_flips.h"
 #include "sample_embeddings.h"
 #include "solve_cases.h"
 

@@ -12,6 +12,7 @@
 
 #include "hand_made.h"
 #include "orbitutte/export/tiling.h"
+#include "orbitutte/solve/lbfgs.h"
 #include "sample_embeddings.h"
 #include "solve_cases.h"
 
