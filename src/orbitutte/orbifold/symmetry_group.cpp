@@ -18,8 +18,9 @@ constexpr double identity_tolerance = 1e-6;  // elements nearer to each other th
 void check_isometry(Space space, const Matrix3& matrix) {
   const double defect = space.isometry_defect(matrix);
   if (!(defect <= isometry_tolerance))
-    throw ArgumentError(fmt::format(
-        "a generator of the symmetry group is no isometry of the {} space (off by {:.2g})", space.name(), defect));
+    throw ArgumentError(
+        fmt::format("a generator of the symmetry group is no isometry of the {} space (off by {:.2g})",
+                    space.name(), defect));
 }
 
 /// A linear function of the entries that changes by no more than the matrix does (in the Frobenius norm): its
@@ -128,9 +129,14 @@ SymmetryGroup SymmetryGroup::conjugated(const Isometry& isometry) const {
 
 SymmetryGroup group_of(const Target& target) {
   if (target.group_order == 0)
-    throw ArgumentError(fmt::format("the group of {} is infinite; ask for a number of its elements", target.signature));
+    throw ArgumentError(
+        fmt::format("the group of {} is infinite; ask for a number of its elements", target.signature));
   const Tile tile = basic_tile(target, first_arrangement(target));
-  return {target.space, generators_of(tile), target.group_order};
+  SymmetryGroup group(target.space, generators_of(tile), target.group_order);
+  if (group.order() != target.group_order)  // a claim of a report that was read
+    throw ArgumentError(fmt::format("the group of {} has {} elements, not {}", target.signature,
+                                    group.order(), target.group_order));
+  return group;
 }
 
 SymmetryGroup group_of(const Target& target, int count) {
@@ -139,7 +145,9 @@ SymmetryGroup group_of(const Target& target, int count) {
   return SymmetryGroup::nearest_elements(target.space, generators_of(tile), tile.centroid(), count);
 }
 
-SymmetryGroup group_of(const Embedding& embedding) { return placed(group_of(embedding.target), embedding.placement); }
+SymmetryGroup group_of(const Embedding& embedding) {
+  return placed(group_of(embedding.target), embedding.placement);
+}
 
 SymmetryGroup group_of(const Embedding& embedding, int count) {
   return placed(group_of(embedding.target, count), embedding.placement);
