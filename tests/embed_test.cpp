@@ -71,7 +71,7 @@ TEST(Embed, EveryFamilyIsConvergedAndCertified) {
   for (const std::string& signature : test::sample_signatures()) {
     const EmbedResult& result = test::sample_embedding(signature).result;
     expect_certified(result, signature);
-    EXPECT_EQ(result.embedding.signature, signature);
+    EXPECT_EQ(result.embedding.target.signature, signature);
     EXPECT_EQ(result.minimum.history.size(), static_cast<std::size_t>(result.minimum.iterations) + 1);
     EXPECT_GE(result.minimum.evaluations, result.minimum.iterations);
   }
@@ -123,7 +123,7 @@ TEST(Embed, MarksSitAtConesOfTheRightOrder) {
     for (std::size_t k = 0; k < sample.marks.size(); ++k) {
       const ConeCopies& cone = sample.embedding().cones[k];
       EXPECT_EQ(cone.vertex, sample.marks[k]);
-      EXPECT_EQ(cone.order, orbifold.marks[k].order);
+      EXPECT_EQ(cone.mark.order(), orbifold.marks[k].order());
     }
   }
 }
@@ -323,7 +323,7 @@ TEST(Embed, RenumberingVerticesAndFacesChangesNothing) {
     const EmbedResult other = embedded(mesh, signature, marks);
     expect_certified(other, signature);
     const auto length = [](const Embedding& e, int f, int k) {
-      return arc_length(e.positions.row(e.faces(f, k)), e.positions.row(e.faces(f, (k + 1) % 3)));
+      return Space::sphere().distance(e.positions.row(e.faces(f, k)), e.positions.row(e.faces(f, (k + 1) % 3)));
     };
     double worst = 0;
     for (int f = 0; f < test::face_count(mesh); ++f)
@@ -348,7 +348,7 @@ TEST(Embed, PermutingConesTogetherWithTheirOrdersChangesNothing) {
       }
       const EmbedResult other = embedded(sample.mesh, signature, marks);
       expect_certified(other, signature);
-      EXPECT_EQ(other.embedding.signature, signature);
+      EXPECT_EQ(other.embedding.target.signature, signature);
       EXPECT_LT(difference(test::edge_lengths(sample.mesh, other.embedding), before), 1e-8) << signature;
     } while (std::next_permutation(order.begin(), order.end()));
   }

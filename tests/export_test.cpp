@@ -14,7 +14,7 @@
 
 #include "base64_text.h"
 #include "orbitutte/export/export_files.h"
-#include "orbitutte/geometry/spherical_triangle.h"
+#include "orbitutte/geometry/space.h"
 #include "orbitutte/io/bytes.h"
 #include "orbitutte/io/file.h"
 #include "orbitutte/io/mesh_io.h"
@@ -172,10 +172,10 @@ class ExportFiles : public ::testing::Test {
   /// The file holds the input's vertices and faces.
   void expect_input(const ExportedModel& exported, const std::string& file) const {
     const PolygonMesh back = read_mesh(path(file));
-    EXPECT_EQ(back.V, exported.surface.V) << exported.embedding.signature;
+    EXPECT_EQ(back.V, exported.surface.V) << exported.embedding.target.signature;
     const Polygons faces = faces_of(exported);
-    EXPECT_EQ(back.corners, faces.corners) << exported.embedding.signature;
-    EXPECT_EQ(back.face_start, faces.start) << exported.embedding.signature;
+    EXPECT_EQ(back.corners, faces.corners) << exported.embedding.target.signature;
+    EXPECT_EQ(back.face_start, faces.start) << exported.embedding.target.signature;
   }
 
   std::filesystem::path folder_;

@@ -169,7 +169,7 @@ TEST(DisplayMesh, ACoarseTileStillCoversItsShareOfTheSphere) {
       const auto corner = [&](int k) -> Vector3 {
         return result.embedding.positions.row(display.cut_vertex[level.faces(f, k)]);
       };
-      area += signed_area(corner(0), corner(1), corner(2));
+      area += Space::sphere().area(corner(0), corner(1), corner(2));
     }
     EXPECT_NEAR(area, result.certificate.expected_area, 1e-9);
   }
@@ -194,7 +194,7 @@ TEST(PageScene, HoldsTheDrawnVerticesInSourceAndImage) {
       EXPECT_NEAR(low + size * source[i] / 65535, sample.mesh.V(v, k), size / 65535);
       EXPECT_NEAR(image[i], embedding.positions(static_cast<Eigen::Index>(i / 3), k), 1e-6);
     }
-    EXPECT_EQ(static_cast<int>(scene["copies"].size()), embedding.group_order);
+    EXPECT_EQ(static_cast<int>(scene["copies"].size()), embedding.target.group_order);
     EXPECT_EQ(scene["cones"].size(), embedding.cones.size());
     EXPECT_EQ(numbers<std::uint32_t>(scene["fine"]["indices"]).size(),
               static_cast<std::size_t>(embedding.faces.size()));

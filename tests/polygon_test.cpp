@@ -132,18 +132,18 @@ TEST(Polygon, CornersStayWhereTheyAreHeld) {
   const EmbedResult result = embedded(bent_disk(), corners);
   for (const PolygonCorner& corner : corners)
     EXPECT_LT((result.embedding.positions.row(corner.vertex).transpose() - corner.position).norm(), 1e-15);
-  EXPECT_EQ(result.embedding.signature, "polygon");
-  EXPECT_EQ(result.embedding.group_order, 1);
+  EXPECT_EQ(result.embedding.target.signature, "polygon");
+  EXPECT_EQ(result.embedding.target.group_order, 1);
   EXPECT_THAT(result.embedding.seams, IsEmpty());
   ASSERT_EQ(result.embedding.cones.size(), corners.size());
-  EXPECT_EQ(result.embedding.cones.front().kind, ConeKind::fixed);
+  EXPECT_EQ(result.embedding.cones.front().mark.kind, ConeKind::fixed);
 }
 
 TEST(Polygon, BoundaryVerticesAreSpreadAsAsked) {
   const Mesh mesh = bent_disk();
   const Corners corners = regular_polygon(4, 0.9);
   const int steps = on_boundary / 4;
-  const double side = arc_length(corners[0].position, corners[1].position);
+  const double side = Space::sphere().distance(corners[0].position, corners[1].position);
   double path = 0;
   for (int k = 0; k < steps; ++k)
     path += (mesh.V.row(boundary_vertex(k + 1)) - mesh.V.row(boundary_vertex(k))).norm();
@@ -151,8 +151,8 @@ TEST(Polygon, BoundaryVerticesAreSpreadAsAsked) {
   const Points by_length = embedded(mesh, corners, Spread::arc_length).embedding.positions;
   for (int k = 0; k < steps; ++k) {
     const int v = boundary_vertex(k), w = boundary_vertex(k + 1);
-    EXPECT_NEAR(arc_length(equal.row(v), equal.row(w)), side / steps, 1e-12);
-    EXPECT_NEAR(arc_length(by_length.row(v), by_length.row(w)) / side,
+    EXPECT_NEAR(Space::sphere().distance(equal.row(v), equal.row(w)), side / steps, 1e-12);
+    EXPECT_NEAR(Space::sphere().distance(by_length.row(v), by_length.row(w)) / side,
                 0.999 * (mesh.V.row(w) - mesh.V.row(v)).norm() / path + 0.001 / steps, 1e-12);
   }
 }
@@ -392,7 +392,7 @@ TEST_F(PolygonCertificate, ExpectsTheAreaOfThePolygon) {
   const Points& X = result.embedding.positions;
   const auto corner = [&](int k) -> Vector3 { return X.row(result.embedding.cones[k].vertex); };
   const double two_triangles =
-      signed_area(corner(0), corner(1), corner(2)) + signed_area(corner(0), corner(2), corner(3));
+      Space::sphere().area(corner(0), corner(1), corner(2)) + Space::sphere().area(corner(0), corner(2), corner(3));
   EXPECT_NEAR(result.certificate.expected_area, two_triangles, 1e-14);
   EXPECT_NEAR(result.certificate.signed_area, two_triangles, 1e-12);
 }
@@ -446,9 +446,9 @@ TEST_F(PolygonCertificate, RejectsAnotherPolygonThanTheImage) {
 }
 
 TEST_F(PolygonCertificate, RejectsAnotherSignatureOrGroup) {
-  EXPECT_THAT(rejection([](Embedding& e) { e.group_order = 2; }), Contains("group_order"));
-  EXPECT_THAT(rejection([](Embedding& e) { e.signature = "*222"; }), Contains("cones"));
-  const auto claim_polygon = [](Embedding& e) { e.signature = "polygon"; };
+  EXPECT_THAT(rejection([](Embedding& e) { e.target.group_order = 2; }), Contains("group_order"));
+  EXPECT_THAT(rejection([](Embedding& e) { e.target.signature = "*222"; }), Contains("cones"));
+  const auto claim_polygon = [](Embedding& e) { e.target.signature = "polygon"; };
   Embedding triangle = test::sample_embedding("*222").embedding();
   claim_polygon(triangle);
   EXPECT_FALSE(certify(test::unjudged(test::sample_embedding("*222").mesh), triangle).bijective);

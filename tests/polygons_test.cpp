@@ -185,7 +185,7 @@ TEST_P(PolygonsOfEveryFamily, EnergyIsThatOfTheirEdges) {
 TEST_P(PolygonsOfEveryFamily, AreTiledIntoAClosedSphere) {
   const auto [mesh, result] = sample(GetParam());
   const Tiling tiling = tile_sphere(result.embedding);
-  EXPECT_EQ(tiling.polygons.count(), mesh.face_count() * result.embedding.group_order);
+  EXPECT_EQ(tiling.polygons.count(), mesh.face_count() * result.embedding.target.group_order);
   const PolygonMesh polygons = {tiling.mesh.V, tiling.polygons.corners, tiling.polygons.start};
   EXPECT_EQ(inspect(polygons).topology, Topology::sphere);
   EXPECT_EQ(inspect(tiling.mesh).topology, Topology::sphere);
@@ -277,8 +277,8 @@ Eigen::VectorXd polygon_edge_lengths(const PolygonMesh& mesh, const Embedding& e
   Eigen::VectorXd lengths(static_cast<Eigen::Index>(connectivity.edges.size()));
   for (int h = 0; h < static_cast<int>(embedding.faces.size()); ++h)
     if (const int e = connectivity.edge_of[h]; e >= 0)
-      lengths[e] = arc_length(embedding.positions.row(origin(embedding.faces, h)),
-                              embedding.positions.row(target(embedding.faces, h)));
+      lengths[e] = Space::sphere().distance(embedding.positions.row(origin(embedding.faces, h)),
+                                            embedding.positions.row(target(embedding.faces, h)));
   return lengths;
 }
 
@@ -495,8 +495,8 @@ TEST(PolygonFiles, EmbeddingReadsBackAsItIs) {
   EXPECT_EQ(read.polygons.start, result.embedding.polygons.start);
   EXPECT_EQ(read.positions, result.embedding.positions);
   EXPECT_EQ(read.source_vertex, result.embedding.source_vertex);
-  read.signature = result.embedding.signature;
-  read.group_order = result.embedding.group_order;
+  read.target = result.embedding.target;
+  read.placement = result.embedding.placement;
   read.seams = result.embedding.seams;
   read.cones = result.embedding.cones;
   EXPECT_TRUE(certify(test::unjudged(mesh), read).bijective);

@@ -50,8 +50,8 @@ std::vector<std::string> one_signature_of_each_family() {
 
 Report report_of(const EmbedResult& result) {
   Report report;
-  report.signature = result.embedding.signature;
-  report.group_order = result.embedding.group_order;
+  report.signature = result.embedding.target.signature;
+  report.group_order = result.embedding.target.group_order;
   report.seams = result.embedding.seams;
   report.cones = result.embedding.cones;
   report.energy = result.minimum.energy;
@@ -229,7 +229,7 @@ TEST(Render, SeamsStandOutOfTheSphereAllAlongTheirArcs) {
     const double angle = k * std::numbers::pi / 80;
     const auto height = height_of_ornament(ornaments, {std::cos(angle), std::sin(angle), 0});
     ASSERT_TRUE(height) << k;
-    EXPECT_GT(*height, 0.7 * seam_radius(embedding.group_order)) << k;
+    EXPECT_GT(*height, 0.7 * seam_radius(embedding.target.group_order)) << k;
   }
 }
 
@@ -261,7 +261,7 @@ TEST(Render, BallsOfTheNearSideAreSeenWhole) {
 TEST(Render, AMapOntoAPolygonIsShownAlone) {
   Embedding embedding = sample_embedding("*532").embedding();
   embedding.seams.clear();
-  embedding.group_order = 1;
+  embedding.target.group_order = 1;
   const SphereFigure sphere(embedding, std::vector<float>(embedding.source_vertex.size(), 1));
   EXPECT_EQ(sphere.copies().size(), 1U);
 }

@@ -7,12 +7,13 @@
 #include <vector>
 
 #include "orbitutte/embed.h"
-#include "orbitutte/geometry/spherical_triangle.h"
+#include "orbitutte/geometry/space.h"
+#include "planar_families.h"
 #include "test_meshes.h"
 
 namespace orbitutte::test {
 
-/// All families that are embedded, with the free order N in {2, 3, 5, 12}.
+/// All families of the sphere, with the free order N in {2, 3, 5, 12}.
 inline std::vector<std::string> sample_signatures() {
   return {"532", "432",   "332",  "222",    "223",  "225",  "2,2,12", "22",   "33",
           "55",  "12,12", "*532", "*432",   "*332", "*222", "*223",   "*225", "*2,2,12",
@@ -38,6 +39,13 @@ struct SampleEmbedding {
   const Embedding& embedding() const { return result.embedding; }
 };
 
+/// Those of the plane too.
+inline std::vector<std::string> all_sample_signatures() {
+  std::vector<std::string> all = sample_signatures();
+  for (const std::string& signature : planar_signatures()) all.push_back(signature);
+  return all;
+}
+
 inline SampleEmbedding make_sample(const std::string& signature, const EmbedOptions& options) {
   const Target orbifold = parse_orbifold(signature);
   const Mesh mesh = sample_mesh_for(orbifold);
@@ -56,16 +64,17 @@ inline const SampleEmbedding& sample_embedding(const std::string& signature) {
   return samples.emplace(signature, make_sample(signature, options)).first->second;
 }
 
-/// The arc length of every undirected edge of the uncut mesh, in the order of its Connectivity: what does not
-/// depend on the cut, nor on a rotation of the sphere.
+/// The length of every undirected edge of the uncut mesh, in the order of its Connectivity: what does not
+/// depend on the cut, nor on where the map lies.
 inline Eigen::VectorXd edge_lengths(const Mesh& mesh, const Embedding& embedding) {
   Faces source = embedding.faces;  // not the mesh's, where faces are turned over
   for (int& v : source.reshaped()) v = embedding.source_vertex[v];
   const Connectivity connectivity = connect(source, vertex_count(mesh));
   Eigen::VectorXd lengths(static_cast<Eigen::Index>(connectivity.edges.size()));
   for (int h = 0; h < static_cast<int>(embedding.faces.size()); ++h)
-    lengths[connectivity.edge_of[h]] = arc_length(embedding.positions.row(origin(embedding.faces, h)),
-                                                  embedding.positions.row(target(embedding.faces, h)));
+    lengths[connectivity.edge_of[h]] =
+        embedding.space().distance(embedding.positions.row(origin(embedding.faces, h)),
+                                   embedding.positions.row(target(embedding.faces, h)));
   return lengths;
 }
 

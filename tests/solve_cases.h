@@ -9,6 +9,7 @@
 #include "orbitutte/cut/cut.h"
 #include "orbitutte/embed.h"
 #include "orbitutte/solve/initial_embedding.h"
+#include "planar_families.h"
 #include "test_meshes.h"
 
 namespace orbitutte::test {
@@ -43,10 +44,24 @@ inline std::unique_ptr<SolveCase> solve_case(const std::string& signature, const
   return result;
 }
 
-/// One or two of each family.
+/// One or two of each family of the sphere.
 inline std::vector<std::string> signatures() {
   return {"532",  "432",  "332", "222", "225", "22",  "55",  "*532", "*432", "*332",
           "*222", "*225", "*22", "*55", "3*2", "2*2", "2*5", "2*",   "5*"};
+}
+
+/// Those, and the families of the plane.
+inline std::vector<std::string> all_signatures() {
+  std::vector<std::string> all = signatures();
+  for (const std::string& signature : planar_signatures()) all.push_back(signature);
+  return all;
+}
+
+/// Feasible positions, moved along feasible directions.
+inline Points moved(const SolveCase& of, const Points& positions, double step, const Points& directions) {
+  Points result;
+  move_points(of.boundary.space, positions, directions, step, result);
+  return result;
 }
 
 /// A feasible direction: a random vector in the room of every vertex.
@@ -56,7 +71,7 @@ inline Points random_feasible(const SolveCase& of, std::uint32_t seed) {
   Points result(of.boundary.held.rows(), 3);
   for (Eigen::Index v = 0; v < result.rows(); ++v) {
     const Vector3 random(uniform(generator), uniform(generator), uniform(generator));
-    const Basis& room = of.boundary.basis(static_cast<int>(v));
+    const Room& room = of.boundary.basis(static_cast<int>(v));
     result.row(v) = room * (room.transpose() * random);
   }
   return result;

@@ -108,7 +108,7 @@ VectorXd vertex_areas(const Mesh& sphere) {
   VectorXd area = VectorXd::Zero(sphere.V.rows());
   for (int f = 0; f < sphere.F.rows(); ++f) {
     const auto v = sphere.F.row(f);
-    const double third = signed_area(sphere.V.row(v[0]), sphere.V.row(v[1]), sphere.V.row(v[2])) / 3;
+    const double third = Space::sphere().area(sphere.V.row(v[0]), sphere.V.row(v[1]), sphere.V.row(v[2])) / 3;
     for (int k = 0; k < 3; ++k) area[v[k]] += third;
   }
   return area;
@@ -172,10 +172,11 @@ TEST(Theorem2, RotatingTheSphereChangesNothing) {
     std::mt19937 random(5);
     for (int k = 0; k < 3; ++k) {
       std::normal_distribution<double> normal;
-      const Matrix3 M = hand_made::rotation({normal(random), normal(random), normal(random)}, normal(random));
+      const Vector3 axis = Vector3(normal(random), normal(random), normal(random)).normalized();
+      const Isometry M = Space::sphere().rotation(axis, normal(random));
       Embedding turned = sample.embedding();
-      turned.positions = (turned.positions * M.transpose()).rowwise().normalized();
-      for (Seam& seam : turned.seams) seam.transform = M * seam.transform * M.transpose();
+      turned.positions = M.on_rows(turned.positions).rowwise().normalized();
+      for (Seam& seam : turned.seams) seam.transform = M * seam.transform * M.inverse();
       const Theorem2 theorem2 = theorem2_of(sample.mesh, sample.result.weights, turned);
       EXPECT_EQ(theorem2.negative, 1) << signature;
       EXPECT_EQ(theorem2.kernel, 3) << signature;
@@ -222,14 +223,15 @@ DoubleCover double_cover(const std::string& signature) {
   of.boundary = glue(of.cut, of.tile, of.orbifold);
   of.glued = glued_edges(of.cut, of.connectivity, of.boundary);
   const LaplacianSolver laplacian(of.cut, of.glued, of.weights, of.boundary);
-  result.minimum = minimize(SphericalEnergy(of.glued, of.weights, of.boundary), laplacian, start);
-  result.embedding = {of.signature,
-                      of.orbifold.group_order,
+  result.minimum = minimize(DirichletEnergy(of.glued, of.weights, of.boundary), laplacian, start);
+  result.embedding = {of.orbifold,
+                      {},
                       of.boundary.spread(result.minimum.positions, of.cut.source_vertex),
                       of.cut.F,
                       of.cut.source_vertex,
                       of.boundary.seams,
-                      of.boundary.cones};
+                      of.boundary.cones,
+                      {}};
   return result;
 }
 

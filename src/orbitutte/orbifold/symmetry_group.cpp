@@ -132,7 +132,11 @@ SymmetryGroup group_of(const Target& target) {
     throw ArgumentError(
         fmt::format("the group of {} is infinite; ask for a number of its elements", target.signature));
   const Tile tile = basic_tile(target, first_arrangement(target));
-  return {target.space, generators_of(tile), target.group_order};
+  SymmetryGroup group(target.space, generators_of(tile), target.group_order);
+  if (group.order() != target.group_order)  // a claim of a report that was read
+    throw ArgumentError(fmt::format("the group of {} has {} elements, not {}", target.signature,
+                                    group.order(), target.group_order));
+  return group;
 }
 
 SymmetryGroup group_of(const Target& target, int count) {

@@ -46,7 +46,7 @@ class SymmetryGroup {
 };
 
 /// The group of a target in its canonical frame, whatever cut an embedding has. Throws ArgumentError if it is
-/// infinite.
+/// infinite, or has not the order that the target says.
 SymmetryGroup group_of(const Target& target);
 
 /// The same, of an infinite group so many elements, nearest to the middle of the tile first.

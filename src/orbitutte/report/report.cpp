@@ -200,12 +200,22 @@ Seam to_seam(Space space, const Json& json) {
   return seam;
 }
 
-ConeCopies to_cone(const Json& json) {
+// Reports of the first version have no angles; the order is null if the angle is no 2 pi/n.
+Mark to_mark(const Json& json) {
   const ConeKind kind =
       one_of({ConeKind::rotation, ConeKind::corner, ConeKind::fixed}, text(json, "kind"), "a cone");
-  const Mark mark = json.contains("angle") && !json["angle"].is_null()
-                        ? Mark{number(json, "angle"), kind}
-                        : Mark::of_order(integer(json, "order"), kind);
+  const bool has_order = !json.contains("order") || !json["order"].is_null();
+  const int order = has_order ? integer(json, "order") : 0;
+  if (has_order && !json.contains("angle")) return Mark::of_order(order, kind);
+  const Mark mark = {number(json, "angle"), kind};
+  if (mark.order() != order)
+    throw MeshError(
+        fmt::format("a cone has the 'order' {}, which its 'angle' {} contradicts", order, mark.angle));
+  return mark;
+}
+
+ConeCopies to_cone(const Json& json) {
+  const Mark mark = to_mark(json);
   return {integer(json, "vertex"), mark, integers(json, "copies")};
 }
 
