@@ -381,7 +381,7 @@ TEST(Charts, PageAndPicturesShowTheSameTextsLinesAndBars) {
   for (const std::string& signature : {"432", "*532", "5*", "3x"}) {
     const Subject subject(signature);
     const std::vector<double> areas =
-        values_of(Measure::area, measure_faces(subject.sample.mesh, subject.sample.embedding()));
+        values_of(Measure::area, measure_faces(subject.surface, subject.sample.embedding()));
     for (const Chart& chart : {area_histogram(areas), convergence_chart(subject.report.history)}) {
       EXPECT_EQ(texts_of_page(chart), texts_of_picture(chart)) << signature;
       for (const ChartAxis& axis : {chart.x, chart.y}) EXPECT_EQ(texts_of_page(chart).count(axis.title), 1U);
