@@ -9,7 +9,6 @@
 #include "command_arguments.h"
 #include "commands.h"
 #include "orbitutte/embed.h"
-#include "orbitutte/inspect/inspection.h"
 #include "orbitutte/io/mesh_io.h"
 #include "orbitutte/report/comparison.h"
 
@@ -33,8 +32,9 @@ std::vector<std::string> symbols_or_both_spaces(const std::vector<std::string>& 
 void print_row(const Compared& compared) {
   const Distortion& d = compared.result.distortion;
   fmt::print("{:<10} {:<10} {:>9.4g} {:>9.4g} {:>9.4g} {:>10.4g} {:>9.4g} {:>9.4g}  {}\n",
-             compared.orbifold.space.name(), compared.orbifold.signature, d.area.mean, d.area.std, d.area.median, d.area.max, d.angle.mean,
-             d.angle.max, compared.result.certificate.bijective ? "yes" : "no");
+             compared.orbifold.space.name(), compared.orbifold.signature, d.area.mean, d.area.std,
+             d.area.median, d.area.max, d.angle.mean, d.angle.max,
+             compared.result.certificate.bijective ? "yes" : "no");
 }
 
 Json to_json(const Compared& compared) {
@@ -48,19 +48,16 @@ Json to_json(const Compared& compared) {
       {"angle", {{"mean", d.angle.mean}, {"max", d.angle.max}}}};
 }
 
-ComparedMap compared_map(const Mesh& mesh, const Compared& compared) {
+ComparedMap compared_map(const Surface& surface, const Compared& compared) {
   const std::string verdict = compared.result.certificate.bijective ? "" : " (not certified)";
   return {compared.orbifold.space.name() + ": " + compared.orbifold.signature + verdict,
-          compared.result.distortion.area, measure_faces(mesh, compared.result.embedding)};
+          compared.result.distortion.area, measure_faces(surface, compared.result.embedding)};
 }
 
 }  // namespace
 
 int compare_command(const CompareArguments& arguments) {
-  PolygonMesh polygons = read_mesh(arguments.mesh);
-  const Inspection inspection = inspect(polygons);
-  require_embeddable(inspection);
-  const Mesh mesh = to_triangle_mesh(std::move(polygons));
+  const Surface surface = make_surface(read_mesh(arguments.mesh));
   EmbedOptions options;
   options.weights.kind = parse_weights(arguments.weights);
 
@@ -68,23 +65,24 @@ int compare_command(const CompareArguments& arguments) {
   std::vector<ComparedMap> pictures;
   std::vector<int> cones;
   if (arguments.cones != "auto") cones = parse_cones(arguments.cones);
-  for (const std::string& symbol : symbols_or_both_spaces(arguments.orbifolds, inspection.topology)) {
+  for (const std::string& symbol : symbols_or_both_spaces(arguments.orbifolds, surface.topology)) {
     const Target orbifold = parse_orbifold(symbol);
-    if (cones.empty()) cones = choose_marked_vertices(mesh, orbifold);
-    maps.push_back({orbifold, embed(mesh, orbifold, cones, options)});
-    pictures.push_back(compared_map(mesh, maps.back()));
+    if (cones.empty()) cones = choose_marked_vertices(surface, orbifold);
+    maps.push_back({orbifold, embed(surface, orbifold, cones, options)});
+    pictures.push_back(compared_map(surface, maps.back()));
   }
   if (arguments.json) {
     Json rows = Json::array();
     for (const Compared& compared : maps) rows.push_back(to_json(compared));
     fmt::print("{}\n", Json({{"mesh", arguments.mesh}, {"cones", cones}, {"maps", rows}}).dump(1));
   } else {
-    fmt::print("{}: {} triangles, cones {}\n", arguments.mesh, mesh.F.rows(), fmt::join(cones, ","));
+    fmt::print("{}: {} triangles, cones {}\n", arguments.mesh, surface.triangles.rows(),
+               fmt::join(cones, ","));
     fmt::print("{:<10} {:<10} {:>9} {:>9} {:>9} {:>10} {:>9} {:>9}  {}\n", "", "orbifold", "area mean", "std",
                "median", "max", "angle", "max", "certified");
     for (const Compared& compared : maps) print_row(compared);
   }
-  if (!arguments.output.empty()) write_comparison(arguments.output, {mesh, cones, std::move(pictures)});
+  if (!arguments.output.empty()) write_comparison(arguments.output, {surface, cones, std::move(pictures)});
   const bool certified = std::all_of(maps.begin(), maps.end(), [](const Compared& compared) {
     return compared.result.certificate.bijective;
   });

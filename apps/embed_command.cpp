@@ -6,16 +6,13 @@
 
 #include <chrono>
 #include <cstdio>
-#include <variant>
 
 #include "command_arguments.h"
 #include "commands.h"
 #include "orbitutte/embed.h"
-#include "orbitutte/inspect/inspection.h"
 #include "orbitutte/io/corner_file.h"
 #include "orbitutte/io/file.h"
 #include "orbitutte/io/mesh_io.h"
-#include "orbitutte/mesh/triangulation.h"
 #include "orbitutte/orbifold/polygon.h"
 #include "orbitutte/report/embedding_file.h"
 #include "orbitutte/report/report.h"
@@ -102,25 +99,20 @@ EmbedOptions options_from(const EmbedArguments& arguments) {
   return options;
 }
 
-using AnyMesh = std::variant<Mesh, PolygonMesh>;
-
-AnyMesh triangles_or_polygons(PolygonMesh polygons) {
-  if (is_triangle_mesh(polygons)) return to_triangle_mesh(std::move(polygons));
-  require_embeddable(inspect(polygons));
-  return polygons;
-}
-
 // Reads the mesh, and notes what the report says of its file.
-AnyMesh read_input(const std::string& path, RunRecord& run) {
+Surface read_input(const std::string& path, RunRecord& run) {
   const Stopwatch reading;
   const MeshFormat format = mesh_format(path);
   const std::string bytes = read_file(path);
   run.mesh_path = path;
   run.input_sha256 = sha256(bytes);
   try {
-    AnyMesh mesh = triangles_or_polygons(parse_mesh(bytes, format));
+    PolygonMesh mesh = parse_mesh(bytes, format);
     run.read_seconds = reading.seconds();
-    return mesh;
+    const Stopwatch judging;
+    Surface surface = make_surface(std::move(mesh));
+    run.validate_seconds = judging.seconds();
+    return surface;
   } catch (const MeshError& error) {
     throw MeshError(fmt::format("{}: {}", path, error.what()));
   }
@@ -134,10 +126,9 @@ void summarize(const EmbedArguments& arguments, const EmbedResult& result) {
   const Minimum& minimum = result.minimum;
   std::vector<int> cones;
   for (const ConeCopies& cone : result.embedding.cones) cones.push_back(cone.vertex);
-  fmt::print(stderr, "{}: {} vertices, {} faces, a {}, onto {} ({}), cones {}\n",
-             arguments.mesh, minimum.positions.rows(), result.embedding.input_faces().count(),
-             name(result.topology), result.embedding.target.signature, group_text(result.embedding.target),
-             fmt::join(cones, ","));
+  fmt::print(stderr, "{}: {} vertices, {} faces, a {}, onto {} ({}), cones {}\n", arguments.mesh,
+             minimum.positions.rows(), result.embedding.input_faces().count(), name(result.topology),
+             result.embedding.target.signature, group_text(result.embedding.target), fmt::join(cones, ","));
   fmt::print(stderr, "energy {:.12g} after {} iterations, gradient {:.1e}: {}\n", minimum.energy,
              minimum.iterations, minimum.gradient_norm, name(minimum.termination));
   fmt::print(stderr, "area distortion: mean {:.4g}, max {:.4g}; angle distortion: mean {:.4g}, max {:.4g}\n",
@@ -165,10 +156,10 @@ int embed_command(const EmbedArguments& arguments) {
   if (cones.empty() && !automatic) cones = parse_cones(arguments.cones);
 
   RunRecord run;
-  const AnyMesh mesh = read_input(arguments.mesh, run);
+  const Surface surface = read_input(arguments.mesh, run);
 
   if (automatic) {
-    cones = std::visit([&](const auto& known) { return choose_marked_vertices(known, orbifold); }, mesh);
+    cones = choose_marked_vertices(surface, orbifold);
     if (!arguments.quiet) fmt::print(stderr, "--cones {}\n", fmt::join(cones, ","));
   }
   const ProgressLine line(arguments.quiet);
@@ -176,8 +167,7 @@ int embed_command(const EmbedArguments& arguments) {
     line.show(progress);
     return true;
   };
-  const EmbedResult result =
-      std::visit([&](const auto& known) { return embed(known, orbifold, cones, options); }, mesh);
+  const EmbedResult result = embed(surface, orbifold, cones, options);
   line.clear();
   for (const std::string& warning : result.warnings) fmt::print(stderr, "orbitutte: warning: {}\n", warning);
 

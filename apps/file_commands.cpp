@@ -4,8 +4,9 @@
 
 #include "commands.h"
 #include "orbitutte/export/tiling.h"
+#include "orbitutte/inspect/recognition.h"
 #include "orbitutte/io/mesh_io.h"
-#include "orbitutte/linear/sparse_factor.h"
+#include "orbitutte/options.h"
 #include "orbitutte/report/report.h"
 #include "orbitutte/report/verification.h"
 #include "orbitutte/samples/sample.h"
@@ -56,7 +57,7 @@ int verify_command(const VerifyArguments& arguments) {
   VerificationOptions options;
   options.weights_file = arguments.weights_file;
   options.theorem2 = arguments.theorem2;
-  const Verdict verdict = verify(read_mesh(arguments.mesh), embedding, report, options);
+  const Verdict verdict = verify(make_surface(read_mesh(arguments.mesh)), embedding, report, options);
   if (arguments.json) {
     fmt::print("{}", verdict_json(verdict));
   } else {

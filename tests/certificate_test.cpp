@@ -43,7 +43,7 @@ Names failed_checks(const Certificate& certificate) {
 
 // The names of the checks that fail; also sees to it that a failure is never bijective, and always explained.
 Names rejection(const Mesh& mesh, const Embedding& embedding) {
-  const Certificate certificate = certify(mesh, embedding);
+  const Certificate certificate = certify(test::unjudged(mesh), embedding);
   EXPECT_FALSE(certificate.bijective);
   for (const Check& check : certificate.checks) EXPECT_EQ(check.passed, check.detail.empty()) << check.name;
   return failed_checks(certificate);
@@ -59,7 +59,7 @@ Names rejection(const std::string& signature, const std::function<void(Embedding
 bool accepted(const std::string& signature, const std::function<void(Embedding&)>& change) {
   Embedding embedding = sample(signature).embedding();
   change(embedding);
-  return certify(sample(signature).mesh, embedding).bijective;
+  return certify(test::unjudged(sample(signature).mesh), embedding).bijective;
 }
 
 Vector3 position(const Embedding& embedding, int v) { return embedding.positions.row(v); }
@@ -131,7 +131,8 @@ void change(Seam& seam, const std::function<void(Matrix3&)>& plant) {
 
 TEST(Certificate, EmbeddingsOfEveryFamilyAreBijective) {
   for (const std::string& signature : test::sample_signatures()) {
-    const Certificate certificate = certify(sample(signature).mesh, sample(signature).embedding());
+    const Certificate certificate =
+        certify(test::unjudged(sample(signature).mesh), sample(signature).embedding());
     EXPECT_TRUE(certificate.bijective) << signature;
     EXPECT_THAT(failed_checks(certificate), IsEmpty()) << signature;
     EXPECT_THAT(certificate.nonpositive_faces, IsEmpty());
@@ -189,7 +190,9 @@ TEST(Certificate, InnerVertexMovedAcrossAnEdgeIsSeen) {
     embedding.positions.row(embedding.faces(at.face, at.corner)) =
         across_opposite_edge(embedding, at).transpose();
     EXPECT_THAT(rejection(sample(signature).mesh, embedding), Contains("positive_faces")) << signature;
-    EXPECT_THAT(certify(sample(signature).mesh, embedding).nonpositive_faces, Contains(at.face)) << signature;
+    EXPECT_THAT(certify(test::unjudged(sample(signature).mesh), embedding).nonpositive_faces,
+                Contains(at.face))
+        << signature;
   }
 }
 
@@ -227,7 +230,9 @@ TEST(Certificate, VertexPutOntoItsNeighbourLeavesAFaceWithoutArea) {
     embedding.positions.row(embedding.faces(at.face, 0)) =
         embedding.positions.row(embedding.faces(at.face, 1)).eval();
     EXPECT_THAT(rejection(sample(signature).mesh, embedding), Contains("positive_faces")) << signature;
-    EXPECT_THAT(certify(sample(signature).mesh, embedding).nonpositive_faces, Contains(at.face)) << signature;
+    EXPECT_THAT(certify(test::unjudged(sample(signature).mesh), embedding).nonpositive_faces,
+                Contains(at.face))
+        << signature;
   }
 }
 
@@ -308,10 +313,11 @@ TEST_P(WrappedLune, IsSeenByItsAreaAndItsAngles) {
   const auto& [signature, times] = GetParam();
   const Mesh mesh = orange();
   Embedding embedding = embed(mesh, parse_orbifold(signature), {0, 1}).embedding;
-  ASSERT_TRUE(certify(mesh, embedding).bijective);
+  ASSERT_TRUE(certify(test::unjudged(mesh), embedding).bijective);
   wrap(embedding, times);
   EXPECT_THAT(rejection(mesh, embedding), UnorderedElementsAre("signed_area", "cone_angles"));
-  EXPECT_NEAR(certify(mesh, embedding).signed_area, times * 4 * pi / embedding.target.group_order, 1e-9);
+  EXPECT_NEAR(certify(test::unjudged(mesh), embedding).signed_area,
+              times * 4 * pi / embedding.target.group_order, 1e-9);
 }
 
 INSTANTIATE_TEST_SUITE_P(Certificate, WrappedLune,
@@ -333,10 +339,11 @@ Mesh half_orange() {
 TEST(Certificate, SectorOfNWrappedTwiceIsSeenByItsAreaAndItsAngle) {
   const Mesh mesh = half_orange();
   Embedding embedding = embed(mesh, parse_orbifold("5*"), {0}).embedding;
-  ASSERT_TRUE(certify(mesh, embedding).bijective);
+  ASSERT_TRUE(certify(test::unjudged(mesh), embedding).bijective);
   wrap(embedding, 2);
   EXPECT_THAT(rejection(mesh, embedding), UnorderedElementsAre("signed_area", "cone_angles"));
-  EXPECT_NEAR(certify(mesh, embedding).signed_area, 2 * 4 * pi / embedding.target.group_order, 1e-9);
+  EXPECT_NEAR(certify(test::unjudged(mesh), embedding).signed_area, 2 * 4 * pi / embedding.target.group_order,
+              1e-9);
 }
 
 TEST(Certificate, ConeClaimedOnTheWrongSideOfTheStarIsSeen) {
@@ -432,7 +439,7 @@ TEST(Certificate, SphereTooManyIsSeenByItsAreaAlone) {
     const test::SampleEmbedding twofold = with_a_sphere_too_many(sample(signature));
     EXPECT_THAT(rejection(twofold.mesh, twofold.embedding()), UnorderedElementsAre("signed_area"))
         << signature;
-    const Certificate certificate = certify(twofold.mesh, twofold.embedding());
+    const Certificate certificate = certify(test::unjudged(twofold.mesh), twofold.embedding());
     EXPECT_NEAR(certificate.signed_area, certificate.expected_area + 4 * pi, 1e-9) << signature;
   }
 }
@@ -455,7 +462,7 @@ TEST(Certificate, SeamThatFoldsTheMapIsSeen) {
     embedding.positions.row(seam.left[k]) = left.transpose();
     embedding.positions.row(seam.right[k]) << -left.x(), -left.y(), left.z();
   }
-  ASSERT_TRUE(certify(mesh, embedding).bijective);
+  ASSERT_TRUE(certify(test::unjudged(mesh), embedding).bijective);
   seam.transform = hand_made::symmetry(hand_made::reflection(across));
   EXPECT_THAT(rejection(mesh, embedding), UnorderedElementsAre("seam_gluing"));
 }
@@ -791,7 +798,8 @@ TEST(Certificate, IndicesOutOfRangeAreRejectedWithoutACrash) {
         const int value = values[random() % std::size(values)];
         place = value == place ? -2 : value;
       }
-      EXPECT_FALSE(certify(sample(signature).mesh, embedding).bijective) << signature << " " << k;
+      EXPECT_FALSE(certify(test::unjudged(sample(signature).mesh), embedding).bijective)
+          << signature << " " << k;
     }
   }
 }
@@ -819,13 +827,13 @@ TEST(Certificate, TheDetailNamesTheOffender) {
   Embedding embedding = sample("532").embedding();
   const Corner at = inner_corner(embedding);
   split(embedding, {at});
-  for (const Check& check : certify(sample("532").mesh, embedding).checks)
+  for (const Check& check : certify(test::unjudged(sample("532").mesh), embedding).checks)
     if (check.name == "seam_gluing") {
       EXPECT_THAT(check.detail, HasSubstr("Euler characteristic 0"));
     }
   embedding = sample("532").embedding();
   change(embedding.seams[1], [](Matrix3& M) { M *= 2; });
-  for (const Check& check : certify(sample("532").mesh, embedding).checks)
+  for (const Check& check : certify(test::unjudged(sample("532").mesh), embedding).checks)
     if (check.name == "seam_transforms") {
       EXPECT_THAT(check.detail, HasSubstr("seam 1"));
     }

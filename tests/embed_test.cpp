@@ -657,10 +657,7 @@ TEST(EmbeddingSolver, ChecksTheSameMarksForEveryOrbifold) {
   EXPECT_TRUE(solver.embed(parse_orbifold("3*2"), inside_and_outside).certificate.bijective);
 }
 
-TEST(EmbeddingSolver, TellsOfADefectEveryTime) {
-  EmbeddingSolver solver(test::torus(8, 6));
-  for (int k = 0; k < 2; ++k) EXPECT_THROW(solver.embed(parse_orbifold("432"), {0, 1, 2}), MeshError);
-}
+TEST(EmbeddingSolver, TellsOfADefectAtOnce) { EXPECT_THROW(EmbeddingSolver(test::torus(8, 6)), MeshError); }
 
 TEST(Embed, DoesNotDependOnTheNumberOfThreads) {
   for (const std::string signature : {"432", "22", "*532", "3*2", "5*"}) {

@@ -14,7 +14,6 @@
 #include "base64_text.h"
 #include "orbitutte/export/html_text.h"
 #include "orbitutte/io/bytes.h"
-#include "orbitutte/mesh/triangulation.h"
 #include "orbitutte/page/page_charts.h"
 #include "orbitutte/page/page_scene.h"
 #include "orbitutte/report/report.h"
@@ -42,7 +41,7 @@ std::string sample_report(const std::string& signature) {
 std::string page_of(const std::string& signature, const std::string& report,
                     const PageOptions& options = {}) {
   const test::SampleEmbedding& sample = test::sample_embedding(signature);
-  return report_page({sample.mesh, sample.embedding(), report}, options);
+  return report_page({test::unjudged(sample.mesh), sample.embedding(), report}, options);
 }
 
 template <typename Number>
@@ -113,7 +112,7 @@ TEST(PageCharts, NothingToShowGivesNoChart) {
 
 TEST(DisplayMesh, AMeshWithinTheLimitIsWhole) {
   const test::SampleEmbedding& sample = test::sample_embedding("432");
-  const DisplayMesh display = display_mesh(sample.mesh, sample.embedding());
+  const DisplayMesh display = display_mesh(test::unjudged(sample.mesh), sample.embedding());
   EXPECT_EQ(display.fine.faces, sample.embedding().faces);
   EXPECT_EQ(display.coarse.faces, sample.embedding().faces);
   std::size_t banks = 0;
@@ -124,11 +123,11 @@ TEST(DisplayMesh, AMeshWithinTheLimitIsWhole) {
 TEST(DisplayMesh, ALargeMeshIsCoarsenedToItsLimitAndKeepsItsOutline) {
   const Mesh mesh = sample_mesh({SampleShape::figure, 6000});
   const EmbedResult result = embed(mesh, parse_orbifold("332"), sample_cones(SampleShape::figure, mesh));
-  const DisplayMesh display = display_mesh(mesh, result.embedding, {3000, 12 * 800});
+  const DisplayMesh display = display_mesh(test::unjudged(mesh), result.embedding, {3000, 12 * 800});
   EXPECT_LE(display.fine.faces.rows(), 3000);
   EXPECT_LE(display.coarse.faces.rows(), 800);
   EXPECT_GT(display.fine.faces.rows(), 2000);
-  const DisplayMesh whole = display_mesh(mesh, result.embedding);
+  const DisplayMesh whole = display_mesh(test::unjudged(mesh), result.embedding);
   EXPECT_EQ(display.fine.outline.size(), whole.fine.outline.size());
   EXPECT_EQ(display.coarse.outline.size(), whole.fine.outline.size());
 }
@@ -136,7 +135,7 @@ TEST(DisplayMesh, ALargeMeshIsCoarsenedToItsLimitAndKeepsItsOutline) {
 TEST(DisplayMesh, ACoarseTileStillCoversItsShareOfTheSphere) {
   const Mesh mesh = sample_mesh({SampleShape::figure, 6000});
   const EmbedResult result = embed(mesh, parse_orbifold("332"), sample_cones(SampleShape::figure, mesh));
-  const DisplayMesh display = display_mesh(mesh, result.embedding, {3000, 12 * 800});
+  const DisplayMesh display = display_mesh(test::unjudged(mesh), result.embedding, {3000, 12 * 800});
   for (const DisplayLevel& level : {display.fine, display.coarse}) {
     double area = 0;
     for (Eigen::Index f = 0; f < level.faces.rows(); ++f) {
@@ -153,7 +152,7 @@ TEST(PageScene, HoldsTheDrawnVerticesInSourceAndImage) {
   for (const char* signature : {"532", "*223", "3*2", "2x"}) {
     const test::SampleEmbedding& sample = test::sample_embedding(signature);
     const Embedding& embedding = sample.embedding();
-    const Json scene = Json::parse(page_scene(sample.mesh, embedding, {}));
+    const Json scene = Json::parse(page_scene(test::unjudged(sample.mesh), embedding));
     const auto source = numbers<std::uint16_t>(scene["source"]);
     const auto image = numbers<float>(scene["image"]);
     const auto vertex = numbers<std::uint32_t>(scene["source_vertex"]);
@@ -179,21 +178,23 @@ TEST(PageScene, HoldsTheColoursOfTheVerticesWhereTheMeshHasThem) {
   for (const char* signature : {"432", "*223", "2x"}) {
     const test::SampleEmbedding& sample = test::sample_embedding(signature);
     const Points colours = (sample.mesh.V.array() * 0.4 + 0.5).cwiseMax(0).cwiseMin(1);
-    const Json scene = Json::parse(page_scene(sample.mesh, sample.embedding(), colours));
+    Surface coloured = test::unjudged(sample.mesh);
+    coloured.colours = colours;
+    const Json scene = Json::parse(page_scene(coloured, sample.embedding()));
     const auto colour = numbers<std::uint8_t>(scene["colour"]);
     const auto vertex = numbers<std::uint32_t>(scene["source_vertex"]);
     ASSERT_EQ(colour.size(), 3 * vertex.size());
     for (std::size_t i = 0; i < colour.size(); ++i)
       EXPECT_NEAR(colour[i] / 255.0, colours(vertex[i / 3], static_cast<Eigen::Index>(i % 3)), 0.5 / 255);
-    EXPECT_FALSE(Json::parse(page_scene(sample.mesh, sample.embedding(), {})).contains("colour"));
+    EXPECT_FALSE(Json::parse(page_scene(test::unjudged(sample.mesh), sample.embedding())).contains("colour"));
   }
 }
 
 TEST(PageScene, NormalsAreUnitVectorsAndAgreeAcrossSeamsUpToSign) {
   for (const char* signature : {"432", "3x"}) {
     const test::SampleEmbedding& sample = test::sample_embedding(signature);
-    const auto normal =
-        numbers<std::int8_t>(Json::parse(page_scene(sample.mesh, sample.embedding(), {}))["normal"]);
+    const auto normal = numbers<std::int8_t>(
+        Json::parse(page_scene(test::unjudged(sample.mesh), sample.embedding()))["normal"]);
     const auto at = [&](int v) -> Vector3 {
       return Vector3(normal[3 * v], normal[3 * v + 1], normal[3 * v + 2]) / 127;
     };
@@ -220,11 +221,10 @@ TEST(Page, IsWellNestedHtmlThatHoldsEveryCheck) {
 
 TEST(Page, SpeaksOfFacesWhereTheyAreNotAllTriangles) {
   const PolygonMesh mesh = test::dual(test::icosphere(1));
-  const Mesh triangles = {mesh.V, on_vertices(triangulate(mesh), mesh.corners)};
   const Target orbifold = parse_orbifold("432");
   const EmbedResult result = embed(mesh, orbifold, choose_marked_vertices(mesh, orbifold));
   const std::string report = report_json(result, run);
-  const std::string page = report_page({triangles, result.embedding, report});
+  const std::string page = report_page({make_surface(mesh), result.embedding, report});
   EXPECT_THAT(page, HasSubstr("80 vertices and 42 faces"));
   EXPECT_THAT(page, HasSubstr("Every face is positively oriented"));
   EXPECT_THAT(page_of("432", sample_report("432")), HasSubstr("162 vertices and 320 triangles"));
@@ -259,7 +259,7 @@ TEST(Page, FollowsTheFilesWhereTheReportClaimsOtherwise) {
   const test::SampleEmbedding& sample = test::sample_embedding("432");
   Embedding folded = sample.embedding();
   folded.positions.row(folded.faces(0, 0)) *= -1;
-  const std::string page = report_page({sample.mesh, folded, sample_report("432")});
+  const std::string page = report_page({test::unjudged(sample.mesh), folded, sample_report("432")});
   EXPECT_THAT(page, HasSubstr("Not certified"));
   EXPECT_THAT(page, HasSubstr("says otherwise"));
 }
@@ -299,9 +299,11 @@ TEST(Page, FiguresThatAreMissingOrOfAnotherTypeAreADash) {
 TEST(Page, RefusesAMeshThatWasNotEmbeddedAndAReportThatIsNone) {
   const test::SampleEmbedding& sample = test::sample_embedding("432");
   const std::string report = sample_report("432");
-  EXPECT_THROW(report_page({test::icosahedron(), sample.embedding(), report}), MeshError);
+  EXPECT_THROW(report_page({test::unjudged(test::icosahedron()), sample.embedding(), report}), MeshError);
   EXPECT_THROW(page_of("432", "{"), MeshError);
-  EXPECT_THROW(report_page({sample.mesh, sample.embedding(), report, Points::Zero(3, 3)}), MeshError);
+  Surface coloured = test::unjudged(sample.mesh);
+  coloured.colours = Points::Zero(3, 3);
+  EXPECT_THROW(report_page({coloured, sample.embedding(), report}), MeshError);
 }
 
 }  // namespace

@@ -374,7 +374,7 @@ class PolygonCertificate : public testing::Test {
   Names rejection(const std::function<void(Embedding&)>& plant) const {
     Embedding embedding = result.embedding;
     plant(embedding);
-    const Certificate certificate = certify(mesh, embedding);
+    const Certificate certificate = certify(test::unjudged(mesh), embedding);
     EXPECT_FALSE(certificate.bijective);
     Names failed;
     for (const Check& check : certificate.checks) {
@@ -451,7 +451,7 @@ TEST_F(PolygonCertificate, RejectsAnotherSignatureOrGroup) {
   const auto claim_polygon = [](Embedding& e) { e.target.signature = "polygon"; };
   Embedding triangle = test::sample_embedding("*222").embedding();
   claim_polygon(triangle);
-  EXPECT_FALSE(certify(test::sample_embedding("*222").mesh, triangle).bijective);
+  EXPECT_FALSE(certify(test::unjudged(test::sample_embedding("*222").mesh), triangle).bijective);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "orbitutte/cut/cut.h"
 #include "orbitutte/embed.h"
 #include "orbitutte/solve/initial_embedding.h"
 #include "planar_families.h"
@@ -35,9 +36,8 @@ inline std::unique_ptr<SolveCase> solve_case(const std::string& signature, const
   result->mesh = perturbed(sphere ? icosphere(2) : round_disk(7), 0.03, 7);
   result->marks = choose_marked_vertices(result->mesh, result->orbifold);
   result->connectivity = connect(result->mesh.F, vertex_count(result->mesh));
-  result->weights = edge_weights(result->mesh, result->connectivity, {WeightKind::cotan});
-  result->cut =
-      cut_to_disk(result->mesh, result->connectivity, result->marks, result->orbifold.inner_marks, options);
+  result->weights = edge_weights(unjudged(result->mesh), {WeightKind::cotan});
+  result->cut = cut_to_disk(unjudged(result->mesh), result->marks, result->orbifold.inner_marks, options);
   result->tile = basic_tile(result->orbifold, result->cut.arrangement);
   result->boundary = glue(result->cut, result->tile, result->orbifold);
   result->glued = glued_edges(result->cut, result->connectivity, result->boundary);

@@ -31,7 +31,7 @@ INSTANTIATE_TEST_SUITE_P(Solve, EveryFamily, testing::ValuesIn(test::all_signatu
 
 Points feasible_positions(const SolveCase& c, std::uint32_t seed) {
   const LaplacianSolver laplacian(c.cut, c.glued, c.weights, c.boundary);
-  const Points start = initial_embedding(c.mesh, c.cut, c.tile, c.boundary, laplacian);
+  const Points start = initial_embedding(test::unjudged(c.mesh), c.cut, c.tile, c.boundary, laplacian);
   return moved(c, start, 0.02, random_feasible(c, seed));
 }
 
@@ -117,13 +117,14 @@ TEST_P(EveryFamily, EnergyDoesNotKnowWhereTheCutRuns) {
   const LaplacianSolver laplacian(first->cut, first->glued, first->weights, first->boundary);
   const DirichletEnergy energy(first->glued, first->weights, first->boundary);
   const Minimum one = minimize(
-      energy, laplacian, initial_embedding(first->mesh, first->cut, first->tile, first->boundary, laplacian));
+      energy, laplacian,
+      initial_embedding(test::unjudged(first->mesh), first->cut, first->tile, first->boundary, laplacian));
   const auto second = solve_case(GetParam(), {5});
   const LaplacianSolver other(second->cut, second->glued, second->weights, second->boundary);
   const DirichletEnergy other_energy(second->glued, second->weights, second->boundary);
-  const Minimum two =
-      minimize(other_energy, other,
-               initial_embedding(second->mesh, second->cut, second->tile, second->boundary, other));
+  const Minimum two = minimize(
+      other_energy, other,
+      initial_embedding(test::unjudged(second->mesh), second->cut, second->tile, second->boundary, other));
   EXPECT_NEAR(one.energy, two.energy, 1e-12 * one.energy);
 }
 
@@ -270,7 +271,7 @@ TEST(LaplacianSolver, NamesAVertexThatNoPositiveWeightHolds) {
 TEST_P(EveryFamily, StartIsInTheSpaceAndFeasible) {
   const auto c = solve_case(GetParam());
   const LaplacianSolver laplacian(c->cut, c->glued, c->weights, c->boundary);
-  const Points start = initial_embedding(c->mesh, c->cut, c->tile, c->boundary, laplacian);
+  const Points start = initial_embedding(test::unjudged(c->mesh), c->cut, c->tile, c->boundary, laplacian);
   for (Eigen::Index v = 0; v < start.rows(); ++v) {
     EXPECT_LT(c->boundary.space.defect(start.row(v)), 1e-15);
     const Isometry& mirror = c->boundary.mirrors[c->boundary.basis_of[v]];
@@ -285,8 +286,8 @@ TEST_P(EveryFamily, OptimiserConvergesWithEnergyThatNeverRises) {
   const auto c = solve_case(GetParam());
   const LaplacianSolver laplacian(c->cut, c->glued, c->weights, c->boundary);
   const DirichletEnergy energy(c->glued, c->weights, c->boundary);
-  const Minimum minimum =
-      minimize(energy, laplacian, initial_embedding(c->mesh, c->cut, c->tile, c->boundary, laplacian));
+  const Minimum minimum = minimize(
+      energy, laplacian, initial_embedding(test::unjudged(c->mesh), c->cut, c->tile, c->boundary, laplacian));
   EXPECT_EQ(minimum.termination, Termination::converged);
   EXPECT_LE(minimum.gradient_norm, 1e-9);
   EXPECT_LE(minimum.iterations, 60);
@@ -304,8 +305,8 @@ TEST_P(EveryFamily, MinimumDoesNotDependOnTheStart) {
   const auto c = solve_case(GetParam());
   const LaplacianSolver laplacian(c->cut, c->glued, c->weights, c->boundary);
   const DirichletEnergy energy(c->glued, c->weights, c->boundary);
-  const Minimum one =
-      minimize(energy, laplacian, initial_embedding(c->mesh, c->cut, c->tile, c->boundary, laplacian));
+  const Minimum one = minimize(
+      energy, laplacian, initial_embedding(test::unjudged(c->mesh), c->cut, c->tile, c->boundary, laplacian));
   const Minimum two = minimize(energy, laplacian, feasible_positions(*c, 20));
   EXPECT_NEAR(one.energy, two.energy, 1e-12 * one.energy);
 }
@@ -314,7 +315,7 @@ TEST(Lbfgs, OptionsOutOfRangeAreRefused) {
   const auto c = solve_case("432");
   const LaplacianSolver laplacian(c->cut, c->glued, c->weights, c->boundary);
   const DirichletEnergy energy(c->glued, c->weights, c->boundary);
-  const Points start = initial_embedding(c->mesh, c->cut, c->tile, c->boundary, laplacian);
+  const Points start = initial_embedding(test::unjudged(c->mesh), c->cut, c->tile, c->boundary, laplacian);
   LbfgsOptions tolerance, iterations, memory;
   tolerance.tolerance = 0;
   iterations.max_iterations = -1;
@@ -329,8 +330,9 @@ TEST(Lbfgs, EndsAtTheLastIterationAllowedAndSaysSo) {
   const DirichletEnergy energy(c->glued, c->weights, c->boundary);
   LbfgsOptions options;
   options.max_iterations = 2;
-  const Minimum minimum = minimize(
-      energy, laplacian, initial_embedding(c->mesh, c->cut, c->tile, c->boundary, laplacian), options);
+  const Minimum minimum =
+      minimize(energy, laplacian,
+               initial_embedding(test::unjudged(c->mesh), c->cut, c->tile, c->boundary, laplacian), options);
   EXPECT_EQ(minimum.iterations, 2);
   EXPECT_EQ(minimum.termination, Termination::max_iterations);
 }
@@ -342,8 +344,7 @@ TEST(Ears, TriangleWithTwoEdgesOnAMirrorIsFoundAndRoundedOutward) {
       6, 6);  // its corners 6 and 42 are tips of ears, 0 and 48 are not, whichever way diagonals run
   const Target orbifold = parse_orbifold("*22");
   const std::vector<int> marks = {3, 45};
-  const Connectivity connectivity = connect(mesh.F, test::vertex_count(mesh));
-  const CutMesh cut = cut_to_disk(mesh, connectivity, marks, 0);
+  const CutMesh cut = cut_to_disk(test::unjudged(mesh), marks, 0);
   const Tile tile = basic_tile(orbifold, cut.arrangement);
   const BoundaryConditions boundary = glue(cut, tile, orbifold);
   const std::vector<Ear> ears = find_ears(FaceView(cut.F), tile, boundary);

@@ -30,7 +30,7 @@ using test::vertex_count;
 Connectivity connectivity_of(const Mesh& mesh) { return connect(mesh.F, vertex_count(mesh)); }
 
 EdgeWeights weights_of(const Mesh& mesh, const WeightOptions& options = {WeightKind::cotan}) {
-  return edge_weights(mesh, connectivity_of(mesh), options);
+  return edge_weights(test::unjudged(mesh), options);
 }
 
 /// The angle of a triangle with these sides opposite to the first: the law of cosines.

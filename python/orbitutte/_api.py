@@ -20,8 +20,8 @@ Cones = Union[Sequence[int], npt.NDArray[np.integer], str, None]
 
 
 def embed(V: npt.ArrayLike, F: Any, signature: str, cones: Cones = "auto", *, progress: Progress | None = None, polygon: Any = None,
-          geometry: str = "spherical", **options: Any) -> Embedding:
-    """Embed a mesh into a spherical orbifold.
+          geometry: str | None = None, **options: Any) -> Embedding:
+    """Embed a mesh into an orbifold of the sphere or the plane.
 
     Parameters
     ----------
@@ -38,7 +38,7 @@ def embed(V: npt.ArrayLike, F: Any, signature: str, cones: Cones = "auto", *, pr
     polygon : path, (k, 4) array_like of vertex, x, y, z, or (k, 3) array_like for the vertices in `cones`
         The corners, for the signature "polygon": counterclockwise, on the unit sphere.
     geometry : "spherical" or "euclidean"
-        "euclidean" for the orbifolds 333, 442, 632, 2222 and the same with mirrors.
+        Deprecated: the signature decides the space.
     weights : str, (i, j, w), or scipy sparse matrix
         "standard" (the default: delaunay, or cotan for polygons), "cotan", "delaunay", "mean-value" or "uniform"; or
         a weight >= 0 for every edge, once.
@@ -72,7 +72,7 @@ def embed(V: npt.ArrayLike, F: Any, signature: str, cones: Cones = "auto", *, pr
         Where `progress` returned False.
     """
     chosen = _options.options(**options)
-    target = _options.orbifold(signature, cones, polygon, geometry)
+    target = _options.target(signature, cones, polygon, geometry)
     mesh = _arrays.mesh(V, F)
     vertices = _options.marked_vertices(mesh, target, cones)
     return _told(Embedding._of(_orbitutte.embed(mesh, target, vertices, chosen, _callable(progress))))
@@ -100,9 +100,9 @@ class Solver:
         self._core = _orbitutte.Solver(self._mesh, chosen)
 
     def embed(self, signature: str, cones: Cones = "auto", *, progress: Progress | None = None, polygon: Any = None,
-              geometry: str = "spherical") -> Embedding:
+              geometry: str | None = None) -> Embedding:
         """As the function `embed`. One thread at a time."""
-        target = _options.orbifold(signature, cones, polygon, geometry)
+        target = _options.target(signature, cones, polygon, geometry)
         vertices = _options.marked_vertices(self._mesh, target, cones)
         return _told(Embedding._of(self._core.embed(target, vertices, _callable(progress))))
 
@@ -123,9 +123,9 @@ def signatures() -> list[dict[str, str]]:
     return json.loads(_orbitutte.families())
 
 
-def choose_cones(V: npt.ArrayLike, F: Any, signature: str, *, geometry: str = "spherical") -> list[int]:
+def choose_cones(V: npt.ArrayLike, F: Any, signature: str, *, geometry: str | None = None) -> list[int]:
     """Well separated extremities to be marked, as `embed` takes them for "auto"."""
-    return _arrays.mesh(V, F).choose_cones(_options.orbifold(signature, None, None, geometry))
+    return _arrays.mesh(V, F).choose_cones(_options.target(signature, None, None, geometry))
 
 
 def verify(embedding: Embedding, V: npt.ArrayLike | None = None, F: Any = None, *, weights_file: str | os.PathLike | None = None,

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numbers
 import operator
 import os
+import warnings
 from typing import Any
 
 import numpy as np
@@ -39,20 +40,22 @@ def options(**given: Any) -> _orbitutte.Options:
     return result
 
 
-def orbifold(signature: str, cones: Any, polygon: Any = None, geometry: str = "spherical") -> _orbitutte.Orbifold:
+def target(signature: str, cones: Any, polygon: Any = None, geometry: str | None = None) -> _orbitutte.Target:
     """What is embedded into, by its symbol, or the polygon by its corners."""
     signature = text(signature, "signature")
-    if geometry not in ("spherical", "euclidean"):
-        raise ArgumentError(f"geometry is '{geometry}'; it may be spherical or euclidean")
+    if geometry is not None:
+        warnings.warn("geometry is deprecated: the signature decides the space", DeprecationWarning, stacklevel=3)
     if signature == "polygon":
         return _polygon(polygon, cones)
     if polygon is not None:
         raise ArgumentError(f"polygon gives the corners of a fixed boundary, which {signature} has not; take the signature 'polygon'")
-    known = _orbitutte.Orbifold.spherical if geometry == "spherical" else _orbitutte.Orbifold.euclidean
-    return known(signature)
+    known = _orbitutte.Target.parse(signature)
+    if geometry is not None and known.space != geometry:
+        raise ArgumentError(f"geometry is '{geometry}', but {signature} is {known.space}; leave geometry out")
+    return known
 
 
-def marked_vertices(mesh: _orbitutte.Mesh, target: _orbitutte.Orbifold, cones: Any) -> list[int]:
+def marked_vertices(mesh: _orbitutte.Mesh, target: _orbitutte.Target, cones: Any) -> list[int]:
     """The vertices that `cones` names, or chooses."""
     if target.signature == "polygon":
         return target.corner_vertices
@@ -127,13 +130,13 @@ def _edges_of_sparse(matrix: Any) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return i, j, w
 
 
-def _polygon(polygon: Any, cones: Any) -> _orbitutte.Orbifold:
+def _polygon(polygon: Any, cones: Any) -> _orbitutte.Target:
     if polygon is None:
         raise ArgumentError("polygon is missing: the corners, k x 4 rows of vertex, x, y, z, or k x 3 positions for the vertices in cones")
     if isinstance(polygon, (str, bytes, os.PathLike)):
         if cones is not None:
             raise ArgumentError("cones is not for polygons from a file, whose lines name the vertices")
-        return _orbitutte.Orbifold.polygon_file(_arrays.path(polygon))
+        return _orbitutte.Target.polygon_file(_arrays.path(polygon))
     corners = np.asarray(polygon)
     if corners.dtype.kind not in "fiu":
         raise TypeError(f"polygon has the type {corners.dtype}; real numbers are expected")
@@ -153,7 +156,7 @@ def _polygon(polygon: Any, cones: Any) -> _orbitutte.Orbifold:
     return _polygon_of(vertices, points)
 
 
-def _polygon_of(vertices: list[int], points: np.ndarray) -> _orbitutte.Orbifold:
+def _polygon_of(vertices: list[int], points: np.ndarray) -> _orbitutte.Target:
     """Corners off the sphere by 1e-3 at the most, as rounded decimals are, are put there."""
     points = _arrays.finite_positions(points, "polygon", "corner")
     lengths = np.linalg.norm(points, axis=1)
@@ -161,4 +164,4 @@ def _polygon_of(vertices: list[int], points: np.ndarray) -> _orbitutte.Orbifold:
     if off.any():
         k = int(np.argmax(off))
         raise ArgumentError(f"polygon: the corner at vertex {vertices[k]} is at distance {lengths[k]:.6g} from the centre, not on the unit sphere")
-    return _orbitutte.Orbifold.polygon(vertices, points / lengths[:, None])
+    return _orbitutte.Target.polygon(vertices, points / lengths[:, None])

@@ -5,6 +5,7 @@
 #include "arrays.h"
 #include "orbitutte/io/corner_file.h"
 #include "orbitutte/orbifold/polygon.h"
+#include "orbitutte/orbifold/signature.h"
 
 namespace orbitutte::python {
 namespace {
@@ -21,13 +22,13 @@ Target polygon(const std::vector<int>& vertices, const DoubleArray& positions) {
 
 void bind_orbifold(py::module_& module) {
   py::class_<Target>(module, "Target")
-      .def_static("spherical", &parse_orbifold)
-      .def_static("euclidean", &parse_euclidean_orbifold)
+      .def_static("parse", &parse_orbifold)
       .def_static("polygon", &polygon)
       .def_static("polygon_file",
                   [](const std::string& path) { return polygon_target(read_corners(path)); })
       .def_readonly("signature", &Target::signature)
       .def_readonly("group_order", &Target::group_order)
+      .def_property_readonly("space", [](const Target& target) { return target.space.name(); })
       .def_property_readonly("corner_vertices", &corner_vertices);
 }
 

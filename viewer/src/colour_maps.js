@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The colours of the distortions, for the surfaces and the legend alike.
+// The colours of the distortions, for surfaces and legend.
 import {DataTexture, LinearFilter, RGBAFormat} from 'three';
 
-// Diverging, light in the middle; told apart with impaired colour vision too (after P. Tol's "sunset" scheme).
+// Diverging and light in the middle; can be told apart with impaired colour vision, too (after P. Tol's "sunset" scheme).
 const diverging = ['#364b9a', '#4a7bb7', '#6ea6cd', '#98cae1', '#c2e4ef', '#eaeccc', '#feda8b', '#fdb366', '#f67e4b', '#dd3d2d', '#a50026'];
 // From light to dark (after P. Tol's "iridescent" and "YlOrBr" schemes).
 const sequential = ['#ffffe5', '#fff7bc', '#fee391', '#fec44f', '#fb9a29', '#ec7014', '#cc4c02', '#993404', '#662506'];
@@ -28,7 +28,7 @@ const css = (stops) => `linear-gradient(to right, ${stops.join(', ')})`;
 export const areaMap = {texture: () => texture(diverging), css: css(diverging)};
 export const angleMap = {texture: () => texture(sequential), css: css(sequential)};
 
-/** The first bound `among` some that all but `share` of the values' sizes stay below, or else the last. */
+/** The first bound `among` these that only a `share` of the values exceeds in size; the last one if there is none. */
 export function robustBound(values, {share, among}) {
   const stride = Math.max(1, Math.floor(values.length / 20000));
   const sizes = [];

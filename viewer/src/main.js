@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Brings the page's view to life: reads the scene, and connects controls, legend and readout with the view.
+// Starts the page's view: reads the scene, and connects controls, legend and readout with the view.
 import {angleMap, areaMap} from './colour_maps.js';
 import {Marks} from './marks.js';
 import {readScene} from './scene_data.js';
@@ -61,7 +61,7 @@ function connectControls(view) {
   element('reset').addEventListener('click', () => view.reset());
 }
 
-// What is not drawn is said.
+// Tells the user which part of the mesh is not drawn.
 function sayHowMuchIsDrawn({faces, shownFaces, copyFaces}) {
   const sentences = [];
   if (shownFaces < faces) sentences.push(`Source and tile are drawn with ${grouped(shownFaces)} of ${grouped(faces)} triangles; their vertices are exact, and only these can be marked by clicking.`);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The material of all surfaces: one shader, whose colouring the user chooses.
+// The material of all surfaces: one shader with a colouring that the user chooses.
 import {DoubleSide, ShaderMaterial} from 'three';
 
 export const COLOURINGS = {tile: 0, checkerboard: 1, area: 2, angle: 3, normal: 4, vertex: 5};
@@ -79,7 +79,7 @@ void main() {
   gl_FragColor = vec4(min(colour() * light * 1.04, 1.0), opacity);
 }`;
 
-/** Uniforms that all surfaces share, so that one assignment changes all. */
+/** Uniforms that all surfaces share, so that one assignment changes all of them. */
 export function sharedUniforms(frame, maps, bounds) {
   return {
     colouring: {value: COLOURINGS.tile},
@@ -96,7 +96,7 @@ export function sharedUniforms(frame, maps, bounds) {
   };
 }
 
-/** A material on shared uniforms, with its own opacity and colour. */
+/** A material with shared uniforms, and with an opacity and colour of its own. */
 export function surfaceMaterial(shared, {onSphere, tint}) {
   return new ShaderMaterial({
     vertexShader,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The three panels: what they show, and what the user does to them.
+// The three panels: what they show, and how they respond to the user.
 import {
   BufferAttribute, BufferGeometry, Color, ColorManagement, InstancedMesh, LineBasicMaterial, LineSegments, Matrix4, Mesh,
   MeshBasicMaterial, Quaternion, Ray, SphereGeometry, Vector3,
@@ -17,12 +17,12 @@ import {StageInput, Turntable} from './turntable.js';
 
 const INK = '#20262d', MARK = '#d6006c', POINT = '#ffffff', FAINT = '#9aa4af';
 const CONE_COLOURS = {2: '#0072b2', 3: '#d55e00', 4: '#009e73', 5: '#7b2d8b'};
-const OUTLINE_STEP = 0.004;  // of the sphere's radius: below a pixel
+const OUTLINE_STEP = 0.004;  // in units of the sphere's radius; below a pixel
 const coneColour = (order) => CONE_COLOURS[order] ?? '#5b4636';
 
 ColorManagement.enabled = false;
 
-/** Shows a scene in the stages `{source, tile, tiling}`. Tells `onHover(point or null)` and `onPick(drawn vertex)`. */
+/** Shows a scene in the stages `{source, tile, tiling}`. Calls `onHover(point or null)` and `onPick(drawn vertex)`. */
 export class View {
   constructor(scene, {canvas, stages, onHover, onPick}) {
     this.scene = scene;
@@ -60,7 +60,7 @@ export class View {
       [name, new Panel(name, stage, {capacity: name === 'tiling' ? many : few, frame: frames[name]})]));
   }
 
-  // The source turns by itself; tile and tiled sphere turn together, at first with the tile in front.
+  // The source turns by itself. Tile and tiled sphere turn together; at first they show the tile in front.
   makeTables() {
     const {source, tile, tiling} = this.panels;
     const front = new Quaternion().setFromRotationMatrix(
@@ -88,13 +88,13 @@ export class View {
     this.addNeighbours();
   }
 
-  // Those of all copies but the tile itself.
+  // The outlines of all copies except the tile itself.
   outlines(panel, colour) {
     const matrices = this.scene.copies.slice(1).map(({matrix}) => matrix);
     return outlineCopies(panel, {positions: this.scene.image, ends: this.copyOutline, matrices, width: 1.4, colour});
   }
 
-  // Around the tile, the outlines of the other copies; a ball without colour hides those behind it.
+  // Adds the outlines of the other copies around the tile, and a ball without colour that hides those behind it.
   addNeighbours() {
     const lines = this.outlines(this.panels.tile, FAINT);
     lines.scale.setScalar(0.998);  // behind the tile's own outline
@@ -131,7 +131,7 @@ export class View {
     this.panels.tile.addLabels(dots.tile);
   }
 
-  /** Every dot in all copies of the tile. */
+  /** Copies every dot to all copies of the tile. */
   copied(dots) {
     return this.scene.copies.flatMap(({matrix}, copy) =>
       dots.map((dot) => ({...dot, at: dot.at.clone().applyMatrix4(matrix), copy})));
@@ -153,7 +153,7 @@ export class View {
     return name === 'tile' ? this.points.onTile(ray) : this.points.onSphere(ray);
   }
 
-  // At most once a frame, however fast the pointer moves.
+  // Runs at most once a frame, however fast the pointer moves.
   hover(name, x, y) {
     const waiting = this.hovered !== undefined;
     this.hovered = {name, x, y};
@@ -171,7 +171,7 @@ export class View {
     if (point) this.events.onPick(this.points.nearestVertex(point));
   }
 
-  /** Shows a point in all panels; brighter in the copy that was pointed at. */
+  /** Shows a point in all panels, brighter in the copy that was pointed at. */
   showPoint(point) {
     const on = (dots, colour) => dots.map((dot) => ({...dot, colour}));
     const source = point ? [{at: this.points.position('source', point)}] : [];
@@ -186,7 +186,7 @@ export class View {
     this.draw();
   }
 
-  /** Shows marked vertices, given as drawn ones. */
+  /** Shows marked vertices, given by their drawn vertices. */
   showMarks(vertices) {
     const dots = (name) => vertices.map((vertex) => ({at: vertexPosition(this.scene, name, vertex), colour: MARK}));
     this.panels.source.marks.set(dots('source'));
@@ -210,7 +210,7 @@ export class View {
     this.draw();
   }
 
-  /** How opaque the copies are, besides the tile itself. */
+  /** Sets the opacity of the copies, except the tile itself. */
   setOpacity(opacity) {
     if (!this.copyMaterial) return;
     this.copyMaterial.uniforms.opacity.value = opacity;
@@ -234,7 +234,7 @@ export class View {
       lines.setIndex(index);
       const segments = new LineSegments(lines, new LineBasicMaterial({color: new Color(INK), transparent: true}));
       const length = meanLength(this.scene[position], index.array);
-      // Where they are dense they would hide all colours.
+      // Fades the edges where they are dense, since they would hide all colours.
       segments.onBeforeRender = () => {
         segments.material.opacity = 0.35 * Math.min(Math.max(this.panels[panel].pixels(length) / 5, 0.1), 1);
       };
@@ -251,7 +251,7 @@ export class View {
     this.painter.draw(panels);
   }
 
-  // On the sphere, behind the horizon; in the source, behind another part of it.
+  // On the sphere, a place is hidden behind the horizon; on the source, behind another part of it.
   isHidden(panel, at) {
     const toEye = panel.camera.position.clone().sub(at);
     if (panel.name !== 'source') return toEye.dot(at) < 0;

@@ -16,12 +16,14 @@ struct Places {
   std::vector<int> inside, on_boundary;
 };
 
-Places places(const Faces& F, const Connectivity& connectivity, int vertex_count) {
+Places places(const Surface& surface) {
+  const Faces& F = surface.triangles;
+  const int vertex_count = surface.vertex_count();
   Places result;
   std::vector<char> used(vertex_count, 0), outer(vertex_count, 0);
   for (int h = 0; h < static_cast<int>(F.size()); ++h) {
     used[origin(F, h)] = 1;
-    if (connectivity.opposite[h] < 0) outer[origin(F, h)] = 1;
+    if (surface.connectivity.opposite[h] < 0) outer[origin(F, h)] = 1;
   }
   for (int v = 0; v < vertex_count; ++v)
     if (used[v]) (outer[v] ? result.on_boundary : result.inside).push_back(v);
@@ -40,13 +42,13 @@ void require_enough(int wanted, const std::vector<int>& among) {
 
 }  // namespace
 
-std::vector<int> extremities(const Mesh& mesh, const Connectivity& connectivity, int inner, int outer) {
-  const Places place = places(mesh.F, connectivity, static_cast<int>(mesh.V.rows()));
+std::vector<int> extremities(const Surface& surface, int inner, int outer) {
+  const Places place = places(surface);
   if (inner > 0 && place.inside.empty())
     throw MeshError("no vertex lies inside the surface, where one has to be marked");
   require_enough(inner, place.inside);
   require_enough(outer, place.on_boundary);
-  const EdgeGraph graph = edge_length_graph(mesh, connectivity);
+  const EdgeGraph graph = edge_length_graph(surface);
   std::vector<int> result;
   const auto add = [&](const std::vector<int>& among, const std::vector<int>& first_from) {
     result.push_back(farthest(among, distances(graph, result.empty() ? first_from : result)));

@@ -38,9 +38,9 @@ std::string escape_html(std::string_view text) {
 }
 
 std::string base64(std::string_view bytes) {
-  constexpr std::size_t piece =
-      3 << 20;  // a multiple of three bytes, so that no piece but the last is padded
-  std::string text(4 * ((bytes.size() + 2) / 3) + 1, '\0');  // the encoder closes with a zero byte
+  // A multiple of three bytes, so that only the last piece is padded.
+  constexpr std::size_t piece = 3 << 20;
+  std::string text(4 * ((bytes.size() + 2) / 3) + 1, '\0');  // the encoder ends with a zero byte
   std::size_t written = 0;
   for (std::size_t from = 0; from < bytes.size(); from += piece) {
     const std::size_t length = std::min(piece, bytes.size() - from);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Soft colours that are told apart with impaired colour vision too, after P. Tol, "Colour Schemes", SRON
-// technical note 09-002 (2021), the "light" scheme, reordered for contrast between neighbours in the list.
+// Soft colours that can be told apart with impaired colour vision, too: the "light" scheme of P. Tol, "Colour
+// Schemes", SRON technical note 09-002 (2021), reordered for contrast between neighbours in the list.
 #include "orbitutte/export/palette.h"
 
 #include <array>

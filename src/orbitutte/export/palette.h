@@ -14,11 +14,11 @@ struct Rgb {
   bool operator==(const Rgb&) const = default;
 };
 
-/// How many colours there are: enough for a tile with seven neighbours, three pairs of sides and a mirror.
+/// The number of colours: enough for a tile with seven neighbours, across three pairs of sides and a mirror.
 constexpr int palette_size = 8;
 
 /// The colour with this number (modulo palette_size; sRGB), a shade darker for a mirrored tile. All sixteen
-/// are distinct, even with 5 bits a channel.
+/// are distinct, even with 5 bits per channel.
 Rgb tile_colour(int colour, bool mirrored);
 
 }  // namespace orbitutte

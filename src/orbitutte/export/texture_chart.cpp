@@ -26,8 +26,8 @@ std::array<Vector3, 3> corners(const Embedding& embedding, Eigen::Index f) {
   return {embedding.positions.row(v[0]), embedding.positions.row(v[1]), embedding.positions.row(v[2])};
 }
 
-// The rows of a rotation that takes the middle of the tile to the z axis, and the direction in which it is
-// wider to the x axis.
+// The rows of a rotation that takes the middle of the tile to the z axis, and its wider direction to the x
+// axis.
 Matrix3 frame(const Embedding& embedding) {
   Vector3 sum = Vector3::Zero();
   Matrix3 spread = Matrix3::Zero();
@@ -53,7 +53,7 @@ Matrix3 frame(const Embedding& embedding) {
 
 Vector2d stereographic(const Vector3& p) { return p.head<2>() / std::max(1 + p.z(), 1e-12); }
 
-// In turns: longitude from the date line, latitude from the south pole; the y axis is the poles'.
+// Longitude from the date line and latitude from the south pole, in turns. The poles lie on the y axis.
 Vector2d equirectangular(const Vector3& p) {
   return {0.5 + std::atan2(p.x(), p.z()) / (2 * pi), 0.5 + std::asin(std::clamp(p.y(), -1.0, 1.0)) / pi};
 }
@@ -67,7 +67,7 @@ Vector2d octahedral(const Vector3& p) {
   return (inner + Vector2d::Ones()) / 2;
 }
 
-// The least square that holds the corners of all faces, moved to the unit square.
+// Moves and scales the smallest square that holds the corners of all faces to the unit square.
 void fit_into_unit_square(const std::vector<int>& of_corner, Eigen::MatrixX2d& uv) {
   if (of_corner.empty()) return;
   Eigen::RowVector2d low = uv.row(of_corner[0]), high = low;
@@ -81,8 +81,8 @@ void fit_into_unit_square(const std::vector<int>& of_corner, Eigen::MatrixX2d& u
   uv.array() += 0.5;
 }
 
-// Corners more than half a turn to the left of their face's rightmost one get a pair of their own, a turn
-// further.
+// Gives a corner a pair of its own, a turn further to the right, if it lies more than half a turn to the left
+// of its face's rightmost corner.
 void reach_over_date_line(const Embedding& embedding, TextureCoordinates& result) {
   std::map<int, int> further;
   std::vector<Eigen::RowVector2d> added;
@@ -105,7 +105,7 @@ void reach_over_date_line(const Embedding& embedding, TextureCoordinates& result
     result.uv.row(vertices + static_cast<Eigen::Index>(k)) = added[k];
 }
 
-// Does the face cross one of the half planes behind the octahedron along which it was unfolded?
+// Does the face cross one of the half planes behind the octahedron along which the octahedron was unfolded?
 bool is_torn(const Points& seen, std::span<const int> face) {
   for (std::size_t k = 0; k < face.size(); ++k) {
     const Vector3 a = seen.row(face[k]), b = seen.row(face[(k + 1) % face.size()]);
@@ -119,8 +119,8 @@ double plane_area(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
   return (e.x() * g.y() - e.y() * g.x()) / 2;
 }
 
-// Both areas of a face are sums over the fan from its first corner, with signs: what lies outside of it
-// cancels.
+// Both areas of a face are sums over the fan from its first corner, with signs, so that parts outside of the
+// face cancel.
 struct FaceAreas {
   double flat = 0;  // in the square
   double round = 0;
@@ -158,7 +158,7 @@ double max_area_distortion(const Embedding& embedding, const TextureCoordinates&
   return worst;
 }
 
-// Of every corner the cut vertex itself.
+// The cut vertex of every corner.
 std::vector<int> corner_vertices(const FaceView& faces) {
   std::vector<int> vertices;
   for (int f = 0; f < faces.count(); ++f) vertices.insert(vertices.end(), faces[f].begin(), faces[f].end());

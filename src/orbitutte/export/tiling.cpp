@@ -20,7 +20,7 @@ void check_vertices(const std::vector<int>& vertices, int count) {
       throw ArgumentError(fmt::format("a seam names vertex {} of {} cut vertices", v, count));
 }
 
-/// What an embedding that was read from files might get wrong.
+/// Checks for errors that an embedding read from files may have.
 void check_embedding(const Embedding& embedding) {
   const int vertices = static_cast<int>(embedding.positions.rows());
   if (!embedding.positions.allFinite())
@@ -48,7 +48,7 @@ void check_embedding(const Embedding& embedding) {
                                     embedding.target.group_order, embedding.faces.rows()));
 }
 
-/// across[s][g]: the copy that meets the left bank of seam s of copy g, with its right bank.
+/// across[s][g]: the copy whose right bank of seam s meets the left bank of seam s of copy g.
 std::vector<std::vector<int>> copies_across_seams(const Embedding& embedding, const SymmetryGroup& group) {
   std::vector<std::vector<int>> across;
   for (const Seam& seam : embedding.seams) {
@@ -59,7 +59,7 @@ std::vector<std::vector<int>> copies_across_seams(const Embedding& embedding, co
   return across;
 }
 
-/// For every copy a colour that no neighbour has: the first one free, copy by copy.
+/// Gives every copy the first colour that no neighbour has, copy by copy.
 std::vector<int> greedy_colours(const std::vector<std::vector<int>>& across, int tiles) {
   std::vector<std::vector<int>> neighbours(tiles);
   for (const std::vector<int>& copies : across) {
@@ -90,14 +90,19 @@ std::vector<TileCopy> tile_copies(const SymmetryGroup& group, const std::vector<
   return copies;
 }
 
-/// The vertices of the sphere. A vertex inside the tile has a copy in every tile; copies of vertices on seams
-/// coincide, and only these need sets. Vertices that no face uses have no copies at all.
+/// The vertices of the sphere. A vertex inside the tile has a copy in every tile. Copies of vertices on seams
+/// coincide, so only these need sets. Vertices that no face uses have no copies.
 struct Welding {
-  std::vector<int> copied;    ///< the cut vertices that faces use, ascending
-  std::vector<int> on_seam;   ///< n_cut: numbers those of copied that are on seams, -1 for all others
-  int seam_vertices = 0;      ///< how many have such a number
-  std::vector<int> smallest;  ///< |G| x seam_vertices, copy by copy: the smallest member of its set
-  int vertices = 0;           ///< of the sphere
+  /// The cut vertices that faces use, ascending.
+  std::vector<int> copied;
+  /// n_cut: a number for every copied vertex on a seam; -1 for all others.
+  std::vector<int> on_seam;
+  /// The number of vertices that have such a number.
+  int seam_vertices = 0;
+  /// |G| x seam_vertices, copy by copy: the smallest member of each member's set.
+  std::vector<int> smallest;
+  /// Of the sphere.
+  int vertices = 0;
 };
 
 std::vector<char> vertices_in_faces(const Embedding& embedding) {
@@ -152,14 +157,14 @@ Welding weld(const Embedding& embedding, const std::vector<std::vector<int>>& ac
   return welding;
 }
 
-/// A closed mesh of triangles has 3/2 as many edges as faces: Euler's V - E + F = 2 reads 2 V = F + 4.
+/// A closed mesh of triangles has 3/2 as many edges as faces, so Euler's V - E + F = 2 becomes 2 V = F + 4.
 void check_sphere(long long vertices, long long faces) {
   if (2 * vertices != faces + 4)
     throw ArgumentError(
         "the copies of the embedding do not close up into a sphere: its seams are not its whole boundary");
 }
 
-/// Appends the vertices of the tile's copies in turn, except those that an earlier copy has brought.
+/// Appends the vertices of the tile's copies in turn, except those that an earlier copy has added.
 class VertexSweep {
  public:
   VertexSweep(const Embedding& embedding, const Welding& welding, Tiling& tiling)
@@ -172,7 +177,7 @@ class VertexSweep {
     tiling_.source_vertex.resize(welding.vertices);
   }
 
-  /// The vertices of the sphere at the cut vertices of copy g. Call for g = 0, 1, 2, ... in turn.
+  /// The vertices of the sphere at the cut vertices of copy g. Call it for g = 0, 1, 2, ... in turn.
   const std::vector<int>& copy(int g) {
     for (const int v : welding_.copied) {
       const int k = welding_.on_seam[v];
@@ -199,12 +204,12 @@ class VertexSweep {
   const Embedding& embedding_;
   const Welding& welding_;
   Tiling& tiling_;
-  std::vector<int> vertex_of_;      // n_cut: of the present copy
-  std::vector<int> vertex_of_set_;  // |G| x seam vertices: at the smallest members
+  std::vector<int> vertex_of_;      // n_cut: of the current copy
+  std::vector<int> vertex_of_set_;  // |G| x seam vertices: set for the smallest members
   int next_ = 0;
 };
 
-/// The input face of every triangle of the embedding: a polygon of d corners has d - 2.
+/// The input face of every triangle of the embedding: a polygon of d corners has d - 2 triangles.
 std::vector<int> faces_of_triangles(const Embedding& embedding) {
   const FaceView faces = embedding.input_faces();
   std::vector<int> result;
@@ -213,7 +218,7 @@ std::vector<int> faces_of_triangles(const Embedding& embedding) {
   return result;
 }
 
-/// Appends the polygons of copy g, from the same corners; mirrored copies are turned over.
+/// Appends the polygons of copy g, each from the same corner on; mirrored copies are turned over.
 void place_polygons(const Embedding& embedding, int g, const std::vector<int>& vertex_of, Tiling& tiling) {
   std::vector<int>& corners = tiling.polygons.corners;
   const FaceView polygons(embedding.polygons);
@@ -226,7 +231,7 @@ void place_polygons(const Embedding& embedding, int g, const std::vector<int>& v
   }
 }
 
-/// Fills in the triangles of copy g; mirrored copies are turned over.
+/// Sets the triangles of copy g; mirrored copies are turned over.
 void place_faces(const Embedding& embedding, int g, const std::vector<int>& vertex_of, Tiling& tiling) {
   const Eigen::Index faces = embedding.faces.rows();
   const int second = tiling.copies[g].mirrored ? 2 : 1;

@@ -214,7 +214,8 @@ const std::string two_vertices = "two vertices";
 const std::string three_boundary_vertices = "three boundary vertices, in the order of the digits";
 const std::string four_boundary_vertices = "four boundary vertices, in the order in which they go around";
 const std::string two_boundary_vertices = "two boundary vertices";
-const std::string vertex_on_each_side = "one inside, of the order before the star, then one on the boundary";
+const std::string vertex_on_each_side =
+    "one vertex inside (first order), then one on the boundary (second order)";
 const std::string one_vertex_inside = "one vertex inside";
 const std::string one_vertex = "one vertex";
 

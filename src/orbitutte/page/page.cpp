@@ -133,8 +133,9 @@ std::string verdict_sentence(const Judgement& judgement, const Embedding& embedd
     return fmt::format(
         "The map is a bijection: {} the sphere exactly once, which the certificate below proves on the "
         "stored numbers.",
-        embedding.target.group_order == 1 ? "the tile covers"
-                                   : fmt::format("its {} symmetric copies cover", embedding.target.group_order));
+        embedding.target.group_order == 1
+            ? "the tile covers"
+            : fmt::format("its {} symmetric copies cover", embedding.target.group_order));
   if (judgement.certificate.bijective)
     return "The optimiser stopped before it converged: the map passes every check, but it is not the "
            "minimiser.";
@@ -297,12 +298,13 @@ std::string cones_table(const Embedding& embedding) {
 std::string seams_table(const Embedding& embedding) {
   std::string rows;
   for (const Seam& seam : embedding.seams)
-    rows +=
-        row({name(seam.kind()), grouped_digits(static_cast<long long>(seam.left.size())),
-             fmt::format("{:.4g}&deg;",
-                         std::acos(std::clamp((seam.transform.matrix().determinant() * seam.transform.matrix().trace() - 1) / 2,
-                                              -1.0, 1.0)) *
-                             180 / std::numbers::pi)});
+    rows += row(
+        {name(seam.kind()), grouped_digits(static_cast<long long>(seam.left.size())),
+         fmt::format("{:.4g}&deg;",
+                     std::acos(std::clamp(
+                         (seam.transform.matrix().determinant() * seam.transform.matrix().trace() - 1) / 2,
+                         -1.0, 1.0)) *
+                         180 / std::numbers::pi)});
   return table(head({"Seam", "Vertices", "Angle"}), rows);
 }
 
@@ -373,8 +375,8 @@ std::string view(const PageOptions& options) {
 std::string scripts(const PageSubject& subject, const PageOptions& options) {
   if (!is_interactive(options)) return {};
   return "<script type=\"application/json\" id=\"scene\">" +
-         page_scene(subject.mesh, subject.embedding, subject.colours, options.limits) +
-         "</script>\n<script>" + std::string(page_script) + "</script>";
+         page_scene(subject.surface, subject.embedding, options.limits) + "</script>\n<script>" +
+         std::string(page_script) + "</script>";
 }
 
 std::string licences(const PageOptions& options) {
@@ -409,18 +411,18 @@ Json parse(const std::string& report) {
 }
 
 void require_match(const PageSubject& subject) {
-  const Mesh& mesh = subject.mesh;
+  const Surface& surface = subject.surface;
   const Embedding& embedding = subject.embedding;
-  if (embedding.faces.rows() != mesh.F.rows())
+  if (embedding.faces.rows() != surface.triangles.rows())
     throw MeshError(fmt::format("the embedding has {} faces, the mesh {}: it is not of this mesh",
-                                embedding.faces.rows(), mesh.F.rows()));
+                                embedding.faces.rows(), surface.triangles.rows()));
   for (const int v : embedding.source_vertex)
-    if (v < 0 || v >= mesh.V.rows())
+    if (v < 0 || v >= surface.V.rows())
       throw MeshError(fmt::format(
-          "the embedding names vertex {}, but the mesh has {}: it is not of this mesh", v, mesh.V.rows()));
-  if (subject.colours.rows() != 0 && subject.colours.rows() != mesh.V.rows())
+          "the embedding names vertex {}, but the mesh has {}: it is not of this mesh", v, surface.V.rows()));
+  if (surface.colours.rows() != 0 && surface.colours.rows() != surface.V.rows())
     throw MeshError(fmt::format("there are colours of {} vertices, but the mesh has {}",
-                                subject.colours.rows(), mesh.V.rows()));
+                                surface.colours.rows(), surface.V.rows()));
 }
 
 /// The last part of the path that the report gives.
@@ -431,20 +433,13 @@ std::string mesh_name(const Json& report) {
   return file.empty() ? "mesh" : file;
 }
 
-/// The certificate of the embedding's own faces: of its polygons, where it has them.
-Certificate certificate_of(const PageSubject& subject) {
-  const Embedding& embedding = subject.embedding;
-  if (embedding.polygons.count() == 0) return certify(subject.mesh, embedding);
-  Polygons source = embedding.polygons;
-  for (int& v : source.corners) v = embedding.source_vertex[v];
-  return certify(static_cast<int>(subject.mesh.V.rows()), FaceView(source), embedding);
-}
-
 Slots slots(const PageSubject& subject, const PageOptions& options) {
   const Json report = parse(subject.report);
   const Embedding& embedding = subject.embedding;
-  const Judgement judgement = {certificate_of(subject), at(report, "/termination") == "converged"};
-  const std::string name = escape_html(mesh_name(report)), signature = escape_html(embedding.target.signature);
+  const Judgement judgement = {certify(subject.surface, embedding),
+                               at(report, "/termination") == "converged"};
+  const std::string name = escape_html(mesh_name(report)),
+                    signature = escape_html(embedding.target.signature);
   return {{"policy", policy(options)},
           {"style", std::string(page_style)},
           {"title", name + " onto " + signature},

@@ -22,9 +22,6 @@ namespace orbitutte {
 ///
 /// Holds no `<`, so that it can stand within a script element. Throws as tile_sphere does where the seams
 /// generate no group of the right order; then `copies` would mean nothing.
-///
-/// colours: of the mesh's vertices, n x 3, sRGB, 0 .. 1; or none.
-std::string page_scene(const Mesh& mesh, const Embedding& embedding, const Points& colours,
-                       const DisplayLimits& limits = {});
+std::string page_scene(const Surface& surface, const Embedding& embedding, const DisplayLimits& limits = {});
 
 }  // namespace orbitutte

@@ -4,8 +4,8 @@
 
 #include <vector>
 
+#include "orbitutte/minimum.h"
 #include "orbitutte/render/canvas.h"
-#include "orbitutte/solve/lbfgs.h"
 
 namespace orbitutte {
 

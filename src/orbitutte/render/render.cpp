@@ -49,12 +49,13 @@ double em_of(Panel panel, const PictureSize& size) {
 
 void require_same_mesh(const RenderSubject& subject) {
   const Embedding& embedding = subject.embedding;
-  if (subject.mesh.F.rows() != embedding.faces.rows())
+  if (subject.surface.triangles.rows() != embedding.faces.rows())
     throw MeshError(fmt::format("the mesh has {} faces and the embedding {}: they do not belong together",
-                                subject.mesh.F.rows(), embedding.faces.rows()));
-  if (subject.mesh.F.rows() == 0) throw MeshError("the mesh has no faces: there is nothing to draw");
-  if (!subject.mesh.V.allFinite()) throw MeshError("the mesh has coordinates that are not finite");
-  const int vertices = static_cast<int>(subject.mesh.V.rows());
+                                subject.surface.triangles.rows(), embedding.faces.rows()));
+  if (subject.surface.triangles.rows() == 0)
+    throw MeshError("the mesh has no faces: there is nothing to draw");
+  if (!subject.surface.V.allFinite()) throw MeshError("the mesh has coordinates that are not finite");
+  const int vertices = static_cast<int>(subject.surface.V.rows());
   for (const int v : embedding.source_vertex)
     if (v < 0 || v >= vertices)
       throw MeshError(fmt::format(

@@ -22,8 +22,9 @@ std::string summary(const RenderSubject& subject) {
   for (const ConeCopies& cone : subject.embedding.cones) marked.push_back(cone.vertex);
   const Report& report = subject.report;
   return fmt::format("{} triangles,  marked vertices {},  group of order {},  energy {:.6g},  {}",
-                     with_commas(subject.mesh.F.rows()), fmt::join(marked, ", "), report.group_order,
-                     report.energy, report.bijective ? "certified bijective" : "not certified");
+                     with_commas(subject.surface.triangles.rows()), fmt::join(marked, ", "),
+                     report.group_order, report.energy,
+                     report.bijective ? "certified bijective" : "not certified");
 }
 
 // Returns what remains below.

@@ -93,7 +93,7 @@ Json history_json(const std::vector<Iteration>& history) {
 }
 
 Json timings_json(const Timings& stages, const RunRecord& run) {
-  Json timings = {{"read", run.read_seconds}};
+  Json timings = {{"read", run.read_seconds}, {"validate", run.validate_seconds}};
   for (const auto& [stage, seconds] : stages) timings[stage] = timings.value(stage, 0.0) + seconds;
   timings["write"] = run.write_seconds;
   timings["total"] = run.total_seconds;
@@ -223,9 +223,7 @@ WeightOptions to_weights(const Json& json) {
   const WeightKind kind = one_of({WeightKind::cotan, WeightKind::delaunay, WeightKind::mean_value,
                                   WeightKind::uniform, WeightKind::file},
                                  text(json, "kind"), "the weights");
-  WeightOptions weights = {kind, number(json, "clamp"), {}};
-  if (kind == WeightKind::delaunay) weights.kept_faces = integers(json, "kept_faces");
-  return weights;
+  return {kind, number(json, "clamp"), {}};
 }
 
 std::vector<Iteration> to_history(const Json& rows) {
@@ -251,7 +249,9 @@ Report to_report(const Json& json) {
   if (json.contains("placement")) report.placement = report.space.isometry(matrix(json, "placement"));
   for (const Json& seam : array(json, "seams")) report.seams.push_back(to_seam(report.space, seam));
   for (const Json& cone : array(json, "cones")) report.cones.push_back(to_cone(cone));
-  report.weights = to_weights(object(json, "weights"));
+  const Json& weights = object(json, "weights");
+  report.weights = to_weights(weights);
+  if (report.weights.kind == WeightKind::delaunay) report.kept_faces = integers(weights, "kept_faces");
   report.energy = number(json, "energy");
   report.history = to_history(array(json, "history"));
   report.converged = text(json, "termination") == name(Termination::converged);

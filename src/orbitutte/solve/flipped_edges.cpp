@@ -117,12 +117,12 @@ class Frames {
 
 }  // namespace
 
-GluedEdges flipped_edges(const Faces& F, const Connectivity& connectivity,
-                         const IntrinsicTriangulation& triangulation, const CutMesh& cut,
-                         const BoundaryConditions& boundary) {
+GluedEdges flipped_edges(const Surface& surface, const IntrinsicTriangulation& triangulation,
+                         const CutMesh& cut, const BoundaryConditions& boundary) {
+  const Faces& F = surface.triangles;
   Elements elements(boundary.transforms);
   Frames frames(F, cut, boundary, elements);
-  frames.open_banks(F, connectivity, cut, changes_at_banks(boundary.seams, elements));
+  frames.open_banks(F, surface.connectivity, cut, changes_at_banks(boundary.seams, elements));
   for (const Flip& flip : triangulation.flips) frames.apply(flip);
 
   GluedEdges result;

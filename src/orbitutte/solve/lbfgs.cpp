@@ -222,18 +222,6 @@ void check(const LbfgsOptions& options) {
 
 }  // namespace
 
-std::string name(Termination termination) {
-  switch (termination) {
-    case Termination::converged:
-      return "converged";
-    case Termination::max_iterations:
-      return "max_iterations";
-    case Termination::line_search_failed:
-      return "line_search_failed";
-  }
-  return {};
-}
-
 Minimum minimize(const DirichletEnergy& energy, const LaplacianSolver& laplacian, const Points& start,
                  const LbfgsOptions& options) {
   check(options);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "orbitutte/solve/flipped_edges.h"
 #include "orbitutte/solve/frame.h"
 #include "orbitutte/solve/initial_embedding.h"
 
@@ -69,28 +70,34 @@ void resolve(const GluingProblem& problem, const DirichletEnergy& energy, Placem
   if (!frame) return;
   placed.frame = *frame;
   move(problem, *frame, placed);
-  const DirichletEnergy there(problem.glued_along(placed.boundary), problem.weights, placed.boundary);
+  const DirichletEnergy there(glued_along(problem, placed.boundary), problem.weights, placed.boundary);
   positions = settle_in_frame(positions, *frame, there, placed.boundary);
 }
 
 }  // namespace
 
-BoundaryConditions boundary_conditions(const Mesh& mesh, const CutMesh& cut, const Tile& tile,
+GluedEdges glued_along(const GluingProblem& problem, const BoundaryConditions& boundary) {
+  const IntrinsicTriangulation* triangulation = problem.weights.triangulation.get();
+  return triangulation ? flipped_edges(problem.surface, *triangulation, problem.cut, boundary)
+                       : glued_edges(problem.cut, problem.surface.connectivity, boundary);
+}
+
+BoundaryConditions boundary_conditions(const Surface& surface, const CutMesh& cut, const Tile& tile,
                                        const Target& target, Spread spread) {
   BoundaryConditions boundary = glue(cut, tile, target);
-  hold_sides(mesh, cut, tile, spread, boundary);
+  hold_sides(surface, cut, tile, spread, boundary);
   return boundary;
 }
 
 Placement place(const GluingProblem& problem, const LbfgsOptions& options, Stages& stage) {
-  const GluedEdges glued = problem.glued_along(problem.boundary);
+  const GluedEdges glued = glued_along(problem, problem.boundary);
   require_apart(glued, problem.boundary, problem.target);
   const DirichletEnergy energy(glued, problem.weights, problem.boundary);  // (2)
   const LaplacianSolver laplacian = stage("factorize", [&] {
     return LaplacianSolver(problem.cut, glued, problem.weights, problem.boundary, problem.laplacian);
   });
   const Points start = stage("initialize", [&] {  // appendix B
-    return initial_embedding(problem.mesh, problem.cut, problem.tile, problem.boundary, laplacian);
+    return initial_embedding(problem.surface, problem.cut, problem.tile, problem.boundary, laplacian);
   });
   LbfgsOptions lbfgs = options;
   lbfgs.callback = [&](int iteration, const Iteration& state) {

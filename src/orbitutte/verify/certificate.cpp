@@ -120,7 +120,8 @@ Check surface_check(const Embedding& embedding) {
   const Points& X = embedding.positions;
   if (!X.allFinite()) return none(name, 1, "a position is not finite");
   const Space space = embedding.space();
-  return at_most(name, parallel_max(static_cast<int>(X.rows()), [&](int v) { return space.defect(X.row(v)); }),
+  return at_most(name,
+                 parallel_max(static_cast<int>(X.rows()), [&](int v) { return space.defect(X.row(v)); }),
                  unit_bound);
 }
 
@@ -195,7 +196,8 @@ void cover_banks(const Seam& seam, std::size_t s, std::unordered_map<int, int>& 
 std::vector<int> fixed_corners(const Embedding& embedding) {
   std::vector<int> corners;
   for (const ConeCopies& cone : embedding.cones)
-    if (cone.mark.kind == ConeKind::fixed) corners.insert(corners.end(), cone.copies.begin(), cone.copies.end());
+    if (cone.mark.kind == ConeKind::fixed)
+      corners.insert(corners.end(), cone.copies.begin(), cone.copies.end());
   return corners;
 }
 
@@ -345,8 +347,9 @@ Check group_check(const Embedding& embedding) {
   try {
     const int of_signature = claimed_target(embedding).group_order;
     if (of_signature != order)
-      return {name, false, static_cast<double>(order), static_cast<double>(of_signature),
-              fmt::format("{} has a group of order {}, not {}", embedding.target.signature, of_signature, order)};
+      return {
+          name, false, static_cast<double>(order), static_cast<double>(of_signature),
+          fmt::format("{} has a group of order {}, not {}", embedding.target.signature, of_signature, order)};
     if (order == 0) return {name, true, 0, 0, {}};
     std::vector<Isometry> generators;
     for (const Seam& seam : embedding.seams) generators.push_back(seam.transform);
@@ -407,8 +410,9 @@ Check edge_length_check(const Embedding& embedding, double& longest) {
   };
   const double widest = parallel_max(faces.count(), [&](int f) { return largest(f, squared_chord); });
   longest = parallel_max(faces.count(), [&](int f) {
-    return largest(
-        f, [&](int a, int b) { return squared_chord(a, b) < widest ? 0.0 : space.distance(X.row(a), X.row(b)); });
+    return largest(f, [&](int a, int b) {
+      return squared_chord(a, b) < widest ? 0.0 : space.distance(X.row(a), X.row(b));
+    });
   });
   const double bound = space.longest_unique();
   Check check = {"edge_lengths", longest < bound, longest, bound, {}};
@@ -502,21 +506,16 @@ Certificate certify(int vertex_count, const FaceView& faces, const Embedding& em
   return certificate;
 }
 
-Certificate certify(const Mesh& mesh, const Embedding& embedding) {
-  return certify(static_cast<int>(mesh.V.rows()), FaceView(mesh.F), embedding);
+Certificate certify(const Surface& surface, const Embedding& embedding) {
+  return certify(surface.vertex_count(), surface.faces(), embedding);
 }
 
-Certificate certify(const PolygonMesh& mesh, const Embedding& embedding) {
-  return certify(mesh.vertex_count(), FaceView(mesh.corners, mesh.face_start), embedding);
-}
-
-Certificate certify_intrinsic(const Mesh& mesh, const Embedding& embedding,
+Certificate certify_intrinsic(const Surface& surface, const Embedding& embedding,
                               const IntrinsicTriangulation& triangulation) {
   Certificate certificate;
-  if (!check_input(static_cast<int>(mesh.V.rows()), FaceView(mesh.F), embedding, certificate))
-    return certificate;
+  if (!check_input(surface.vertex_count(), surface.faces(), embedding, certificate)) return certificate;
   if (!check_gluing(embedding, embedding, certificate)) return certificate;
-  const Embedding layout = laid_out(mesh, embedding, triangulation);
+  const Embedding layout = laid_out(surface, embedding, triangulation);
   if (check_layout(layout, triangulation, certificate)) check_faces(layout, layout, {}, certificate);
   return certificate;
 }

@@ -24,7 +24,8 @@ std::array<int, 2> beside(std::span<const int> corners, std::size_t k) {
   return {corners[(k + d - 1) % d], corners[(k + 1) % d]};
 }
 
-// Input vertices with two edges: those of all of their corners are the same. Cones are left out.
+// Per input vertex: does it have two edges, so that all its corners have the same neighbours? Cones do not
+// count.
 std::vector<char> vertices_with_two_edges(const Embedding& embedding) {
   const FaceView faces = embedding.input_faces();
   const std::vector<int>& source = embedding.source_vertex;
@@ -45,7 +46,7 @@ std::vector<char> vertices_with_two_edges(const Embedding& embedding) {
   return result;
 }
 
-// How far b is off the great circle through a and c.
+// The distance of b from the great circle through a and c.
 double offset(const Vector3& a, const Vector3& b, const Vector3& c) {
   const Vector3 normal = a.cross(c);
   return std::abs(normal.dot(b - a)) / normal.norm();

@@ -18,13 +18,13 @@ int element(const SymmetryGroup& group, const Isometry& isometry) {
   return g;
 }
 
-// position(to) = transform * position(from), for two cut vertices that a seam pairs.
+// A seam pairs two cut vertices: position(to) = transform * position(from).
 struct Passage {
   int to;
   Isometry transform;
 };
 
-// Both directions of every pair.
+// The passages from every cut vertex, in both directions of every pair.
 std::vector<std::vector<Passage>> passages(const Embedding& embedding) {
   std::vector<std::vector<Passage>> from(embedding.source_vertex.size());
   for (const Seam& seam : embedding.seams) {
@@ -36,7 +36,7 @@ std::vector<std::vector<Passage>> passages(const Embedding& embedding) {
   return from;
 }
 
-// Where the cut vertices lie in the cover: cut vertex c is copy lift[c] of its source vertex.
+// The places of the cut vertices in the cover: cut vertex c is copy lift[c] of its source vertex.
 class Lifting {
  public:
   Lifting(const Embedding& embedding, const SymmetryGroup& group)
@@ -63,15 +63,15 @@ class Lifting {
  private:
   static constexpr int unknown = -1, identity = 0;
 
-  // One list for every source vertex; the first cut vertices are the source vertices.
+  // An empty list for every source vertex. The first cut vertices are the source vertices.
   static std::vector<std::vector<int>> group_vertices(const Embedding& embedding) {
     int vertices = 0;
     for (const int source : embedding.source_vertex) vertices = std::max(vertices, source + 1);
     return std::vector<std::vector<int>>(vertices);
   }
 
-  // Every closed way through the seams brings v back to itself by an element of its stabilizer; those that
-  // close with the last step of a search generate it.
+  // Searches the copies of v along the seams. Every loop through the seams brings v back to itself by an
+  // element of its stabilizer. The loops that the steps of the search close generate it.
   void follow_seams(int v) {
     lift[v] = identity;
     std::vector<int> reached = {v};
@@ -105,7 +105,8 @@ Eigen::VectorXd vertex_areas(const Embedding& embedding, int vertices) {
   return area;
 }
 
-// Every edge as one of its faces has it, from its origin by the element lift(origin)^-1 lift(target).
+// The edges in the cover. Each is taken from one of its faces, and its element is lift(origin)^-1
+// lift(target).
 std::vector<CoverEdge> cover_edges(const Connectivity& connectivity, const EdgeWeights& weights,
                                    const Embedding& embedding, const Lifting& lifting) {
   std::vector<CoverEdge> edges;
@@ -118,8 +119,8 @@ std::vector<CoverEdge> cover_edges(const Connectivity& connectivity, const EdgeW
   return edges;
 }
 
-// The element that takes a vertex's position to where a corner of a face lies; any where several do, since
-// they differ by the vertex's stabilizer.
+// The element that takes a vertex's position to that of a corner of a face. If several do, they differ by the
+// vertex's stabilizer, and any of them will do.
 int element_between(const Vector3& position, const Vector3& corner, const SymmetryGroup& group) {
   int nearest = 0;
   double distance = (position - corner).squaredNorm();
@@ -130,7 +131,7 @@ int element_between(const Vector3& position, const Vector3& corner, const Symmet
   return nearest;
 }
 
-// Of faces whose corners have positions of their own.
+// The edges in the cover for faces whose corners have positions of their own.
 std::vector<CoverEdge> layout_edges(const Embedding& layout, const EdgeWeights& weights,
                                     const Points& positions, const SymmetryGroup& group) {
   const std::vector<int>& edge_of = weights.triangulation->connectivity.edge_of;
@@ -142,31 +143,31 @@ std::vector<CoverEdge> layout_edges(const Embedding& layout, const EdgeWeights& 
     const Vector3 from = layout.positions.row(h), to = layout.positions.row(next);
     const int at_from = element_between(positions.row(i), from, group),
               at_to = element_between(positions.row(j), to, group);
-    const int g = at_from == at_to
-                      ? 0
-                      : element(group, group.elements()[at_from].inverse() * group.elements()[at_to]);
+    const int g =
+        at_from == at_to ? 0 : element(group, group.elements()[at_from].inverse() * group.elements()[at_to]);
     edges.push_back({i, j, g, weights.w[edge_of[h]], layout.space().distance(from, to)});
   }
   return edges;
 }
 
-}  // namespace
-
-Cover cover_of_layout(const Mesh& mesh, const EdgeWeights& weights, const Embedding& embedding,
+Cover cover_of_layout(const Surface& surface, const EdgeWeights& weights, const Embedding& embedding,
                       const SymmetryGroup& group) {
   Lifting lifting(embedding, group);
   const int vertices = static_cast<int>(lifting.stabilizers.size());
-  const Embedding layout = laid_out(mesh, embedding, *weights.triangulation);
+  const Embedding layout = laid_out(surface, embedding, *weights.triangulation);
   const Points positions = embedding.positions.topRows(vertices);
   std::vector<CoverEdge> edges = layout_edges(layout, weights, positions, group);
   return {positions, std::move(lifting.stabilizers), vertex_areas(layout, vertices), std::move(edges)};
 }
 
-Cover cover_of(const Connectivity& connectivity, const EdgeWeights& weights, const Embedding& embedding,
+}  // namespace
+
+Cover cover_of(const Surface& surface, const EdgeWeights& weights, const Embedding& embedding,
                const SymmetryGroup& group) {
+  if (weights.triangulation) return cover_of_layout(surface, weights, embedding, group);
   Lifting lifting(embedding, group);
   const int vertices = static_cast<int>(lifting.stabilizers.size());
-  std::vector<CoverEdge> edges = cover_edges(connectivity, weights, embedding, lifting);
+  std::vector<CoverEdge> edges = cover_edges(surface.connectivity, weights, embedding, lifting);
   return {embedding.positions.topRows(vertices), std::move(lifting.stabilizers),
           vertex_areas(embedding, vertices), std::move(edges)};
 }

@@ -69,12 +69,14 @@ int histogram_bin(double area_ratio) {
 }
 
 // The largest coordinate of an edge: areas in its square overflow nowhere.
-double length_unit(const Mesh& mesh) {
+double length_unit(const Surface& surface) {
   double unit = 0;
-  for (int f = 0; f < mesh.F.rows(); ++f)
+  for (int f = 0; f < surface.triangles.rows(); ++f)
     for (int k = 0; k < 3; ++k)
-      unit = std::max(unit,
-                      (mesh.V.row(mesh.F(f, (k + 1) % 3)) - mesh.V.row(mesh.F(f, k))).cwiseAbs().maxCoeff());
+      unit = std::max(
+          unit, (surface.V.row(surface.triangles(f, (k + 1) % 3)) - surface.V.row(surface.triangles(f, k)))
+                    .cwiseAbs()
+                    .maxCoeff());
   return unit > 0 ? unit : 1;
 }
 
@@ -105,13 +107,13 @@ FaceDistortion face_distortion(const std::array<Vector3, 3>& source, const std::
 
 }  // namespace
 
-std::vector<FaceDistortion> measure_faces(const Mesh& mesh, const Embedding& embedding) {
-  const int m = static_cast<int>(mesh.F.rows());
-  const double unit = length_unit(mesh);
+std::vector<FaceDistortion> measure_faces(const Surface& surface, const Embedding& embedding) {
+  const int m = surface.triangle_count();
+  const double unit = length_unit(surface);
   const Space space = embedding.space();
   const auto source = [&](int f) {
     const auto corner = [&](int k) {
-      return mesh.V.row(embedding.source_vertex[embedding.faces(f, k)]) / unit;
+      return surface.V.row(embedding.source_vertex[embedding.faces(f, k)]) / unit;
     };
     return std::array<Vector3, 3>{corner(0), corner(1), corner(2)};
   };
@@ -139,8 +141,8 @@ std::vector<FaceDistortion> measure_faces(const Mesh& mesh, const Embedding& emb
   return of_face;
 }
 
-Distortion measure_distortion(const Mesh& mesh, const Embedding& embedding) {
-  const std::vector<FaceDistortion> of_face = measure_faces(mesh, embedding);
+Distortion measure_distortion(const Surface& surface, const Embedding& embedding) {
+  const std::vector<FaceDistortion> of_face = measure_faces(surface, embedding);
   Distortion result;
   result.histogram = empty_histogram();
   std::vector<double> areas;

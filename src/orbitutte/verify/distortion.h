@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "orbitutte/mesh/surface.h"
 #include "orbitutte/orbifold/embedding.h"
 
 namespace orbitutte {
@@ -31,10 +32,10 @@ struct FaceDistortion {
 };
 
 /// Of every face of the embedding (m).
-std::vector<FaceDistortion> measure_faces(const Mesh& mesh, const Embedding& embedding);
+std::vector<FaceDistortion> measure_faces(const Surface& surface, const Embedding& embedding);
 
 /// Left out and not counted are triangles without area, and images that are not positively oriented or
 /// thinner than the rounding errors of positions, whose shape is noise.
-Distortion measure_distortion(const Mesh& mesh, const Embedding& embedding);
+Distortion measure_distortion(const Surface& surface, const Embedding& embedding);
 
 }  // namespace orbitutte

@@ -19,23 +19,23 @@ double energy_of_layout(const Embedding& layout, const std::vector<int>& edge_of
   return energy;
 }
 
-}  // namespace
-
-double dirichlet_energy(const Connectivity& connectivity, const EdgeWeights& weights,
-                        const Embedding& embedding) {
+// With an image of every edge of the surface.
+double energy_of_edges(const Connectivity& connectivity, const Embedding& embedding,
+                       const Eigen::VectorXd& w) {
   double energy = 0;
   visit_edges(connectivity, embedding, [&](int e, int a, int b) {
     const double d = embedding.space().distance(embedding.positions.row(a), embedding.positions.row(b));
-    energy += weights.w[e] * d * d;
+    energy += w[e] * d * d;
   });
   return energy;
 }
 
-double dirichlet_energy(const Mesh& mesh, const Connectivity& connectivity, const EdgeWeights& weights,
-                        const Embedding& embedding) {
-  if (!weights.triangulation) return dirichlet_energy(connectivity, weights, embedding);
+}  // namespace
+
+double dirichlet_energy(const Surface& surface, const EdgeWeights& weights, const Embedding& embedding) {
+  if (!weights.triangulation) return energy_of_edges(surface.connectivity, embedding, weights.w);
   const std::vector<int>& edge_of = weights.triangulation->connectivity.edge_of;
-  return energy_of_layout(laid_out(mesh, embedding, *weights.triangulation), edge_of, weights.w);
+  return energy_of_layout(laid_out(surface, embedding, *weights.triangulation), edge_of, weights.w);
 }
 
 }  // namespace orbitutte

@@ -27,19 +27,17 @@ std::map<Pair, Isometry> continuations(const std::vector<Seam>& seams) {
 // Faces whose corners have positions of their own; across some half-edges the map goes on in another frame.
 class Layout {
  public:
-  Layout(const Mesh& mesh, const Embedding& embedding)
-      : F_(mesh.F),
-        opposite_(connect(mesh.F, static_cast<int>(mesh.V.rows())).opposite),
-        positions_(mesh.F.size(), 3) {
-    std::vector<int> copy(mesh.F.size());  // of the vertex where each half-edge begins: its cut vertex
-    for (int h = 0; h < static_cast<int>(mesh.F.size()); ++h) {
+  Layout(const Surface& surface, const Embedding& embedding)
+      : F_(surface.triangles), opposite_(surface.connectivity.opposite), positions_(F_.size(), 3) {
+    std::vector<int> copy(F_.size());  // of the vertex where each half-edge begins: its cut vertex
+    for (int h = 0; h < static_cast<int>(F_.size()); ++h) {
       for (const int v : embedding.faces.row(h / 3))
         if (embedding.source_vertex[v] == origin(F_, h)) copy[h] = v;
       positions_.row(h) = embedding.positions.row(copy[h]);
     }
     const std::map<Pair, Isometry> beyond = continuations(embedding.seams);
     if (beyond.empty()) return;
-    for (int h = 0; h < static_cast<int>(mesh.F.size()); ++h) {
+    for (int h = 0; h < static_cast<int>(F_.size()); ++h) {
       const int g = opposite_[h];
       if (g < 0) continue;
       const Pair here = ascending(copy[h], copy[next_halfedge(h)]);
@@ -60,8 +58,7 @@ class Layout {
         Side{opposite_[ka], beyond(ka)}, Side{opposite_[al], into * beyond(al)},
         Side{opposite_[lb], into * beyond(lb)}, Side{opposite_[bk], beyond(bk)}};
     for (const int s : {1, 2})
-      if (sides[s].opposite >= 0)
-        set_beyond(sides[s].opposite, beyond(sides[s].opposite) * into.inverse());
+      if (sides[s].opposite >= 0) set_beyond(sides[s].opposite, beyond(sides[s].opposite) * into.inverse());
     set_corner(h, l), set_corner(bk, k), set_corner(ka, a);
     set_corner(g, k), set_corner(next_halfedge(g), l), set_corner(previous_halfedge(g), b);
     set_beyond(h, {});
@@ -108,22 +105,22 @@ class Layout {
 
   Faces F_;
   std::vector<int> opposite_;
-  Points positions_;                         // of the corner where each half-edge begins
+  Points positions_;                          // of the corner where each half-edge begins
   std::unordered_map<int, Isometry> beyond_;  // takes the face beyond a half-edge to where its own goes on
 };
 
 }  // namespace
 
-Embedding laid_out(const Mesh& mesh, const Embedding& embedding,
+Embedding laid_out(const Surface& surface, const Embedding& embedding,
                    const IntrinsicTriangulation& triangulation) {
-  Layout layout(mesh, embedding);
+  Layout layout(surface, embedding);
   for (const Flip& flip : triangulation.flips) layout.flip(flip.h);
   Embedding result;
   result.target = embedding.target;
   result.placement = embedding.placement;
   result.positions = layout.positions();
-  result.faces.resize(mesh.F.rows(), 3);
-  for (int h = 0; h < static_cast<int>(mesh.F.size()); ++h) result.faces.data()[h] = h;
+  result.faces.resize(surface.triangles.rows(), 3);
+  for (int h = 0; h < static_cast<int>(result.faces.size()); ++h) result.faces.data()[h] = h;
   result.source_vertex.assign(layout.faces().data(), layout.faces().data() + layout.faces().size());
   result.cones = embedding.cones;
   for (ConeCopies& cone : result.cones) {
