@@ -13,8 +13,10 @@
 
 #include "base64_text.h"
 #include "orbitutte/export/html_text.h"
+#include "orbitutte/export/palette.h"
 #include "orbitutte/io/bytes.h"
-#include "orbitutte/page/page_charts.h"
+#include "orbitutte/mesh/triangulation.h"
+#include "orbitutte/page/html_template.h"
 #include "orbitutte/page/page_scene.h"
 #include "orbitutte/report/report.h"
 #include "orbitutte/samples/sample.h"
@@ -28,6 +30,10 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 using Json = nlohmann::json;
+
+std::string scene_of(const test::SampleEmbedding& sample, const Points& colours = Points(0, 3)) {
+  return page_scene(sample.mesh, sample.embedding(), measure_faces(sample.mesh, sample.embedding()), colours);
+}
 
 constexpr const char* hostile =
     R"(a"'><img src=x onerror=alert(1)></script><script>alert(2)</script>{{style}})";
@@ -87,10 +93,41 @@ TEST(HtmlText, Base64DecodesToTheSameBytes) {
   EXPECT_EQ(test::from_base64(base64(large)), large);
 }
 
-TEST(HtmlText, SlotsAreFilledOnceAndMustBeKnown) {
-  EXPECT_EQ(fill_slots("{{a}} and {{b}}", {{"a", "{{b}}"}, {"b", "2"}}), "{{b}} and 2");
-  EXPECT_EQ(fill_slots("no slot }} {{", {}), "no slot }} {{");
-  EXPECT_THROW(fill_slots("{{c}}", {}), ArgumentError);
+TEST(HtmlTemplate, FillsOnceAndEscapesUnlessThreeBracesSayOtherwise) {
+  const Content content = {{"a", "{{b}}"}, {"b", "<'\"&>"}};
+  EXPECT_EQ(fill_template({"{{a}} {{b}} {{{b}}}", {}}, content), "{{b}} &lt;&#39;&quot;&amp;&gt; <'\"&>");
+}
+
+TEST(HtmlTemplate, RepeatsSectionsInsideWhichOuterNamesAreKnown) {
+  const Content content = {{"rows", {{{"k", "1"}}, {{"k", "2"}}}},
+                           {"words", {"<", "y"}},
+                           {"shown", true},
+                           {"hidden", false},
+                           {"unit", "s"}};
+  EXPECT_EQ(fill_template({"{{#rows}}{{k}}{{unit}} {{/rows}}", {}}, content), "1s 2s ");
+  EXPECT_EQ(fill_template({"{{#words}}{{.}},{{/words}}", {}}, content), "&lt;,y,");
+  EXPECT_EQ(
+      fill_template({"{{#shown}}a{{/shown}}{{#hidden}}b{{/hidden}}{{^hidden}}c{{/hidden}}", {}}, content),
+      "ac");
+  EXPECT_EQ(fill_template({"{{#rows}}{{>cell}}{{/rows}}", {{"cell", "<td>{{k}}</td>"}}}, content),
+            "<td>1</td><td>2</td>");
+}
+
+TEST(HtmlTemplate, RefusesNamesAndPartsWithoutContentAndSectionsThatDoNotEnd) {
+  EXPECT_THROW(fill_template({"{{c}}", {}}, Content::object()), ArgumentError);
+  EXPECT_THROW(fill_template({"{{#c}}{{/c}}", {}}, Content::object()), ArgumentError);
+  EXPECT_THROW(fill_template({"{{>c}}", {}}, Content::object()), ArgumentError);
+  EXPECT_THROW(fill_template({"{{#c}}", {}}, {{"c", true}}), ArgumentError);
+  EXPECT_THROW(fill_template({"{{>c}}", {{"c", "{{#d}}"}}}, {{"d", true}}), ArgumentError);
+  EXPECT_THROW(fill_template({"{{c}}", {}}, {{"c", 7}}), ArgumentError);
+}
+
+TEST(HtmlTemplate, AsksElsewhereForNamesThatTheContentDoesNotHave) {
+  const auto otherwise = [](const std::string& name) {
+    return name == "report.x" ? std::optional<std::string>("<") : std::nullopt;
+  };
+  EXPECT_EQ(fill_template({"{{report.x}}", {}, otherwise}, Content::object()), "&lt;");
+  EXPECT_THROW(fill_template({"{{report.y}}", {}, otherwise}, Content::object()), ArgumentError);
 }
 
 TEST(HtmlText, DigitsAreGroupedByThree) {
@@ -98,16 +135,6 @@ TEST(HtmlText, DigitsAreGroupedByThree) {
   EXPECT_EQ(grouped_digits(999), "999");
   EXPECT_EQ(grouped_digits(1234567), "1,234,567");
   EXPECT_EQ(grouped_digits(-123456), "-123,456");
-}
-
-TEST(PageCharts, NothingToShowGivesNoChart) {
-  EXPECT_EQ(histogram_svg({}), "");
-  EXPECT_EQ(histogram_svg({{0, 1, 2}, {0, 0}}), "");
-  EXPECT_EQ(histogram_svg({{0, 1}, {3, 4}}), "");
-  EXPECT_EQ(convergence_svg({}), "");
-  EXPECT_EQ(convergence_svg({{"zeros", {0, 0}}}), "");
-  EXPECT_THAT(convergence_svg({{"one", {1e-3}}}), HasSubstr("</svg>"));
-  EXPECT_THAT(histogram_svg({{0, 1}, {3}}), HasSubstr("</svg>"));
 }
 
 TEST(DisplayMesh, AMeshWithinTheLimitIsWhole) {
@@ -152,7 +179,7 @@ TEST(PageScene, HoldsTheDrawnVerticesInSourceAndImage) {
   for (const char* signature : {"532", "*223", "3*2", "2x"}) {
     const test::SampleEmbedding& sample = test::sample_embedding(signature);
     const Embedding& embedding = sample.embedding();
-    const Json scene = Json::parse(page_scene(test::unjudged(sample.mesh), embedding));
+    const Json scene = Json::parse(scene_of(sample));
     const auto source = numbers<std::uint16_t>(scene["source"]);
     const auto image = numbers<float>(scene["image"]);
     const auto vertex = numbers<std::uint32_t>(scene["source_vertex"]);
@@ -178,23 +205,38 @@ TEST(PageScene, HoldsTheColoursOfTheVerticesWhereTheMeshHasThem) {
   for (const char* signature : {"432", "*223", "2x"}) {
     const test::SampleEmbedding& sample = test::sample_embedding(signature);
     const Points colours = (sample.mesh.V.array() * 0.4 + 0.5).cwiseMax(0).cwiseMin(1);
-    Surface coloured = test::unjudged(sample.mesh);
-    coloured.colours = colours;
-    const Json scene = Json::parse(page_scene(coloured, sample.embedding()));
+    const Json scene = Json::parse(scene_of(sample, colours));
     const auto colour = numbers<std::uint8_t>(scene["colour"]);
     const auto vertex = numbers<std::uint32_t>(scene["source_vertex"]);
     ASSERT_EQ(colour.size(), 3 * vertex.size());
     for (std::size_t i = 0; i < colour.size(); ++i)
       EXPECT_NEAR(colour[i] / 255.0, colours(vertex[i / 3], static_cast<Eigen::Index>(i % 3)), 0.5 / 255);
-    EXPECT_FALSE(Json::parse(page_scene(test::unjudged(sample.mesh), sample.embedding())).contains("colour"));
+    EXPECT_FALSE(Json::parse(scene_of(sample)).contains("colour"));
+  }
+}
+
+TEST(PageScene, BringsTheColoursOfPicturesAlong) {
+  const test::SampleEmbedding& sample = test::sample_embedding("432");
+  const Json scene = Json::parse(scene_of(sample));
+  for (std::size_t c = 0; c < scene["cones"].size(); ++c)
+    EXPECT_EQ(scene["cones"][c]["colour"], hexadecimal(cone_colour(static_cast<int>(c))));
+  EXPECT_EQ(scene["tile"], hexadecimal(bold_colour));
+  const std::vector<FaceDistortion> faces = measure_faces(sample.mesh, sample.embedding());
+  for (const auto& [name, measure] : {std::pair("area", Measure::area), std::pair("angle", Measure::angle)}) {
+    const Json& scale = scene["scales"][name];
+    const ColourScale expected = colour_scale(measure, values_of(measure, faces));
+    EXPECT_EQ(scale["title"], expected.axis.title);
+    EXPECT_EQ(scale["high"], expected.axis.high);
+    EXPECT_EQ(scale["ticks"].size(), expected.axis.ticks.size());
+    EXPECT_EQ(scale["colours"].front(), hexadecimal(srgb(scale_colour(measure, 0))));
+    EXPECT_EQ(scale["colours"].back(), hexadecimal(srgb(scale_colour(measure, 1))));
   }
 }
 
 TEST(PageScene, NormalsAreUnitVectorsAndAgreeAcrossSeamsUpToSign) {
   for (const char* signature : {"432", "3x"}) {
     const test::SampleEmbedding& sample = test::sample_embedding(signature);
-    const auto normal = numbers<std::int8_t>(
-        Json::parse(page_scene(test::unjudged(sample.mesh), sample.embedding()))["normal"]);
+    const auto normal = numbers<std::int8_t>(Json::parse(scene_of(sample))["normal"]);
     const auto at = [&](int v) -> Vector3 {
       return Vector3(normal[3 * v], normal[3 * v + 1], normal[3 * v + 2]) / 127;
     };
@@ -219,7 +261,7 @@ TEST(Page, IsWellNestedHtmlThatHoldsEveryCheck) {
   }
 }
 
-TEST(Page, SpeaksOfFacesWhereTheyAreNotAllTriangles) {
+TEST(Page, CountsTheFacesOfTheInput) {
   const PolygonMesh mesh = test::dual(test::icosphere(1));
   const Target orbifold = parse_orbifold("432");
   const EmbedResult result = embed(mesh, orbifold, choose_marked_vertices(mesh, orbifold));
@@ -227,7 +269,7 @@ TEST(Page, SpeaksOfFacesWhereTheyAreNotAllTriangles) {
   const std::string page = report_page({make_surface(mesh), result.embedding, report});
   EXPECT_THAT(page, HasSubstr("80 vertices and 42 faces"));
   EXPECT_THAT(page, HasSubstr("Every face is positively oriented"));
-  EXPECT_THAT(page_of("432", sample_report("432")), HasSubstr("162 vertices and 320 triangles"));
+  EXPECT_THAT(page_of("432", sample_report("432")), HasSubstr("162 vertices and 320 faces"));
 }
 
 TEST(Page, LoadsNothing) {

@@ -11,14 +11,17 @@
 #include <numbers>
 #include <numeric>
 #include <regex>
+#include <set>
 
+#include "orbitutte/export/palette.h"
 #include "orbitutte/io/file.h"
+#include "orbitutte/page/svg_chart.h"
 #include "orbitutte/parallel.h"
-#include "orbitutte/render/area_histogram.h"
+#include "orbitutte/render/chart_drawing.h"
 #include "orbitutte/render/checkerboard.h"
 #include "orbitutte/render/default_view.h"
-#include "orbitutte/render/scales.h"
 #include "orbitutte/render/sphere_figure.h"
+#include "orbitutte/report/charts.h"
 #include "orbitutte/report/comparison.h"
 #include "sample_embeddings.h"
 
@@ -360,6 +363,35 @@ TEST(Render, SvgIsWellFormed) {
   }
 }
 
+/// All texts of an SVG that the page shows, each once.
+std::set<std::string> texts_of_page(const Chart& chart) {
+  const Content content = svg_chart(chart);
+  std::set<std::string> texts = {content.at("y_title").at("text").get<std::string>()};
+  for (const Content& text : content.at("texts")) texts.insert(text.at("text").get<std::string>());
+  return texts;
+}
+
+std::set<std::string> texts_of_picture(const Chart& chart) {
+  Canvas canvas(PictureFormat::svg, {600, 400}, 14);
+  draw_chart(canvas, {0, 0, 600, 400}, chart);
+  return {canvas.texts().begin(), canvas.texts().end()};
+}
+
+TEST(Charts, PageAndPicturesShowTheSameTextsLinesAndBars) {
+  for (const std::string& signature : {"432", "*532", "5*", "3x"}) {
+    const Subject subject(signature);
+    const std::vector<double> areas =
+        values_of(Measure::area, measure_faces(subject.sample.mesh, subject.sample.embedding()));
+    for (const Chart& chart : {area_histogram(areas), convergence_chart(subject.report.history)}) {
+      EXPECT_EQ(texts_of_page(chart), texts_of_picture(chart)) << signature;
+      for (const ChartAxis& axis : {chart.x, chart.y}) EXPECT_EQ(texts_of_page(chart).count(axis.title), 1U);
+      for (const ChartLine& line : chart.lines) EXPECT_EQ(texts_of_picture(chart).count(line.label), 1U);
+      EXPECT_EQ(svg_chart(chart).at("bars").size(), chart.bars.size());
+      EXPECT_EQ(svg_chart(chart).at("lines").size(), 2 * chart.lines.size()) << "and one each for the key";
+    }
+  }
+}
+
 TEST(Render, WhatMakesNoSenseIsRefused) {
   const Subject subject("432");
   RenderOptions options;
@@ -554,25 +586,6 @@ TEST(Lighting, BallsThrowShadowsAwayFromTheMainLight) {
   EXPECT_LT(brightness(Vector3f::UnitZ(), {1, 0}), 0.7F * brightness(Vector3f::UnitZ(), {}));
 }
 
-TEST(Colours, MapsAreMonotoneInLightness) {
-  double previous = 2;
-  for (int k = 0; k <= 100; ++k) {
-    const double t = k / 100.0;
-    const double sequential = lightness(sequential_colour(t));
-    EXPECT_LT(sequential, previous);
-    previous = sequential;
-    EXPECT_NEAR(lightness(diverging_colour(t)), lightness(diverging_colour(-t)), 0.01);
-    if (k > 0) EXPECT_LT(lightness(diverging_colour(t)), lightness(diverging_colour(t - 0.01)));
-  }
-}
-
-TEST(Colours, EncodingToSrgbAndBackIsExact) {
-  for (int c = 0; c < 256; ++c) {
-    const auto channel = static_cast<std::uint8_t>(c);
-    EXPECT_EQ(srgb(linear({channel, 17, 255})), (Rgb{channel, 17, 255}));
-  }
-}
-
 TEST(Checkerboard, SquaresAreRightAngledWhereTheMapIsConformal) {
   // The identity of the sphere's upper half as the embedding: stereographic coordinates are conformal.
   const Mesh sphere = icosphere(4);
@@ -627,37 +640,6 @@ TEST(Checkerboard, NeighbouringSquaresDiffer) {
   const Colour far = board.colour(any, 1);
   any.u = 0.35F;
   EXPECT_LT((board.colour(any, 1) - far).abs().maxCoeff(), 1e-6F) << "squares smaller than pixels are grey";
-}
-
-TEST(Plots, HistogramsCountEveryTriangleOnAxesThatHoldAllMaps) {
-  const std::vector<double> narrow = {-0.3, 0, 0.1, 0.4}, wide = {-30, -3, -1, 0, 1, 2, 3};
-  for (const std::vector<double>& values : {narrow, wide}) {
-    const std::vector<double> shares = shares_by_bin(values, 2);
-    EXPECT_NEAR(std::accumulate(shares.begin(), shares.end(), 0.0), 1, 1e-12);
-  }
-  EXPECT_NEAR(shares_by_bin(wide, 2).front(), 2.0 / 7, 1e-12) << "what lies beyond is in the outermost bin";
-  const HistogramAxes both = histogram_axes({narrow, wide}), swapped = histogram_axes({wide, narrow});
-  for (const std::vector<double>& values : {narrow, wide}) {
-    const HistogramAxes own = histogram_axes({values});
-    EXPECT_GE(both.range, own.range);
-    EXPECT_GE(both.scale.range, own.scale.range);
-    for (const double share : shares_by_bin(values, both.range)) EXPECT_LE(share, both.highest);
-  }
-  EXPECT_EQ(both.range, swapped.range);
-  EXPECT_EQ(both.highest, swapped.highest);
-  EXPECT_EQ(both.lowest, -30);
-  EXPECT_GT(histogram_axes({}).highest, 0);
-}
-
-TEST(Plots, ScalesHoldNineTenthsOfTheTriangles) {
-  for (const std::string signature : {"432", "*532", "5*"}) {
-    const test::SampleEmbedding& sample = sample_embedding(signature);
-    const std::vector<FaceDistortion> faces = measure_faces(test::unjudged(sample.mesh), sample.embedding());
-    const AreaScale scale = area_scale(log_areas(faces));
-    double inside = 0;
-    for (const FaceDistortion& face : faces) inside += std::abs(std::log2(face.area)) <= scale.range ? 1 : 0;
-    if (scale.range < 6) EXPECT_GE(inside, 0.89 * static_cast<double>(faces.size())) << signature;
-  }
 }
 
 }  // namespace

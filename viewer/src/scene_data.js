@@ -60,6 +60,9 @@ export function readScene(json) {
     coarse: level(json.coarse),
     copies: json.copies.map(({transform, colour}) => ({matrix: matrixOf(transform), colour})),
     cones: json.cones,
+    scales: json.scales,
+    tile: json.tile,
+    ink: json.ink,
   };
 }
 

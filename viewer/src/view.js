@@ -4,7 +4,7 @@ import {
   BufferAttribute, BufferGeometry, Color, ColorManagement, InstancedMesh, LineBasicMaterial, LineSegments, Matrix4, Mesh,
   MeshBasicMaterial, Quaternion, Ray, SphereGeometry, Vector3,
 } from 'three';
-import {angleMap, areaMap, robustBound} from './colour_maps.js';
+import {texture} from './colour_maps.js';
 import {firstView} from './first_view.js';
 import {attributes, edgeIndices, meanLength, surfaceGeometry, thickLines, thinnedChains} from './geometry.js';
 import {MapPoints} from './map_point.js';
@@ -15,10 +15,9 @@ import {tileFrame, vertexPosition} from './scene_data.js';
 import {COLOURINGS, sharedUniforms, surfaceMaterial} from './surface.js';
 import {StageInput, Turntable} from './turntable.js';
 
-const INK = '#20262d', MARK = '#d6006c', POINT = '#ffffff', FAINT = '#9aa4af';
-const CONE_COLOURS = {2: '#0072b2', 3: '#d55e00', 4: '#009e73', 5: '#7b2d8b'};
-const OUTLINE_STEP = 0.004;  // in units of the sphere's radius; below a pixel
-const coneColour = (order) => CONE_COLOURS[order] ?? '#5b4636';
+// Only the view has marks and points; all other colours come with the scene.
+const MARK = '#d6006c', POINT = '#ffffff', FAINT = '#9aa4af';
+const OUTLINE_STEP = 0.004;  // of the sphere's radius: below a pixel
 
 ColorManagement.enabled = false;
 
@@ -30,12 +29,8 @@ export class View {
     this.points = new MapPoints(scene);
     this.front = firstView(scene);
     this.frame = {...tileFrame(scene), sourceLight: new Vector3(-0.35, 0.55, 0.8).normalize().applyQuaternion(this.front)};
-    this.bounds = {
-      area: robustBound(scene.area, {share: 0.1, among: [1, 2, 3, 4, 5, 6, 8]}),
-      angle: robustBound(scene.angle, {share: 0.02, among: [1.2, 1.5, 2, 3, 4, 6, 8].map(Math.log2)}),
-    };
-    const maps = {area: areaMap.texture(), angle: angleMap.texture()};
-    this.uniforms = sharedUniforms(this.frame, maps, this.bounds);
+    const maps = {area: texture(scene.scales.area.colours), angle: texture(scene.scales.angle.colours)};
+    this.uniforms = sharedUniforms(this.frame, maps, scene.scales);
     this.makePanels(stages);
     this.painter = new Painter(canvas, Object.values(this.panels), (panel) => panel.placeLabels((at) => this.isHidden(panel, at)));
     this.makeTables();
@@ -73,11 +68,11 @@ export class View {
 
   fillPanels() {
     const {scene, uniforms} = this, shared = attributes(scene);
-    const tint = new Color(scene.copies[0].colour);
+    const tint = new Color(scene.tile);
     const surface = (panel, position, level) => {
       const material = surfaceMaterial(uniforms, {onSphere: position === 'image', tint});
       panel.scene.add(new Mesh(surfaceGeometry(shared, position, level.indices), material));
-      panel.scene.add(thickLines(scene[position], level.outline, {width: panel.name === 'tiling' ? 3 : 2, colour: INK}));
+      panel.scene.add(thickLines(scene[position], level.outline, {width: panel.name === 'tiling' ? 3 : 2, colour: scene.ink}));
     };
     surface(this.panels.source, 'source', scene.fine);
     surface(this.panels.tile, 'image', scene.fine);
@@ -113,14 +108,13 @@ export class View {
       copies.setColorAt(i, new Color(colour));
     });
     copies.frustumCulled = false;
-    this.copyLines = this.outlines(this.panels.tiling, INK);
+    this.copyLines = this.outlines(this.panels.tiling, this.scene.ink);
     this.panels.tiling.scene.add(copies, this.copyLines);
   }
 
   showCones() {
     const dots = {source: [], tile: []};
-    for (const {order, drawn} of this.scene.cones) {
-      const colour = coneColour(order);
+    for (const {order, colour, drawn} of this.scene.cones) {
       if (drawn.length > 0) dots.source.push({at: vertexPosition(this.scene, 'source', drawn[0]), colour, label: order});
       for (const vertex of drawn) dots.tile.push({at: vertexPosition(this.scene, 'image', vertex), colour, label: order});
     }
@@ -178,7 +172,7 @@ export class View {
     const tile = point ? [{at: this.points.position('image', point)}] : [];
     const all = this.copied(tile).map((dot) => ({...dot, scale: dot.copy === point.copy ? 1 : 0.5}));
     for (const [panel, dots] of [[this.panels.source, source], [this.panels.tile, tile], [this.panels.tiling, all]]) {
-      panel.rim.set(on(dots, INK));
+      panel.rim.set(on(dots, this.scene.ink));
       panel.point.set(on(dots, POINT));
     }
     this.point = point;
@@ -232,7 +226,7 @@ export class View {
       const lines = new BufferGeometry();
       lines.setAttribute('position', this.shared[position]);
       lines.setIndex(index);
-      const segments = new LineSegments(lines, new LineBasicMaterial({color: new Color(INK), transparent: true}));
+      const segments = new LineSegments(lines, new LineBasicMaterial({color: new Color(this.scene.ink), transparent: true}));
       const length = meanLength(this.scene[position], index.array);
       // Fades the edges where they are dense, since they would hide all colours.
       segments.onBeforeRender = () => {

@@ -2,7 +2,6 @@
 // Text in the form that HTML requires.
 #pragma once
 
-#include <map>
 #include <string>
 #include <string_view>
 
@@ -14,10 +13,6 @@ std::string escape_html(std::string_view text);
 
 /// Base64 (RFC 4648, padded) of bytes.
 std::string base64(std::string_view bytes);
-
-/// A template's text with every {{slot}} replaced by its content. There is one pass: braces within a content
-/// stay as they are. Throws ArgumentError if a slot has no content.
-std::string fill_slots(std::string_view text, const std::map<std::string, std::string>& contents);
 
 /// A count with commas between groups of three digits.
 std::string grouped_digits(long long count);

@@ -26,32 +26,26 @@ std::array<Vector3, 3> corners(const Embedding& embedding, Eigen::Index f) {
   return {embedding.positions.row(v[0]), embedding.positions.row(v[1]), embedding.positions.row(v[2])};
 }
 
-// The rows of a rotation that takes the middle of the tile to the z axis, and its wider direction to the x
-// axis.
-Matrix3 frame(const Embedding& embedding) {
+// Takes the middle of the tile to (0, 0, 1), and its wider direction to the x axis.
+Isometry frame(const Embedding& embedding) {
+  const Space space = embedding.space();
   Vector3 sum = Vector3::Zero();
-  Matrix3 spread = Matrix3::Zero();
   for (Eigen::Index f = 0; f < embedding.faces.rows(); ++f) {
     const auto [a, b, c] = corners(embedding, f);
-    const double area = std::abs(Space::sphere().area(a, b, c));
-    const Vector3 middle = (a + b + c) / 3;
-    sum += area * middle;
-    spread += area * middle * middle.transpose();
+    sum += std::abs(space.area(a, b, c)) * (a + b + c) / 3;
   }
-  const Vector3 z = sum.norm() > 0 ? Vector3(sum.normalized()) : Vector3(Vector3::UnitZ());
-  const Matrix3 across = Matrix3::Identity() - z * z.transpose();
-  const Eigen::SelfAdjointEigenSolver<Matrix3> axes(across * spread * across);
-  Vector3 x = across * axes.eigenvectors().col(2);
-  x = x.norm() > 0.5 ? x.normalized() : z.unitOrthogonal();
-  Eigen::Index largest = 0;
-  x.cwiseAbs().maxCoeff(&largest);
-  if (x[largest] < 0) x = -x;
-  Matrix3 rows;
-  rows << x.transpose(), z.cross(x).transpose(), z.transpose();
-  return rows;
+  const Isometry centred = space.to_origin(sum.norm() > 0 ? space.retract(sum) : Space::origin());
+  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
+  for (Eigen::Index f = 0; f < embedding.faces.rows(); ++f) {
+    const auto [a, b, c] = corners(embedding, f);
+    const Vector2d middle = space.flatten(centred * Vector3((a + b + c) / 3));
+    spread += std::abs(space.area(a, b, c)) * middle * middle.transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(spread);
+  Vector2d wide = axes.eigenvectors().col(1);
+  if (wide[std::abs(wide[0]) < std::abs(wide[1])] < 0) wide = -wide;
+  return space.rotation(Space::origin(), -std::atan2(wide.y(), wide.x())) * centred;
 }
-
-Vector2d stereographic(const Vector3& p) { return p.head<2>() / std::max(1 + p.z(), 1e-12); }
 
 // Longitude from the date line and latitude from the south pole, in turns. The poles lie on the y axis.
 Vector2d equirectangular(const Vector3& p) {
@@ -133,7 +127,7 @@ FaceAreas face_areas(const Embedding& embedding, const Eigen::MatrixX2d& uv, std
   FaceAreas areas;
   for (std::size_t k = 2; k < face.size(); ++k) {
     areas.flat += plane_area(in_square(0), in_square(k - 1), in_square(k));
-    areas.round += Space::sphere().area(on_sphere(0), on_sphere(k - 1), on_sphere(k));
+    areas.round += embedding.space().area(on_sphere(0), on_sphere(k - 1), on_sphere(k));
   }
   areas.flat = std::abs(areas.flat);
   return areas;
@@ -188,12 +182,17 @@ TextureChart parse_texture_chart(const std::string& text) {
 }
 
 TextureCoordinates texture_coordinates(const Embedding& embedding, TextureChart chart) {
-  const Points seen = embedding.positions * frame(embedding).transpose();
+  if (chart != TextureChart::stereographic && !embedding.space().is_closed())
+    throw ArgumentError(
+        fmt::format("the {} chart is one of the sphere, but {} is {}; take stereographic, which "
+                    "is the plane itself there",
+                    name(chart), embedding.target.signature, embedding.space().name()));
+  const Points seen = frame(embedding).on_rows(embedding.positions);
   TextureCoordinates result;
   result.uv.resize(seen.rows(), 2);
   for (Eigen::Index v = 0; v < seen.rows(); ++v) {
     const Vector3 p = seen.row(v);
-    result.uv.row(v) = chart == TextureChart::stereographic     ? stereographic(p)
+    result.uv.row(v) = chart == TextureChart::stereographic     ? Space::conformal(p)
                        : chart == TextureChart::equirectangular ? equirectangular(p)
                                                                 : octahedral(p);
   }

@@ -11,7 +11,7 @@ namespace orbitutte {
 
 /// Maps from the sphere into the unit square, centred at the middle of the tile.
 enum class TextureChart {
-  /// From the point opposite to the middle of the tile; conformal.
+  /// From the point opposite to the middle of the tile; conformal, and in the plane the plane itself.
   stereographic,
   /// Longitude and latitude. The poles lie beside the tile, in the direction in which it is narrower.
   equirectangular,
@@ -39,7 +39,8 @@ struct TextureCoordinates {
 };
 
 /// Texture coordinates in the unit square. In the equirectangular chart, faces across the date line reach
-/// beyond its right edge, where textures repeat.
+/// beyond its right edge, where textures repeat. Throws ArgumentError for the charts of the sphere if the
+/// embedding lies in the plane.
 TextureCoordinates texture_coordinates(const Embedding& embedding, TextureChart chart);
 
 }  // namespace orbitutte

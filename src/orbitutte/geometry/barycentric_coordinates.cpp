@@ -24,7 +24,8 @@ int side(const Vector3& p, const Vector3& a, const Vector3& b) {
   return orientation_sign(p, a, b);
 }
 
-double distance(Space space, const TriangleCorners& corners, const Vector3& coordinates, const Vector3& point) {
+double distance(Space space, const TriangleCorners& corners, const Vector3& coordinates,
+                const Vector3& point) {
   return (barycentric_point(space, corners, coordinates) - point).norm();
 }
 
@@ -35,13 +36,15 @@ Vector3 clamped(const Vector3& coordinates) {
 
 // What the coordinates are short of: those of the residual by Cramer's rule, which is exact enough as it is
 // small.
-Vector3 corrected(Space space, const TriangleCorners& corners, const Vector3& coordinates, const Vector3& point) {
+Vector3 corrected(Space space, const TriangleCorners& corners, const Vector3& coordinates,
+                  const Vector3& point) {
   const auto& [a0, a1, a2] = corners;
   const Vector3 x = coordinates[0] * a0 + coordinates[1] * a1 + coordinates[2] * a2;
   // x is nearly a multiple of the point: that of n(p) . x, with n(p) . p = 1.
   const double length = visit_curvature(space, [&](auto c) { return c.off_tangent(point, x); });
   const Vector3 residual = length * point - x;
-  const Vector3 correction(residual.dot(a1.cross(a2)), residual.dot(a2.cross(a0)), residual.dot(a0.cross(a1)));
+  const Vector3 correction(residual.dot(a1.cross(a2)), residual.dot(a2.cross(a0)),
+                           residual.dot(a0.cross(a1)));
   const Vector3 sum = coordinates + correction / near_determinant(a0, a1, a2);
   return sum / sum.sum();
 }
@@ -49,7 +52,8 @@ Vector3 corrected(Space space, const TriangleCorners& corners, const Vector3& co
 }  // namespace
 
 Vector3 barycentric_point(Space space, const TriangleCorners& corners, const Vector3& coordinates) {
-  return space.retract(coordinates[0] * corners[0] + coordinates[1] * corners[1] + coordinates[2] * corners[2]);
+  return space.retract(coordinates[0] * corners[0] + coordinates[1] * corners[1] +
+                       coordinates[2] * corners[2]);
 }
 
 bool contains(const TriangleCorners& corners, const Vector3& point) {
@@ -73,7 +77,8 @@ Vector3 barycentric_coordinates(Space space, const TriangleCorners& corners, con
     error = remaining;
   }
   if (error <= lost) return best;
-  const Vector3 on_edge = nearest_on_edges(space, corners, point);  // in one so thin that only its edges have digits
+  const Vector3 on_edge =
+      nearest_on_edges(space, corners, point);  // in one so thin that only its edges have digits
   return distance(space, corners, on_edge, point) < error || !(error >= 0) ? on_edge : best;
 }
 
@@ -96,8 +101,8 @@ Vector3 nearest_on_edges(Space space, const TriangleCorners& corners, const Vect
   return nearest;
 }
 
-// With the squared chords c_ij, sum l_i a_i is sqrt(1 - k sum l_i l_j c_ij) times a point of the space, and the
-// sum of l_i l_j over the pairs is 1/3 at most.
+// With the squared chords c_ij, sum l_i a_i is sqrt(1 - k sum l_i l_j c_ij) times a point of the space, and
+// the sum of l_i l_j over the pairs is 1/3 at most.
 double bulge(Space space, const TriangleCorners& corners) {
   double squared_chord = 0, length = 0;
   for (int k = 0; k < 3; ++k) {

@@ -38,9 +38,7 @@ Matrix3 cross_matrix(const Vector3& p) {
 
 }  // namespace
 
-std::string Space::name() const {
-  return k_ > 0 ? "spherical" : k_ == 0 ? "euclidean" : "hyperbolic";
-}
+std::string Space::name() const { return k_ > 0 ? "spherical" : k_ == 0 ? "euclidean" : "hyperbolic"; }
 
 double Space::dot(const Vector3& u, const Vector3& v) const {
   return visit_curvature(*this, [&](auto c) { return c.dot(u, v); });
@@ -78,6 +76,16 @@ Vector3 Space::polar(double distance, double angle) const {
 
 Vector3 Space::lift(double x, double y) const {
   return {x, y, std::sqrt(std::max(1 - k_ * (x * x + y * y), 0.0))};
+}
+
+// The smaller root t of q(from + t direction) = 1 with q = k (x^2 + y^2) + z^2.
+std::optional<double> Space::meeting(const Vector3& from, const Vector3& direction) const {
+  const Vector3 weight(k_, k_, 1);
+  const double a = direction.cwiseProduct(direction).dot(weight),
+               b = from.cwiseProduct(direction).dot(weight), c = from.cwiseProduct(from).dot(weight) - 1;
+  const double discriminant = b * b - a * c;
+  if (!(discriminant >= 0) || !(a > 0)) return std::nullopt;
+  return (-b - std::sqrt(discriminant)) / a;
 }
 
 double Space::defect(const Vector3& p) const {

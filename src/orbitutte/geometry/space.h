@@ -2,6 +2,8 @@
 // The three geometries of constant curvature as one: the sphere, the plane and the hyperbolic plane.
 #pragma once
 
+#include <algorithm>
+#include <optional>
 #include <string>
 
 #include "orbitutte/geometry/isometry.h"
@@ -71,6 +73,20 @@ class Space {
   /// (x, y) of a point: orthographic on the sphere.
   Eigen::Vector2d flatten(const Vector3& p) const { return p.head<2>(); }
 
+  /// The conformal picture of the space seen from the point opposite to (0, 0, 1), at the scale 1 there:
+  /// 2 (x, y)/(1 + z). Stereographic on the sphere, (x, y) in the plane, Poincare's disk of radius 2.
+  static Eigen::Vector2d conformal(const Vector3& p) { return 2 / std::max(1 + p.z(), 1e-12) * p.head<2>(); }
+
+  /// Is the area of the space finite, and does it have no end?
+  constexpr bool is_closed() const { return k_ > 0; }
+
+  /// How far along a line of sight, from a point outside on the side z > 0 in direction of a unit vector, the
+  /// space is met first; nothing if it is missed.
+  std::optional<double> meeting(const Vector3& from, const Vector3& direction) const;
+
+  /// The unit vector of R^3 that stands upright on the space at p, in pictures: along (k x, k y, z).
+  Vector3 upright(const Vector3& p) const { return Vector3(k_ * p.x(), k_ * p.y(), p.z()).normalized(); }
+
   /// By how much a point is off the space: |sqrt(k (x^2 + y^2) + z^2) - 1|; infinite where that is no number.
   double defect(const Vector3& p) const;
 
@@ -84,9 +100,9 @@ class Space {
   /// The angle at p from the geodesic to q counterclockwise to that to r, in (-pi, pi].
   double angle(const Vector3& p, const Vector3& q, const Vector3& r) const;
 
-  /// The side opposite to the angle a of a triangle with the angles a, b, c, by the law of cosines for angles:
-  /// cs = (cos a + cos b cos c)/(sin b sin c). In the plane only the shape is known: sin a, the side of the
-  /// triangle whose circumscribed circle has diameter one.
+  /// The side opposite to the angle a of a triangle with the angles a, b, c, by the law of cosines for
+  /// angles: cs = (cos a + cos b cos c)/(sin b sin c). In the plane only the shape is known: sin a, the side
+  /// of the triangle whose circumscribed circle has diameter one.
   double side_opposite(double a, double b, double c) const;
 
   // -- Lines, as covectors: the line m . p = 0 --

@@ -13,8 +13,8 @@ using Complex = std::complex<double>;
 
 // How a group moves the axis through (0, 0, 1).
 struct AxisSymmetry {
-  int rotations = 0;    // elements that keep orientations and (0, 0, 1)
-  bool flips = false;   // does an element exchange above and below?
+  int rotations = 0;       // elements that keep orientations and (0, 0, 1)
+  bool flips = false;      // does an element exchange above and below?
   Isometry to_other_side;  // one that does
 };
 
@@ -31,17 +31,15 @@ AxisSymmetry axis_symmetry(const SymmetryGroup& group) {
   return result;
 }
 
-// Distance from the axis times e^(i longitude) of the point or of its image above, with the height as a factor
-// where the group has such images: which of them lies above is uncertain on the equator.
+// Distance from the axis times e^(i longitude) of the point or of its image above, with the height as a
+// factor where the group has such images: which of them lies above is uncertain on the equator.
 Complex seen_from_above(const AxisSymmetry& symmetry, const Vector3& point) {
   const Vector3 p = symmetry.flips && point.z() < 0 ? symmetry.to_other_side * point : point;
   return Complex(p.x(), p.y()) * (symmetry.flips ? std::abs(p.z()) : 1.0);
 }
 
 // z^n with the length of z.
-Complex turned(const Complex& z, int n) {
-  return std::polar(std::abs(z), n * std::arg(z));
-}
+Complex turned(const Complex& z, int n) { return std::polar(std::abs(z), n * std::arg(z)); }
 
 }  // namespace
 

@@ -14,8 +14,8 @@
 #include <cmath>
 #include <limits>
 
-#include "orbitutte/geometry/orientation.h"
 #include "orbitutte/geometry/barycentric_coordinates.h"
+#include "orbitutte/geometry/orientation.h"
 #include "orbitutte/orbifold/symmetry_group.h"
 #include "orbitutte/parallel.h"
 
@@ -204,7 +204,8 @@ void require_lengths(const SurfacePoints& points) {
 Points map_points(const Embedding& embedding, const SurfacePoints& points) {
   require_lengths(points);
   require_sound(embedding);
-  const int last = points.element.empty() ? 0 : *std::max_element(points.element.begin(), points.element.end());
+  const int last =
+      points.element.empty() ? 0 : *std::max_element(points.element.begin(), points.element.end());
   const std::vector<Isometry> elements =
       last > 0 ? group_of(embedding.target, last + 1).elements() : std::vector<Isometry>(1);
   const Points positions = embedding.canonical_positions();

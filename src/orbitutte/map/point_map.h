@@ -38,20 +38,21 @@ class PointLocator {
   /// So many copies are searched in the plane, where there are infinitely many.
   static constexpr int default_copies = 100;
 
-  /// Keeps the embedding's triangles that are positively oriented in a tree, in O(n log n). Of an infinite group
-  /// the copies nearest to the tile are searched, `copies` in number. Throws ArgumentError if positions are not
-  /// finite or indices out of range.
+  /// Keeps the embedding's triangles that are positively oriented in a tree, in O(n log n). Of an infinite
+  /// group the copies nearest to the tile are searched, `copies` in number. Throws ArgumentError if positions
+  /// are not finite or indices out of range.
   explicit PointLocator(const Embedding& embedding, int copies = default_copies);
   ~PointLocator();
   PointLocator(PointLocator&&) noexcept;
 
   /// The triangle and copy that hold each point (k x 3, in the canonical frame of the target; lengths do not
   /// matter): map_points takes them back there. Of several copies that meet at a point the first is taken, of
-  /// several triangles of it the first, by signs that are exact on the stored numbers; where banks of seams leave
-  /// a gap of rounding errors, or up to 1e-11, the nearest edge beside it. Every point of the sphere is found if
-  /// the embedding is certified. If it is not, a point that no positively oriented triangle covers has face -1,
-  /// and of several that do the first is taken; outside of a fixed polygon and of the copies searched there is
-  /// none either, nor for a vector that is zero or not finite. O(copies + log n) a point, on all threads.
+  /// several triangles of it the first, by signs that are exact on the stored numbers; where banks of seams
+  /// leave a gap of rounding errors, or up to 1e-11, the nearest edge beside it. Every point of the sphere is
+  /// found if the embedding is certified. If it is not, a point that no positively oriented triangle covers
+  /// has face -1, and of several that do the first is taken; outside of a fixed polygon and of the copies
+  /// searched there is none either, nor for a vector that is zero or not finite. O(copies + log n) a point,
+  /// on all threads.
   SurfacePoints locate(const Points& points) const;
 
   /// The copies: the elements of group_of(target).

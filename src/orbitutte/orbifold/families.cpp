@@ -22,8 +22,8 @@ std::vector<int> orders_of(const Target& target) {
   return orders;
 }
 
-// The triangle with the angle pi/n[k] at corner k, counterclockwise from outside: corner 0 at (0, 0, 1), corner
-// 1 from there in the direction of x.
+// The triangle with the angle pi/n[k] at corner k, counterclockwise from outside: corner 0 at (0, 0, 1),
+// corner 1 from there in the direction of x.
 std::array<Vector3, 3> canonical_triangle(Space space, const std::array<int, 3>& n) {
   const double a = pi / n[0], b = pi / n[1], c = pi / n[2];
   return {Space::origin(), space.polar(space.side_opposite(c, a, b), 0),
@@ -31,9 +31,7 @@ std::array<Vector3, 3> canonical_triangle(Space space, const std::array<int, 3>&
 }
 
 // Does the arrangement of three marks go around like 0, 1, 2?
-bool goes_around(const Arrangement& marks) {
-  return (marks[1] - marks[0] + 3) % 3 == 1;
-}
+bool goes_around(const Arrangement& marks) { return (marks[1] - marks[0] + 3) % 3 == 1; }
 
 void make_mirror(Tile& tile, int side) {
   tile.sides[side].partner = side;
@@ -70,9 +68,9 @@ Tile mirrored_triangle(const Target& target, const Arrangement& marks) {
   return tile;
 }
 
-// The canonical triangle, with corner k at mark k, and its mirror image across the side between the first mark
-// and the third, p1 and p3, as the boundary meets them: p1, p2, p3, p2', no side glued yet. Whichever mark is
-// the second, the tile is made of the same two triangles of the tiling.
+// The canonical triangle, with corner k at mark k, and its mirror image across the side between the first
+// mark and the third, p1 and p3, as the boundary meets them: p1, p2, p3, p2', no side glued yet. Whichever
+// mark is the second, the tile is made of the same two triangles of the tiling.
 Tile kite(Space space, const std::array<Vector3, 3>& corners, const Arrangement& marks) {
   const Vector3 &p1 = corners[marks[0]], &p3 = corners[marks[2]], &p2 = corners[marks[1]];
   const Vector3 image = space.retract(space.reflection(Space::line(p1, p3)) * p2);
@@ -107,8 +105,8 @@ Tile mirrored_square(const Target& target, const Arrangement& marks) {
 
 // 2222: the pillow of two unit squares, on which mark 0 is an image of (0, 0), mark 1 of (1, 0), mark 2 of
 // (1, 1) and mark 3 of (0, 1): the plane's points with whole coordinates, taken modulo two. It is cut open
-// along the segments from a to b = a + u, to c = b + v and to d = a + v, where a, b, c, d are the marks as the
-// boundary meets them, and unfolded around the parallelogram a, b, c, d by half turns about a and d.
+// along the segments from a to b = a + u, to c = b + v and to d = a + v, where a, b, c, d are the marks as
+// the boundary meets them, and unfolded around the parallelogram a, b, c, d by half turns about a and d.
 Tile pillow(const Target& target, const Arrangement& marks) {
   static const std::array<std::array<int, 2>, 4> place = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
   const auto step = [&](int k) {
@@ -130,8 +128,8 @@ Tile pillow(const Target& target, const Arrangement& marks) {
 }
 
 // n*m: the kite over the triangle of the cone, the corner and the end of the cut, any point p2 of the mirror,
-// where its angles are right. It is cut open from the cone p1 to p2; from there one mirror leads to the corner
-// p3, and one from the corner to the image of p2.
+// where its angles are right. It is cut open from the cone p1 to p2; from there one mirror leads to the
+// corner p3, and one from the corner to the image of p2.
 Tile mirrored_kite(const Target& target, const Arrangement& marks) {
   const std::vector<int> n = orders_of(target);
   Tile tile = kite(target.space, canonical_triangle(target.space, {n[0], 2 * n[1], 2}), marks);
@@ -269,8 +267,7 @@ bool fits(std::vector<int> orders, const std::vector<int>& pattern, int smallest
 
 const Family* find_family(const ConwaySymbol& symbol) {
   for (const Family& family : family_table()) {
-    if (symbol.star == family.pattern.star &&
-        symbol.cross == family.pattern.cross &&
+    if (symbol.star == family.pattern.star && symbol.cross == family.pattern.cross &&
         fits(symbol.rotations, family.pattern.rotations, family.smallest_order) &&
         fits(symbol.corners, family.pattern.corners, family.smallest_order))
       return &family;

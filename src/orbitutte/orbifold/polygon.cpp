@@ -180,13 +180,14 @@ Tile polygon_tile(const std::vector<PolygonCorner>& corners, const std::vector<i
                       "polygon has it; give the corners in the order in which the boundary, its faces on the "
                       "left, meets their vertices",
                       corners[k].vertex));
-    tile.sides.push_back(
-        geodesic(Space::sphere(), corners[k].position, corner_after(corners, k).position, static_cast<int>(k)));
+    tile.sides.push_back(geodesic(Space::sphere(), corners[k].position, corner_after(corners, k).position,
+                                  static_cast<int>(k)));
   }
   return tile;
 }
 
-Target read_target(const std::string& signature, const std::vector<ConeCopies>& cones, const Points& positions) {
+Target read_target(const std::string& signature, const std::vector<ConeCopies>& cones,
+                   const Points& positions) {
   if (signature != polygon_signature) return parse_orbifold(signature);
   Corners corners;
   for (const ConeCopies& cone : cones) corners.push_back({cone.vertex, position_of(cone, positions)});

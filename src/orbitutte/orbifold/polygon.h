@@ -26,7 +26,8 @@ Tile polygon_tile(const std::vector<PolygonCorner>& corners, const std::vector<i
 
 /// What cones and positions say that the target is: that of the signature, or for a polygon the one of its
 /// fixed cones and where they are. Throws ArgumentError and MeshError if that is nothing.
-Target read_target(const std::string& signature, const std::vector<ConeCopies>& cones, const Points& positions);
+Target read_target(const std::string& signature, const std::vector<ConeCopies>& cones,
+                   const Points& positions);
 
 /// 4 pi/|G|; in the plane the tile's; of a polygon the sum of its interior angles less (n - 2) pi.
 double area(const Target& target);

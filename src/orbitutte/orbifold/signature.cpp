@@ -184,7 +184,8 @@ std::string objection(const ConwaySymbol& symbol) {
            "teardrop or spindle)";
   const long long chi = euler_characteristic(symbol).numerator;
   if (chi == 0)
-    return "is a Euclidean orbifold for which there is no tile; of those there are 333, 442, 632, 2222, *333, "
+    return "is a Euclidean orbifold for which there is no tile; of those there are 333, 442, 632, 2222, "
+           "*333, "
            "*442, *632 and *2222";
   return "is a hyperbolic orbifold: its tiles fill the hyperbolic plane, not the sphere or the plane";
 }

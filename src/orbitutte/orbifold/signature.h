@@ -10,8 +10,8 @@
 namespace orbitutte {
 
 /// Reads a symbol and finds its family; the sign of the orbifold's Euler characteristic decides the space.
-/// Orders may come in any arrangement. Throws ArgumentError, in one sentence: what is no symbol; what could be
-/// read in two ways (both are named); orders that make a hyperbolic orbifold or none at all (teardrops,
+/// Orders may come in any arrangement. Throws ArgumentError, in one sentence: what is no symbol; what could
+/// be read in two ways (both are named); orders that make a hyperbolic orbifold or none at all (teardrops,
 /// spindles, order one), and Euclidean ones that have no tile here.
 Target parse_orbifold(const std::string& signature);
 

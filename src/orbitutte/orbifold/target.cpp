@@ -34,7 +34,8 @@ int Mark::order() const {
   if (kind == ConeKind::fixed) return 1;
   if (!(angle > 0)) return 0;
   const double order = std::round(whole_angle(kind) / angle);
-  return order >= 1 && std::abs(whole_angle(kind) / order - angle) < 1e-12 * angle ? static_cast<int>(order) : 0;
+  return order >= 1 && std::abs(whole_angle(kind) / order - angle) < 1e-12 * angle ? static_cast<int>(order)
+                                                                                   : 0;
 }
 
 }  // namespace orbitutte

@@ -10,9 +10,9 @@ namespace orbitutte {
 
 /// A side of a tile: the geodesic p(s) = cs(s) start + sn(s) direction, 0 <= s <= length, the tile on its
 /// left. A point of this side at arc length s is transform * (the point of side `partner` at length - s), or
-/// at s where the transform is a rotary reflection: tiles lie on opposite sides of a glued side in both cases.
-/// A side that is its own partner is a mirror, and stays as it is under the transform. A side without a
-/// partner (-1) is held: its vertices stay where they are put.
+/// at s where the transform is a rotary reflection: tiles lie on opposite sides of a glued side in both
+/// cases. A side that is its own partner is a mirror, and stays as it is under the transform. A side without
+/// a partner (-1) is held: its vertices stay where they are put.
 struct TileSide {
   Space space;
 

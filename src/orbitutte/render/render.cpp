@@ -40,11 +40,16 @@ PictureSize picture_size(const RenderOptions& options) {
   return {options.width, options.height};
 }
 
-// The size of normal text, in pixels: the same share of the picture whatever its size.
+bool has_scale(Panel panel) { return panel == Panel::area || panel == Panel::angle; }
+
+// The size of normal text, in pixels: the same share of the picture whatever its size, but that the numbers
+// of scales can be read in small pictures, too.
 double em_of(Panel panel, const PictureSize& size) {
+  constexpr double readable = 11;
+  const double side = std::min(size.width, size.height);
+  if (has_scale(panel)) return std::max(side / 44, std::min(readable, side / 24));
   if (panel == Panel::sheet) return std::min(size.width / 96.0, size.height / 72.0);
-  return is_plot(panel) ? std::min(size.width / 42.0, size.height / 26.0)
-                        : std::min(size.width, size.height) / 44.0;
+  return is_plot(panel) ? std::min(size.width / 42.0, size.height / 26.0) : side / 44;
 }
 
 void require_same_mesh(const RenderSubject& subject) {

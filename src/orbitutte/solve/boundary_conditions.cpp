@@ -23,8 +23,7 @@ std::vector<Seam> seams_of(const std::vector<std::vector<int>>& sides, const Til
 
 std::vector<ConeCopies> cones_of(const CutMesh& cut, const Target& target) {
   std::vector<ConeCopies> cones;
-  for (std::size_t k = 0; k < target.marks.size(); ++k)
-    cones.push_back({cut.marks[k], target.marks[k], {}});
+  for (std::size_t k = 0; k < target.marks.size(); ++k) cones.push_back({cut.marks[k], target.marks[k], {}});
   for (int v : cut.boundary) {
     for (ConeCopies& cone : cones)
       if (cut.source_vertex[v] == cone.vertex) cone.copies.push_back(v);

@@ -23,12 +23,12 @@ struct BoundaryConditions {
   std::vector<Seam> seams;
   std::vector<ConeCopies> cones;
   std::vector<Isometry> transforms;  ///< distinct; the first is the identity
-  std::vector<int> transform_of;    ///< n_cut: an index into transforms
-  std::vector<Room> bases;   ///< distinct; 0: that of the space (Space::room), 1: held in place (3 x 0),
-                              ///< others: those of mirrors
+  std::vector<int> transform_of;     ///< n_cut: an index into transforms
+  std::vector<Room> bases;        ///< distinct; 0: that of the space (Space::room), 1: held in place (3 x 0),
+                                  ///< others: those of mirrors
   std::vector<Isometry> mirrors;  ///< of every basis: the reflection that keeps it; the identity for 0 and 1
-  std::vector<int> basis_of;  ///< n: an index into bases
-  Points held;                ///< n x 3: where the vertices of basis 1 are held; zero elsewhere
+  std::vector<int> basis_of;      ///< n: an index into bases
+  Points held;                    ///< n x 3: where the vertices of basis 1 are held; zero elsewhere
 
   const Isometry& transform(int cut_vertex) const { return transforms[transform_of[cut_vertex]]; }
   const Room& basis(int vertex) const { return bases[basis_of[vertex]]; }

@@ -23,10 +23,9 @@ GluedEdges glued_edges(const CutMesh& cut, const Connectivity& connectivity,
     if (const int ta = boundary.transform_of[a], tb = boundary.transform_of[b]; ta != tb) {
       const long long key = static_cast<long long>(ta) << 32 | tb;
       const auto at = known.find(key);
-      t = at != known.end()
-              ? at->second
-              : known[key] = index_among(result.transforms,
-                                         boundary.transform(a).inverse() * boundary.transform(b));
+      t = at != known.end() ? at->second
+                            : known[key] = index_among(
+                                  result.transforms, boundary.transform(a).inverse() * boundary.transform(b));
     }
     result.edges[e] = {cut.source_vertex[a], cut.source_vertex[b], t};
   }

@@ -21,7 +21,7 @@ struct GluedEdge {
 
 /// The edges of the energy, each with the group element that is applied to its second end.
 struct GluedEdges {
-  std::vector<GluedEdge> edges;     ///< in the order of Connectivity::edges
+  std::vector<GluedEdge> edges;      ///< in the order of Connectivity::edges
   std::vector<Isometry> transforms;  ///< distinct elements of G; the first is the identity
 };
 
@@ -29,7 +29,8 @@ struct GluedEdges {
 GluedEdges glued_edges(const CutMesh& cut, const Connectivity& connectivity,
                        const BoundaryConditions& boundary);
 
-/// E(p) = sum over edges of w_ij d(p_i, g_ij p_j)^2, with d the distance of the space (see Curvature::distance).
+/// E(p) = sum over edges of w_ij d(p_i, g_ij p_j)^2, with d the distance of the space (see
+/// Curvature::distance).
 class DirichletEnergy {
  public:
   DirichletEnergy(const GluedEdges& glued, const EdgeWeights& weights, const BoundaryConditions& boundary);
@@ -71,8 +72,8 @@ class DirichletEnergy {
 
   Vector3 image(const Points& p, const Incidence& incidence) const;
 
-  // The tangential, feasible part of sum over j of w_ij d/sn d (g_ij p_j - p_i) at vertex i, and the sums that
-  // are met on the way.
+  // The tangential, feasible part of sum over j of w_ij d/sn d (g_ij p_j - p_i) at vertex i, and the sums
+  // that are met on the way.
   struct Pull {
     Vector3 force;
     double energy, weight;  // sum of w d^2, and of w d/sn d

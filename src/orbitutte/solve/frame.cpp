@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "orbitutte/solve/frame.h"
 
-
 namespace orbitutte {
 namespace {
 
