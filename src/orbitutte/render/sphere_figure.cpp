@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "orbitutte/orbifold/polygon.h"
 #include "orbitutte/render/ball_labels.h"
 #include "orbitutte/render/mesh_lines.h"
 #include "orbitutte/render/source_figure.h"
@@ -38,14 +39,6 @@ RayScene copies_of_tile(const Points& positions, const Faces& faces, const std::
   return scene;
 }
 
-// Where a ray of the camera meets the unit sphere, if it does.
-std::optional<float> distance_to_sphere(const Ray& ray) {
-  const float towards = -ray.origin.dot(ray.direction);
-  const float inside = towards * towards - ray.origin.squaredNorm() + 1;
-  if (inside < 0) return std::nullopt;
-  return towards - std::sqrt(inside);
-}
-
 // The least distance between two marked vertices of the tile; 2 where there is one only.
 double smallest_gap(const Embedding& embedding) {
   double gap = 2;
@@ -61,26 +54,25 @@ double smallest_gap(const Embedding& embedding) {
 
 // Where a ball around a point of the sphere has to be so that the sphere hides no more than its rear half, as
 // an orthographic camera sees no difference otherwise; on the far side, the point.
-Vector3 brought_forward(const Vector3& point, double radius, const Vector3& viewer) {
+Vector3 brought_forward(Space space, const Vector3& point, double radius, const Vector3& viewer) {
   const double depth = point.dot(viewer);
   if (depth < 0) return point;
   const double inner = std::max(0.0, (point - depth * viewer).norm() - radius);  // its nearest to the middle
-  return point + (std::sqrt(1 - inner * inner) - depth) * viewer;
+  return point + (space.lift(inner, 0).z() - depth) * viewer;
 }
 
 // The great arcs through these vertices, in steps so short that no chord sinks into the sphere by more than a
 // small part of a tube.
-Points arcs(const Points& positions, const std::vector<int>& vertices) {
+Points arcs(Space space, const Points& positions, const std::vector<int>& vertices) {
   constexpr double step = 0.05;  // radians
   std::vector<Vector3> points = {positions.row(vertices.front())};
   for (std::size_t i = 1; i < vertices.size(); ++i) {
     const Vector3 from = points.back(), to = positions.row(vertices[i]);
-    const double angle = std::atan2(from.cross(to).norm(), from.dot(to));
-    const int count = std::max(1, static_cast<int>(std::ceil(angle / step)));
-    for (int k = 1; k < count; ++k) {
-      const double t = angle * k / count;
-      points.push_back((std::sin(angle - t) * from + std::sin(t) * to) / std::sin(angle));
-    }
+    const double length = space.distance(from, to);
+    const int count = std::max(1, static_cast<int>(std::ceil(length / step)));
+    const Vector3 tangent = space.tangent(from, to - from);
+    for (int k = 1; k < count; ++k)
+      points.push_back(space.at(from, tangent / space.norm(tangent), length * k / count));
     points.push_back(to);
   }
   Points result(static_cast<Eigen::Index>(points.size()), 3);
@@ -95,7 +87,8 @@ Colour copy_colour(const TileCopy& copy) {
 }  // namespace
 
 SphereFigure::SphereFigure(const Embedding& embedding, std::vector<float> relief)
-    : positions_(embedding.positions),
+    : space_(embedding.space()),
+      positions_(embedding.positions),
       faces_(embedding.faces),
       relief_(std::move(relief)),
       copies_(copies_of(embedding)),
@@ -119,36 +112,37 @@ Image SphereFigure::draw(const Camera& camera, const Ornaments& ornaments) const
   const Blocker is_blocked = [&](const Ray& ray) { return ornaments.is_blocked(ray); };
   return supersample(camera.size, [&](const Sample& sample) -> Rgba {
     const Ray ray = camera.ray(sample.x, sample.y, camera_distance);
-    const auto distance = distance_to_sphere(ray);
+    const auto distance = space_.meeting(ray.origin.cast<double>(), ray.direction.cast<double>());
     const auto ornament = ornaments.first_hit(ray);
     if (ornament && (distance ? ornament->distance < *distance : ornament->copy < 0))
       return shade_ornament(camera, ornaments, *ornament);
     if (!distance) return Rgba::Zero();  // copies' seams do not stand out: the outline stays round
-    const Vector3f point = (ray.origin + *distance * ray.direction).normalized();
-    const Vector3f normal = camera.axes.cast<float>() * point;
-    const float open = openness(is_blocked, {above_sphere * point, point, reach_of_contact}, 1, sample);
+    const Vector3 at = space_.retract(ray.origin.cast<double>() + *distance * ray.direction.cast<double>());
+    const Vector3f point = at.cast<float>(), upright = space_.upright(at).cast<float>();
+    const Vector3f normal = camera.axes.cast<float>() * upright;
+    const float open = openness(is_blocked, {above_sphere * point, upright, reach_of_contact}, 1, sample);
     const float shade = 1 - contact + contact * open;
     return opaque((0.40F + 0.62F * brightness(normal, {})) * shade * surface_colour(point, camera.pixel) +
                   0.6F * gloss(normal));
   });
 }
 
-double seam_radius(int group_order) {
-  const double side = std::sqrt(4 * std::numbers::pi / group_order);
+double seam_radius(const Target& target) {
+  const double side = std::sqrt(area(target));
   return std::clamp(0.012 * side, 0.005, 0.012);
 }
 
 double ball_radius(const Embedding& embedding, double pixel) {
-  const double wanted = std::max(5.5 * seam_radius(embedding.target.group_order), readable_radius * pixel);
+  const double wanted = std::max(5.5 * seam_radius(embedding.target), readable_radius * pixel);
   return std::min(wanted, std::max(0.3 * smallest_gap(embedding), 0.01));
 }
 
 Ornaments sphere_ornaments(const Embedding& embedding, const std::vector<TileCopy>& copies,
                            const Camera& camera) {
-  const double radius = seam_radius(embedding.target.group_order);
+  const double radius = seam_radius(embedding.target);
   Ornaments thin;
   for (const Seam& seam : embedding.seams)
-    thin.add_tube(arcs(embedding.positions, seam.left), 0.45 * radius, {120, 124, 134});
+    thin.add_tube(arcs(embedding.space(), embedding.positions, seam.left), 0.45 * radius, {120, 124, 134});
   thin.commit();
   Ornaments result;
   std::vector<Matrix3> transforms;
@@ -158,33 +152,49 @@ Ornaments sphere_ornaments(const Embedding& embedding, const std::vector<TileCop
   for (std::size_t s = 0; s < embedding.seams.size(); ++s) {
     const Seam& seam = embedding.seams[s];
     for (const std::vector<int>* bank : {&seam.left, &seam.right})
-      result.add_tube(arcs(embedding.positions, *bank), radius, seam_colour(static_cast<int>(s)));
+      result.add_tube(arcs(embedding.space(), embedding.positions, *bank), radius, seam_colour(static_cast<int>(s)));
   }
   const double ball = ball_radius(embedding, camera.pixel);
   for (std::size_t c = 0; c < embedding.cones.size(); ++c)
     for (const int v : embedding.cones[c].copies)
-      result.add_ball(brought_forward(embedding.positions.row(v), ball, camera.axes.row(2)), ball,
+      result.add_ball(brought_forward(embedding.space(), embedding.positions.row(v), ball, camera.axes.row(2)), ball,
                       cone_colour(static_cast<int>(c)));
   result.commit();
   return result;
 }
 
-Camera sphere_camera(const View& view, const PictureSize& size, double fill) {
+Camera sphere_camera(const Embedding& embedding, const View& view, const PictureSize& size, double fill) {
+  constexpr double tiles_across = 2.2;  // of a space without an end, so many times the tile is seen
   Camera camera;
   camera.axes = view_axes(view);
   camera.size = size;
-  camera.pixel = 2 / (fill * std::min(size.width, size.height));
+  double radius = 1;
+  if (!embedding.space().is_closed()) {
+    camera.centre = tile_centre(embedding);
+    radius = tiles_across * (embedding.positions.rowwise() - camera.centre.transpose()).rowwise().norm().maxCoeff();
+  }
+  camera.pixel = 2 * radius / (fill * std::min(size.width, size.height));
   return camera;
 }
 
-Vector3 tile_centre(const Points& positions, const Faces& faces) {
+Vector3 tile_centre(const Embedding& embedding) {
+  const Points& X = embedding.positions;
   Vector3 sum = Vector3::Zero();
-  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
-    const Vector3 a = positions.row(faces(f, 0)), b = positions.row(faces(f, 1)),
-                  c = positions.row(faces(f, 2));
+  for (Eigen::Index f = 0; f < embedding.faces.rows(); ++f) {
+    const auto v = embedding.faces.row(f);
+    const Vector3 a = X.row(v[0]), b = X.row(v[1]), c = X.row(v[2]);
     sum += (b - a).cross(c - a).norm() * (a + b + c);
   }
-  return sum.norm() > 1e-12 ? sum.normalized() : Vector3(Vector3::UnitX());
+  return sum.norm() > 1e-12 ? embedding.space().retract(sum) : Vector3(Vector3::UnitX());
+}
+
+View tile_view(const Embedding& embedding) {
+  if (!embedding.space().is_closed()) return {Vector3::UnitZ(), Vector3::UnitY()};
+  const Vector3 centre = tile_centre(embedding);
+  const double reach = 1 - std::max(0.0, (embedding.positions * centre).minCoeff());
+  const Matrix3 axes = view_axes({centre, Vector3::UnitZ()});
+  const double tilt = 0.08 + 0.3 * reach;
+  return {(centre + tilt * (axes.row(0) + axes.row(1)).transpose()).normalized(), Vector3::UnitZ()};
 }
 
 }  // namespace orbitutte

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The tile on the sphere, in bold colour, among its pale copies.
+// The tile on the sphere or in the plane, in bold colour, among its pale copies.
 #pragma once
 
 #include "orbitutte/export/tiling.h"
@@ -23,6 +23,7 @@ class SphereFigure {
  private:
   Colour surface_colour(const Vector3f& point, double pixel) const;
 
+  Space space_;
   Points positions_;
   Faces faces_;
   std::vector<float> relief_;
@@ -32,7 +33,7 @@ class SphereFigure {
 };
 
 /// The radius of tubes along the tile's sides: thinner where tiles are small.
-double seam_radius(int group_order);
+double seam_radius(const Target& target);
 
 /// The radius of balls at the marked vertices: large enough for a number on them where the tile has room.
 /// pixel: the length of a pixel's side, where the sphere's radius is 1.
@@ -43,11 +44,16 @@ double ball_radius(const Embedding& embedding, double pixel);
 Ornaments sphere_ornaments(const Embedding& embedding, const std::vector<TileCopy>& copies,
                            const Camera& camera);
 
-/// The camera for which the sphere fills the share `fill` of the picture's shorter side.
-Camera sphere_camera(const View& view, const PictureSize& size, double fill);
+/// The camera for which the sphere fills the share `fill` of the picture's shorter side; in the plane, the tile
+/// with the copies around it.
+Camera sphere_camera(const Embedding& embedding, const View& view, const PictureSize& size, double fill);
 
-/// The direction of the integral of position over the tile, a unit vector; never a mean of corners, which may
+/// The tile in the middle of the sphere, a little from above and from the right, the more so the farther it
+/// reaches, and the sphere's axis upright; the plane from above.
+View tile_view(const Embedding& embedding);
+
+/// The point in the direction of the integral of position over the tile; never a mean of corners, which may
 /// cancel.
-Vector3 tile_centre(const Points& positions, const Faces& faces);
+Vector3 tile_centre(const Embedding& embedding);
 
 }  // namespace orbitutte

@@ -24,19 +24,9 @@ std::vector<float> relief(const SourceFigure& figure, const Embedding& embedding
   return result;
 }
 
-// The tile in the middle, a little from above and from the right, the more so the farther it reaches; the
-// sphere's axis upright.
-View default_sphere_view(const Embedding& embedding) {
-  const Vector3 centre = tile_centre(embedding.positions, embedding.faces);
-  const double reach = 1 - std::max(0.0, (embedding.positions * centre).minCoeff());
-  const Matrix3 axes = view_axes({centre, Vector3::UnitZ()});
-  const double tilt = 0.08 + 0.3 * reach;
-  return {(centre + tilt * (axes.row(0) + axes.row(1)).transpose()).normalized(), Vector3::UnitZ()};
-}
-
 View sphere_view(const PictureParts& parts) {
   const RenderOptions& options = parts.options();
-  View view = default_sphere_view(parts.embedding());
+  View view = tile_view(parts.embedding());
   if (options.panel != Panel::sphere) return view;
   if (options.view) view.viewer = *options.view;
   if (options.up) view.up = *options.up;
@@ -48,7 +38,7 @@ View sphere_view(const PictureParts& parts) {
 void draw_sphere_panel(Canvas& canvas, const Box& box, PictureParts& parts) {
   const Embedding& embedding = parts.embedding();
   const SphereFigure sphere(embedding, relief(parts.figure(), embedding, parts.source_view()));
-  const Camera camera = sphere_camera(sphere_view(parts), size_of(box), figure_fill);
+  const Camera camera = sphere_camera(embedding, sphere_view(parts), size_of(box), figure_fill);
   canvas.image({box.x, box.y}, sphere.draw(camera, sphere_ornaments(embedding, sphere.copies(), camera)));
   for (std::size_t c = 0; c < embedding.cones.size(); ++c)
     for (const int v : embedding.cones[c].copies) {
