@@ -110,17 +110,24 @@ AnyMesh triangles_or_polygons(PolygonMesh polygons) {
   return polygons;
 }
 
+struct Input {
+  AnyMesh mesh;
+  std::vector<std::string> warnings;  // of the reader
+};
+
 // Reads the mesh, and notes what the report says of its file.
-AnyMesh read_input(const std::string& path, RunRecord& run) {
+Input read_input(const std::string& path, RunRecord& run) {
   const Stopwatch reading;
   const MeshFormat format = mesh_format(path);
   const std::string bytes = read_file(path);
   run.mesh_path = path;
   run.input_sha256 = sha256(bytes);
   try {
-    AnyMesh mesh = triangles_or_polygons(parse_mesh(bytes, format));
+    PolygonMesh mesh = parse_mesh(bytes, format);
+    Input input = {{}, std::move(mesh.warnings)};
+    input.mesh = triangles_or_polygons(std::move(mesh));
     run.read_seconds = reading.seconds();
-    return mesh;
+    return input;
   } catch (const MeshError& error) {
     throw MeshError(fmt::format("{}: {}", path, error.what()));
   }
@@ -161,7 +168,7 @@ int embed_command(const EmbedArguments& arguments) {
   if (cones.empty() && !automatic) cones = parse_cones(arguments.cones);
 
   RunRecord run;
-  const AnyMesh mesh = read_input(arguments.mesh, run);
+  const auto [mesh, reader_warnings] = read_input(arguments.mesh, run);
 
   if (automatic) {
     cones = std::visit([&](const auto& known) { return choose_marked_vertices(known, orbifold); }, mesh);
@@ -172,8 +179,9 @@ int embed_command(const EmbedArguments& arguments) {
     line.show(progress);
     return true;
   };
-  const EmbedResult result =
+  EmbedResult result =
       std::visit([&](const auto& known) { return embed(known, orbifold, cones, options); }, mesh);
+  result.warnings.insert(result.warnings.begin(), reader_warnings.begin(), reader_warnings.end());
   line.clear();
   for (const std::string& warning : result.warnings) fmt::print(stderr, "orbitutte: warning: {}\n", warning);
 

@@ -57,7 +57,8 @@ void require_same_faces(const Points& V, const FaceView& faces, const Embedding&
 
 }  // namespace
 
-SourceMesh::SourceMesh(PolygonMesh mesh) : input_(triangles_where_possible(std::move(mesh))) {}
+SourceMesh::SourceMesh(PolygonMesh mesh)
+    : warnings_(std::move(mesh.warnings)), input_(triangles_where_possible(std::move(mesh))) {}
 
 const Points& SourceMesh::positions() const {
   return std::visit([](const auto& mesh) -> const Points& { return mesh.V; }, input_);

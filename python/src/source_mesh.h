@@ -3,7 +3,9 @@
 #pragma once
 
 #include <mutex>
+#include <string>
 #include <variant>
+#include <vector>
 
 #include "orbitutte/mesh/connectivity.h"
 #include "orbitutte/mesh/polygon_mesh.h"
@@ -19,6 +21,7 @@ class SourceMesh {
   explicit SourceMesh(PolygonMesh mesh);
 
   const std::variant<Mesh, PolygonMesh>& input() const { return input_; }
+  const std::vector<std::string>& warnings() const { return warnings_; }  ///< of the file's reader
   const Points& positions() const;
   int face_count() const;
   PolygonMesh polygons() const;  ///< a copy
@@ -34,6 +37,7 @@ class SourceMesh {
   Embedding belonging(Embedding embedding) const;
 
  private:
+  std::vector<std::string> warnings_;
   std::variant<Mesh, PolygonMesh> input_;
   mutable std::once_flag divided_;
   mutable Mesh divided_mesh_;  // of polygons, once somebody asked for it

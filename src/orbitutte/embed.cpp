@@ -173,9 +173,9 @@ EmbedResult embed_or_keep_faces(const EmbedRequest& request, Preparation& prepar
 
 std::vector<int> far_from_each_other(const Mesh& mesh, const SoundSurface& surface,
                                      const Orbifold& orbifold) {
-  require_topology(surface.topology, orbifold);
-  return extremities(mesh, surface.connectivity, orbifold.inner_marks,
-                     static_cast<int>(orbifold.marks.size()) - orbifold.inner_marks);
+  require_topology(mesh, surface, orbifold);
+  const int outer = static_cast<int>(orbifold.marks.size()) - orbifold.inner_marks;
+  return extremities(mesh, surface.connectivity, {orbifold.inner_marks, outer, are_opposite(orbifold.marks)});
 }
 
 EmbedResult embed_prepared(const Mesh& mesh, Preparation& prepared, const Orbifold& orbifold,

@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
+#include "orbitutte/inspect/coincidence.h"
 #include "orbitutte/inspect/weak_places.h"
 #include "orbitutte/parallel.h"
 #include "orbitutte/weights/cone_weights.h"
@@ -37,6 +39,40 @@ std::vector<ConeAngle> cone_angles(const Orbifold& orbifold, const std::vector<i
   return cones;
 }
 
+using Pairs = std::vector<std::array<int, 2>>;
+
+// The marked vertices that come to lie at opposite points of the sphere.
+Pairs opposite_vertices(const EmbedRequest& request) {
+  if (!are_opposite(request.orbifold.marks) || request.marked_vertices.size() != 2) return {};
+  return {{request.marked_vertices[0], request.marked_vertices[1]}};
+}
+
+// Every arc between opposite points is as short as any other, so that an edge between them has no place.
+void require_no_edge(const Connectivity& connectivity, const Pairs& opposite, const Orbifold& orbifold) {
+  for (const auto& [v, w] : opposite) {
+    const std::array<int, 2> edge = {std::min(v, w), std::max(v, w)};
+    if (!std::binary_search(connectivity.edges.begin(), connectivity.edges.end(), edge)) continue;
+    throw MeshError(
+        fmt::format("the marked vertices {} and {} are joined by an edge, but {} puts them at opposite "
+                    "points of the sphere; mark vertices that are further apart, or split the edge",
+                    v, w, orbifold.signature));
+  }
+}
+
+Pairs boundary_edges(const Faces& F, const Connectivity& connectivity) {
+  Pairs edges;
+  for (int h = 0; h < static_cast<int>(F.size()); ++h)
+    if (connectivity.opposite[h] < 0) edges.push_back({origin(F, h), target(F, h)});
+  return edges;
+}
+
+int smallest_vertex(const Pairs& edges) {
+  const auto first = std::min_element(edges.begin(), edges.end(), [](const auto& a, const auto& b) {
+    return std::min(a[0], a[1]) < std::min(b[0], b[1]);
+  });
+  return std::min((*first)[0], (*first)[1]);
+}
+
 }  // namespace
 
 Mesh prepare(const PolygonMesh& mesh, const EmbedOptions& options, Preparation& prepared) {
@@ -50,16 +86,23 @@ Mesh prepare(const PolygonMesh& mesh, const EmbedOptions& options, Preparation& 
   return std::move(divided.triangles);
 }
 
-void require_topology(Topology topology, const Orbifold& orbifold) {
-  if (topology == orbifold.topology) return;
-  throw MeshError(
-      fmt::format("the mesh is a {}, but {} needs a {}; choose an orbifold for it (see 'orbitutte types')",
-                  name(topology), orbifold.signature, name(orbifold.topology)));
+void require_topology(const Mesh& mesh, const SoundSurface& surface, const Orbifold& orbifold) {
+  if (surface.topology == orbifold.topology) return;
+  const auto boundary = boundary_edges(mesh.F, surface.connectivity);
+  const bool is_open = surface.topology == Topology::disk && orbifold.topology == Topology::sphere;
+  const std::string filled = is_open ? fmt::format("fill its hole of {} edges through vertex {}, or ",
+                                                   boundary.size(), smallest_vertex(boundary))
+                                     : "";
+  throw MeshError(fmt::format(
+      "the mesh is a {}, but {} needs a {}; {}choose an orbifold for it (see 'orbitutte types'){}",
+      name(surface.topology), orbifold.signature, name(orbifold.topology), filled,
+      is_open ? in_brackets(welding_advice(find_coincidence(mesh.V, boundary))) : ""));
 }
 
 void find_surface(const EmbedRequest& request, Preparation& prepared) {
   if (!prepared.surface) prepared.surface = require_surface(request.mesh);
-  require_topology(prepared.surface->topology, request.orbifold);
+  require_topology(request.mesh, *prepared.surface, request.orbifold);
+  require_no_edge(prepared.surface->connectivity, opposite_vertices(request), request.orbifold);
 }
 
 EdgeWeights find_weights(const EmbedRequest& request, Preparation& prepared) {
@@ -69,7 +112,9 @@ EdgeWeights find_weights(const EmbedRequest& request, Preparation& prepared) {
     prepared.weights = options.weights_file.empty() ? edge_weights(mesh, connectivity, options.weights)
                                                     : read_weights(options.weights_file, connectivity);
   prepared.kept_faces = options.weights.kept_faces;
-  return sharpened_at_cones(*prepared.weights, cone_angles(orbifold, marked_vertices));
+  const Pairs apart = opposite_vertices(request);
+  return sharpened_at_cones(kept_apart(*prepared.weights, apart, mesh, connectivity, options.weights),
+                            cone_angles(orbifold, marked_vertices), apart);
 }
 
 void find_cut(const EmbedRequest& request, const EdgeWeights& weights, Preparation& prepared) {

@@ -38,10 +38,11 @@ struct Preparation {
 /// MeshError, and ArgumentError where the options ask for weights that polygons do not have.
 Mesh prepare(const PolygonMesh& mesh, const EmbedOptions& options, Preparation& prepared);
 
-/// Throws MeshError where the mesh has not the topology that the orbifold needs.
-void require_topology(Topology topology, const Orbifold& orbifold);
+/// Throws MeshError if the mesh does not have the topology that the orbifold needs.
+void require_topology(const Mesh& mesh, const SoundSurface& surface, const Orbifold& orbifold);
 
-/// Recognises the surface; throws MeshError where it is not the one that the orbifold needs.
+/// Recognises the surface; throws MeshError if it is not the one that the orbifold needs, or an edge joins
+/// marked vertices that have to lie at opposite points.
 void find_surface(const EmbedRequest& request, Preparation& prepared);
 
 /// The weights (section 4), those of a metric that is flat at the cones.

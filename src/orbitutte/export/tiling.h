@@ -23,22 +23,28 @@ std::vector<TileCopy> tile_copies(const Embedding& embedding);
 /// The copies, welded.
 struct Tiling {
   Mesh mesh;              ///< closed, on the unit sphere, every triangle counterclockwise from outside
-  std::vector<int> tile;  ///< m |G|: the copy of the tile that holds the triangle, an index into copies
-  std::vector<int> source_face;    ///< m |G|: the face of the input mesh
+  std::vector<int> tile;  ///< of every triangle: the copy of the tile that holds it, an index into copies
+  std::vector<int> source_face;    ///< of every triangle: the face of the input mesh
   std::vector<int> source_vertex;  ///< the input vertex of every vertex
   int tiles = 0;                   ///< |G|
   std::vector<TileCopy> copies;    ///< |G|, the identity first
   Polygons polygons;  ///< the faces that the triangles make up, tile by tile; none where all are triangles
+  std::vector<int> input_faces;  ///< that every tile has, in the order of its faces
+  /// The input's other faces. All their vertices are on one mirror, so that they are arcs, and their mirror
+  /// images have the same vertices: they are left out, and the vertices that are in no other face.
+  std::vector<int> left_out;
 
   /// The faces as those of the input: polygons or triangles.
   FaceView faces() const { return polygons.count() > 0 ? FaceView(polygons) : FaceView(mesh.F); }
 };
 
 /// Welds combinatorially: copy g of left[i] is copy g*transform of right[i]; positions are never compared.
-/// Faces and vertices come tile by tile; vertices that no face uses are left out. Time and memory O(m |G|).
-/// Throws ArgumentError where the seams do not generate a group of order embedding.group_order, where the
-/// copies do not close up into a sphere (without seams, say), where the result has more faces than an int
-/// can count, and where positions are not finite or indices out of range.
+/// Faces and vertices come tile by tile; vertices that no face uses are left out. Polygons are divided so
+/// that no diagonal coincides with its mirror image. Time and memory O(m |G|). The result is one closed
+/// mesh (require_closed_sphere). Throws ArgumentError if the seams do not generate a group of order
+/// embedding.group_order, if the copies do not close up into such a mesh (naming the edge or face of the
+/// input, as tiled_faces does), if the result has more corners than an int can count, and if positions are
+/// not finite or indices out of range.
 Tiling tile_sphere(const Embedding& embedding);
 
 /// Writes the format that the path's ending names (any case):
@@ -50,7 +56,8 @@ Tiling tile_sphere(const Embedding& embedding);
 /// - GLB: a material and a primitive per colour, all on the same vertices, in single precision.
 ///
 /// Neighbouring tiles differ in colour; mirrored tiles are a shade darker. The file appears whole or not at
-/// all. Throws ArgumentError for another ending or a tiling too large for the format (GLB: 4 GiB), FileError.
+/// all. Throws ArgumentError for another ending, a tiling too large for the format (GLB: 4 GiB), and, of
+/// polygons in the formats that have none, if the triangles are no closed mesh; FileError.
 void write_tiling(const std::string& path, const Tiling& tiling);
 
 }  // namespace orbitutte

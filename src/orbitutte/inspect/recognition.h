@@ -8,6 +8,10 @@
 
 namespace orbitutte {
 
+// The sizes of meshes whose squared lengths are doubles.
+inline constexpr double largest_coordinate = 1e150;
+inline constexpr double smallest_size = 1e-150;
+
 /// A surface on which `inspect` finds no defect.
 struct SoundSurface {
   Topology topology = Topology::sphere;

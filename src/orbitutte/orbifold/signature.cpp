@@ -250,8 +250,13 @@ Orbifold parse_euclidean_orbifold(const std::string& signature) {
   refuse(signature, "is none of the Euclidean orbifolds 333, 442, 632, 2222, *333, *442, *632 and *2222");
 }
 
+bool are_opposite(const std::vector<Mark>& marks) {
+  return marks.size() == 2 && marks[0].order == marks[1].order && marks[0].kind == marks[1].kind &&
+         marks[0].kind != ConeKind::fixed;
+}
+
 std::vector<double> metric_angles(const std::vector<Mark>& marks) {
-  const bool slides = marks.size() == 2 && marks[0].order == marks[1].order && marks[0].kind == marks[1].kind;
+  const bool slides = are_opposite(marks);
   std::vector<double> angles;
   for (const auto& [order, kind] : marks) {
     const double around = kind == ConeKind::rotation ? 2 * std::numbers::pi : std::numbers::pi;

@@ -167,7 +167,10 @@ EdgeWeights weights_of(const Mesh& mesh, const Connectivity& connectivity, const
   std::vector<ConeAngle> cones;
   for (std::size_t k = 0; k < angles.size(); ++k)
     if (angles[k] > 0) cones.push_back({embedding.cones[k].vertex, angles[k]});
-  return sharpened_at_cones(edge_weights(mesh, connectivity, options), cones);
+  std::vector<std::array<int, 2>> apart;
+  if (are_opposite(marks)) apart.push_back({embedding.cones[0].vertex, embedding.cones[1].vertex});
+  const EdgeWeights weights = edge_weights(mesh, connectivity, options);
+  return sharpened_at_cones(kept_apart(weights, apart, mesh, connectivity, options), cones, apart);
 }
 
 }  // namespace orbitutte

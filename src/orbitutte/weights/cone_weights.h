@@ -2,6 +2,7 @@
 // Weights around cones, where a conformal map is a power that no piecewise linear map comes near.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "orbitutte/weights/weights.h"
@@ -21,7 +22,14 @@ struct ConeAngle {
 /// conformal map is smooth at the cone. In the mesh's own metric the elements there miss most of it, and the
 /// error falls with the distance r as slowly as (h/r)^(2b), h the length of an edge: on a mesh of 270,000
 /// triangles it makes most of the mean angle distortion. A face with two cones stays as it is; flips make the
-/// triangulation Delaunay in the new metric.
-EdgeWeights sharpened_at_cones(const EdgeWeights& weights, const std::vector<ConeAngle>& cones);
+/// triangulation Delaunay in the new metric, but join no two vertices of `apart`.
+EdgeWeights sharpened_at_cones(const EdgeWeights& weights, const std::vector<ConeAngle>& cones,
+                               const std::vector<std::array<int, 2>>& apart = {});
+
+/// edge_weights whose triangulation, if they have one, has no edge between two vertices of `apart`: those at
+/// opposite points of the sphere, between which every arc is as short as any other. `weights`: what
+/// edge_weights has found without that wish; they come back if they meet it.
+EdgeWeights kept_apart(const EdgeWeights& weights, const std::vector<std::array<int, 2>>& apart,
+                       const Mesh& mesh, const Connectivity& connectivity, const WeightOptions& options);
 
 }  // namespace orbitutte

@@ -31,9 +31,9 @@ IntrinsicTriangulation intrinsic_triangulation(const Mesh& mesh, const Connectiv
 
 /// Flips edges until each is Delaunay: the angles opposite to it add up to pi at most (but for rounding). All
 /// but the given edges are Delaunay before. An edge stays as it is where a kept face has it, where its flip
-/// would join two vertices by a second edge, or leave a vertex of the boundary with a single face: a vertex
-/// of degree two has no place of its own in a Tutte embedding. Edges of the boundary stay. Takes O(n) time on
-/// meshes as they are. The faces need not have consistent orientations.
+/// would join two vertices by a second edge or two that are kept apart by any, or leave a vertex of the
+/// boundary with a single face: a vertex of degree two has no place of its own in a Tutte embedding. Edges of
+/// the boundary stay. Takes O(n) time on meshes as they are. The faces need not have consistent orientations.
 void make_delaunay(IntrinsicTriangulation& triangulation, const std::vector<int>& edges);
 
 }  // namespace orbitutte

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "orbitutte/weights/weights.h"
 
-
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
@@ -79,6 +78,7 @@ EdgeWeights delaunay_weights(const Mesh& mesh, const Connectivity& connectivity,
       throw MeshError(
           fmt::format("there is no face {} to keep; the mesh has the faces 0 to {}", f, mesh.F.rows() - 1));
   triangulation.kept_faces = options.kept_faces;
+  triangulation.kept_apart = options.kept_apart;
   std::vector<int> all(connectivity.edges.size());
   std::iota(all.begin(), all.end(), 0);
   make_delaunay(triangulation, all);
@@ -216,8 +216,11 @@ EdgeWeights edge_weights(const Mesh& mesh, const Connectivity& connectivity, con
   if (options.kind == WeightKind::file && options.given.empty())
     throw ArgumentError("weights of the kind 'file' are read by read_weights");
   if (options.kind == WeightKind::file) return given_weights(options.given, connectivity);
-  if (options.kind == WeightKind::standard)
-    return edge_weights(mesh, connectivity, {WeightKind::delaunay, options.clamp, options.kept_faces});
+  if (options.kind == WeightKind::standard) {
+    WeightOptions delaunay = options;
+    delaunay.kind = WeightKind::delaunay;
+    return edge_weights(mesh, connectivity, delaunay);
+  }
   EdgeWeights result = weights_of_kind(mesh, connectivity, options);
   result.kind = options.kind;
   result.clamp = options.clamp;

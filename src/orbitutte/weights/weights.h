@@ -2,6 +2,7 @@
 // Edge weights of the discrete Dirichlet energy (section 4), on the uncut mesh.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct WeightOptions {
   double clamp = 0.01;                   ///< of cotangents that are not positive, > 0: the paper's value
   std::vector<int> kept_faces;           ///< of kind `delaunay`: faces whose edges are not flipped
   std::vector<WeightedEdge> given = {};  ///< of kind `file`: every edge once, w >= 0
+  std::vector<std::array<int, 2>> kept_apart = {};  ///< of kind `delaunay`: vertices that no flip joins
 };
 
 /// Weights on the uncut mesh, so that no cut can change them. Zero-area triangles have no cotangents and add
