@@ -228,7 +228,7 @@ TEST(Tiling, LeavesOutVerticesWithoutFaces) {
 std::string fault_of(const Mesh& mesh) {
   try {
     require_closed_sphere(mesh);
-  } catch (const ArgumentError& error) {
+  } catch (const MeshError& error) {
     return error.what();
   }
   return {};
@@ -271,10 +271,10 @@ TEST(ClosedMesh, OfPolygonsEveryPlantedFaultIsFound) {
   Polygons polygons = {cube.corners, cube.face_start};
   EXPECT_NO_THROW(require_closed_sphere(cube.V, polygons));
   std::swap(polygons.corners[0], polygons.corners[2]);
-  EXPECT_THROW(require_closed_sphere(cube.V, polygons), ArgumentError);
+  EXPECT_THROW(require_closed_sphere(cube.V, polygons), MeshError);
   polygons.corners.resize(20);
   polygons.start.pop_back();
-  EXPECT_THROW(require_closed_sphere(cube.V, polygons), ArgumentError);
+  EXPECT_THROW(require_closed_sphere(cube.V, polygons), MeshError);
 }
 
 TEST(Tiling, EarsThatCoincideWithTheirMirrorImagesAreLeftOut) {
@@ -303,8 +303,8 @@ TEST(Tiling, AnEdgeThatCoincidesWithItsMirrorImageIsNamed) {
   for (int k = 0; k < 3; ++k) embedding.faces.row(m + k) << side[k], side[(k + 1) % 3], static_cast<int>(n);
   try {
     tile_sphere(embedding);
-    ADD_FAILURE() << "no ArgumentError";
-  } catch (const ArgumentError& error) {
+    ADD_FAILURE() << "no MeshError";
+  } catch (const MeshError& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("of the input joins two vertices of one mirror"));
   }
 }

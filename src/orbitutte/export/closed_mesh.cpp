@@ -17,7 +17,7 @@ std::string fault_of(const Inspection& found) {
 
 void require_closed_sphere(const Inspection& found) {
   if (found.defects.empty() && found.topology == Topology::sphere && found.unreferenced_vertices == 0) return;
-  throw ArgumentError(
+  throw MeshError(
       fmt::format("the copies of the embedding do not make up one closed mesh (in the numbers of the tiling: "
                   "{}); mend the "
                   "mesh there, as 'orbitutte info' says, and embed it again",

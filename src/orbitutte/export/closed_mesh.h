@@ -6,7 +6,7 @@
 
 namespace orbitutte {
 
-/// Throws ArgumentError, naming what is wrong, unless the faces are one closed surface: every edge between
+/// Throws MeshError, naming what is wrong, unless the faces are one closed surface: every edge between
 /// two faces that run along it in opposite directions, the faces around every vertex one fan, all in one
 /// piece, Euler characteristic 2, and every vertex in some face.
 void require_closed_sphere(const Mesh& mesh);

@@ -110,7 +110,7 @@ class Selection {
     while (ring.size() > 3) {
       const int k = corner_to_cut(mirrors_, ring), n = static_cast<int>(ring.size());
       if (k < 0)
-        throw ArgumentError(fmt::format(
+        throw MeshError(fmt::format(
             "face {} of the input cannot be divided into triangles none of which coincides with its mirror "
             "image, so that its copies make up no closed mesh; divide it by an edge in the input",
             f));
@@ -132,7 +132,7 @@ class Selection {
     std::sort(on_mirrors_.begin(), on_mirrors_.end());
     const auto chord = std::adjacent_find(on_mirrors_.begin(), on_mirrors_.end());
     if (chord == on_mirrors_.end()) return;
-    throw ArgumentError(fmt::format(
+    throw MeshError(fmt::format(
         "edge ({}, {}) of the input joins two vertices of one mirror, so that it coincides with its "
         "mirror image and the copies make up no closed mesh; split the edge by a vertex and embed "
         "the mesh again",

@@ -24,7 +24,7 @@ struct TiledFaces {
 
 /// The faces of the embedding but those all of whose vertices lie on one mirror: such a face is an arc, and
 /// its mirror image has the same vertices. A polygon whose triangles have a side between two vertices of one
-/// mirror is divided anew, since that side would coincide with its mirror image. Throws ArgumentError naming
+/// mirror is divided anew, since that side would coincide with its mirror image. Throws MeshError naming
 /// an edge of the input that does so, or a face that cannot be divided, and what to do about it.
 TiledFaces tiled_faces(const Embedding& embedding, const MirrorsOfVertices& mirrors);
 

@@ -42,9 +42,9 @@ struct Tiling {
 /// Faces and vertices come tile by tile; vertices that no face uses are left out. Polygons are divided so
 /// that no diagonal coincides with its mirror image. Time and memory O(m |G|). The result is one closed
 /// mesh (require_closed_sphere). Throws ArgumentError if the seams do not generate a group of order
-/// embedding.group_order, if the copies do not close up into such a mesh (naming the edge or face of the
-/// input, as tiled_faces does), if the result has more corners than an int can count, and if positions are
-/// not finite or indices out of range.
+/// embedding.group_order, if the copies do not close up into a sphere (without seams, say), if the result has
+/// more corners than an int can count, and if positions are not finite or indices out of range; MeshError if
+/// the mesh is not closed, naming the edge or face of the input, as tiled_faces does.
 Tiling tile_sphere(const Embedding& embedding);
 
 /// Writes the format that the path's ending names (any case):
@@ -56,8 +56,8 @@ Tiling tile_sphere(const Embedding& embedding);
 /// - GLB: a material and a primitive per colour, all on the same vertices, in single precision.
 ///
 /// Neighbouring tiles differ in colour; mirrored tiles are a shade darker. The file appears whole or not at
-/// all. Throws ArgumentError for another ending, a tiling too large for the format (GLB: 4 GiB), and, of
-/// polygons in the formats that have none, if the triangles are no closed mesh; FileError.
+/// all. Throws ArgumentError for another ending, a tiling too large for the format (GLB: 4 GiB); MeshError if
+/// the triangles of polygons, in the formats that have no others, are no closed mesh; FileError.
 void write_tiling(const std::string& path, const Tiling& tiling);
 
 }  // namespace orbitutte
