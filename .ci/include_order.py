@@ -11,8 +11,8 @@ SOURCE = ROOT / "src/orbitutte"
 PLAIN = "plain values"  # files at the root of src/orbitutte that every layer may know
 LAYERS = [PLAIN, "geometry", "mesh", "io", "inspect", "samples", "weights", "cut", "orbifold", "linear", "solve", "verify", "cones", "map",
           "embed", "report", "export", "page", "render"]
-ROOT_FILES = {"types": PLAIN, "errors": PLAIN, "progress": PLAIN, "parallel": PLAIN, "memory": PLAIN, "version": PLAIN,
-              "embed_types": "embed", "embed": "embed", "preparation": "embed", "warnings": "embed"}
+ROOT_FILES = {"types": PLAIN, "errors": PLAIN, "progress": PLAIN, "parallel": PLAIN, "memory": PLAIN, "options": PLAIN, "minimum": PLAIN,
+              "version": PLAIN, "embed_types": "embed", "embed": "embed", "preparation": "embed", "warnings": "embed"}
 # The certificate shares no code with what it judges; only `embed` and `map` compose.
 NEVER = {("verify", layer) for layer in ("weights", "cut", "linear", "solve", "cones")} | {("map", "solve"), ("map", "linear")}
 SMALL = "orbitutte/embed_types.h"  # what programs include to name options and results

@@ -7,7 +7,7 @@
 #include <charconv>
 
 #include "orbitutte/export/cut_triangles.h"
-#include "orbitutte/inspect/inspection.h"
+#include "orbitutte/inspect/recognition.h"
 #include "orbitutte/io/mesh_io.h"
 
 namespace orbitutte::cli {
@@ -35,15 +35,10 @@ WeightKind parse_weights(const std::string& text) {
       fmt::format("--weights is '{}'; it may be standard, cotan, delaunay, mean-value or uniform", text));
 }
 
-SourceMesh read_source(const std::string& path, Embedding& embedding) {
-  PolygonMesh mesh = read_mesh(path);
-  require_embeddable(inspect(mesh));
-  Points colours = std::move(mesh.colours);
-  if (is_triangle_mesh(mesh)) return {to_triangle_mesh(std::move(mesh)), std::move(colours)};
-  const Triangulation triangulation = triangulate(mesh);
-  if (embedding.polygons.start == mesh.face_start)
-    embedding.faces = cut_triangles(mesh, triangulation, embedding);
-  return {{std::move(mesh.V), on_vertices(triangulation, mesh.corners)}, std::move(colours)};
+Surface read_source(const std::string& path, Embedding& embedding) {
+  Surface surface = make_surface(read_mesh(path));
+  if (embedding.polygons.start == surface.polygons.start) embedding.faces = cut_triangles(surface, embedding);
+  return surface;
 }
 
 }  // namespace orbitutte::cli

@@ -16,14 +16,8 @@ std::vector<int> parse_cones(const std::string& text);
 /// The kind of weights that a name tells. Throws ArgumentError naming all.
 WeightKind parse_weights(const std::string& text);
 
-/// A mesh that was embedded.
-struct SourceMesh {
-  Mesh triangles;  ///< its polygons divided
-  Points colours;  ///< of its vertices, n x 3, sRGB, 0 .. 1; or none
-};
-
 /// Reads the mesh of an embedding, whose faces are divided into the same triangles. Throws FileError, and
 /// MeshError naming the first defect; where the embedding is none of the mesh, what takes both tells.
-SourceMesh read_source(const std::string& path, Embedding& embedding);
+Surface read_source(const std::string& path, Embedding& embedding);
 
 }  // namespace orbitutte::cli

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace orbitutte::cli {
 
@@ -36,7 +37,10 @@ struct InfoArguments {
 };
 int info_command(const InfoArguments& arguments);
 
-int types_command(bool json);
+struct TypesArguments {
+  bool json = false;
+};
+int types_command(const TypesArguments& arguments);
 
 struct VerifyArguments {
   std::string embedding, report, mesh, weights_file;
@@ -66,7 +70,8 @@ struct ReportArguments {
 int report_command(const ReportArguments& arguments);
 
 struct CompareArguments {
-  std::string mesh, cones = "auto", orbifold, flat, weights = "standard", output;
+  std::string mesh, cones = "auto", weights = "standard", output;
+  std::vector<std::string> orbifolds;
   bool json = false;
 };
 int compare_command(const CompareArguments& arguments);

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Spherical and Euclidean orbifold Tutte embeddings of one mesh side by side (section 6.3).
+// Embeddings of one mesh into several orbifolds side by side (section 6.3).
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <array>
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "command_arguments.h"
 #include "commands.h"
 #include "orbitutte/embed.h"
-#include "orbitutte/inspect/inspection.h"
 #include "orbitutte/io/mesh_io.h"
 #include "orbitutte/report/comparison.h"
 
@@ -19,53 +18,46 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct Compared {
-  Orbifold orbifold;
+  Target orbifold;
   EmbedResult result;
 };
 
-Orbifold orbifold_or(const std::string& given, const std::string& otherwise) {
-  return parse_orbifold(given.empty() ? otherwise : given);
-}
-
-Orbifold flat_or(const std::string& given, const std::string& otherwise) {
-  return parse_euclidean_orbifold(given.empty() ? otherwise : given);
+// The symbols that were given, or one of the sphere and one of the plane.
+std::vector<std::string> symbols_or_both_spaces(const std::vector<std::string>& given, Topology topology) {
+  if (!given.empty()) return given;
+  const std::string star = topology == Topology::disk ? "*" : "";
+  return {star + "432", star + "442"};
 }
 
 void print_row(const Compared& compared) {
   const Distortion& d = compared.result.distortion;
   fmt::print("{:<10} {:<10} {:>9.4g} {:>9.4g} {:>9.4g} {:>10.4g} {:>9.4g} {:>9.4g}  {}\n",
-             compared.orbifold.geometry == Geometry::spherical ? "spherical" : "Euclidean",
-             compared.orbifold.signature, d.area.mean, d.area.std, d.area.median, d.area.max, d.angle.mean,
-             d.angle.max, compared.result.certificate.bijective ? "yes" : "no");
+             compared.orbifold.space.name(), compared.orbifold.signature, d.area.mean, d.area.std,
+             d.area.median, d.area.max, d.angle.mean, d.angle.max,
+             compared.result.certificate.bijective ? "yes" : "no");
 }
 
 Json to_json(const Compared& compared) {
   const Distortion& d = compared.result.distortion;
   return {
       {"orbifold", compared.orbifold.signature},
+      {"space", compared.orbifold.space.name()},
       {"energy", compared.result.minimum.energy},
       {"bijective", compared.result.certificate.bijective},
       {"area", {{"mean", d.area.mean}, {"std", d.area.std}, {"median", d.area.median}, {"max", d.area.max}}},
       {"angle", {{"mean", d.angle.mean}, {"max", d.angle.max}}}};
 }
 
-ComparedMap compared_map(const Mesh& mesh, const Compared& compared) {
-  const bool is_spherical = compared.orbifold.geometry == Geometry::spherical;
+ComparedMap compared_map(const Surface& surface, const Compared& compared) {
   const std::string verdict = compared.result.certificate.bijective ? "" : " (not certified)";
-  return {(is_spherical ? "sphere: " : "plane: ") + compared.orbifold.signature + verdict,
-          compared.result.distortion.area, measure_faces(mesh, compared.result.embedding)};
+  return {compared.orbifold.space.name() + ": " + compared.orbifold.signature + verdict,
+          compared.result.distortion.area, measure_faces(surface, compared.result.embedding)};
 }
 
 }  // namespace
 
 int compare_command(const CompareArguments& arguments) {
-  PolygonMesh polygons = read_mesh(arguments.mesh);
-  const Inspection inspection = inspect(polygons);
-  require_embeddable(inspection);
-  const Mesh mesh = to_triangle_mesh(std::move(polygons));
-  const std::string star = inspection.topology == Topology::disk ? "*" : "";
-  const std::array orbifolds = {orbifold_or(arguments.orbifold, star + "432"),
-                                flat_or(arguments.flat, star + "442")};
+  const Surface surface = make_surface(read_mesh(arguments.mesh));
   EmbedOptions options;
   options.weights.kind = parse_weights(arguments.weights);
 
@@ -73,25 +65,27 @@ int compare_command(const CompareArguments& arguments) {
   std::vector<ComparedMap> pictures;
   std::vector<int> cones;
   if (arguments.cones != "auto") cones = parse_cones(arguments.cones);
-  for (const Orbifold& orbifold : orbifolds) {
-    if (cones.empty()) cones = choose_marked_vertices(mesh, orbifold);
-    maps.push_back({orbifold, embed(mesh, orbifold, cones, options)});
-    pictures.push_back(compared_map(mesh, maps.back()));
+  for (const std::string& symbol : symbols_or_both_spaces(arguments.orbifolds, surface.topology)) {
+    const Target orbifold = parse_orbifold(symbol);
+    if (cones.empty()) cones = choose_marked_vertices(surface, orbifold);
+    maps.push_back({orbifold, embed(surface, orbifold, cones, options)});
+    pictures.push_back(compared_map(surface, maps.back()));
   }
   if (arguments.json) {
-    fmt::print("{}\n", Json({{"mesh", arguments.mesh},
-                             {"cones", cones},
-                             {"spherical", to_json(maps[0])},
-                             {"euclidean", to_json(maps[1])}})
-                           .dump(1));
+    Json rows = Json::array();
+    for (const Compared& compared : maps) rows.push_back(to_json(compared));
+    fmt::print("{}\n", Json({{"mesh", arguments.mesh}, {"cones", cones}, {"maps", rows}}).dump(1));
   } else {
-    fmt::print("{}: {} triangles, cones {}\n", arguments.mesh, mesh.F.rows(), fmt::join(cones, ","));
+    fmt::print("{}: {} triangles, cones {}\n", arguments.mesh, surface.triangles.rows(),
+               fmt::join(cones, ","));
     fmt::print("{:<10} {:<10} {:>9} {:>9} {:>9} {:>10} {:>9} {:>9}  {}\n", "", "orbifold", "area mean", "std",
                "median", "max", "angle", "max", "certified");
     for (const Compared& compared : maps) print_row(compared);
   }
-  if (!arguments.output.empty()) write_comparison(arguments.output, {mesh, cones, std::move(pictures)});
-  const bool certified = maps[0].result.certificate.bijective && maps[1].result.certificate.bijective;
+  if (!arguments.output.empty()) write_comparison(arguments.output, {surface, cones, std::move(pictures)});
+  const bool certified = std::all_of(maps.begin(), maps.end(), [](const Compared& compared) {
+    return compared.result.certificate.bijective;
+  });
   return certified ? succeeded : not_certified;
 }
 

@@ -4,12 +4,14 @@
 
 #include "commands.h"
 #include "orbitutte/export/tiling.h"
+#include "orbitutte/inspect/recognition.h"
 #include "orbitutte/io/mesh_io.h"
-#include "orbitutte/linear/sparse_factor.h"
+#include "orbitutte/options.h"
 #include "orbitutte/report/report.h"
 #include "orbitutte/report/verification.h"
 #include "orbitutte/samples/sample.h"
 #include "orbitutte/version.h"
+#include "standard_streams.h"
 
 namespace orbitutte::cli {
 namespace {
@@ -56,7 +58,7 @@ int verify_command(const VerifyArguments& arguments) {
   VerificationOptions options;
   options.weights_file = arguments.weights_file;
   options.theorem2 = arguments.theorem2;
-  const Verdict verdict = verify(read_mesh(arguments.mesh), embedding, report, options);
+  const Verdict verdict = verify(make_surface(read_mesh(arguments.mesh)), embedding, report, options);
   if (arguments.json) {
     fmt::print("{}", verdict_json(verdict));
   } else {
@@ -70,13 +72,13 @@ int tile_command(const TileArguments& arguments) {
   const Tiling tiling = tile_sphere(read_embedding(arguments.embedding, read_report(arguments.report)));
   write_tiling(arguments.output, tiling);
   if (!tiling.left_out.empty())
-    fmt::print(
-        stderr,
-        "orbitutte: warning: {} faces of the input, the first face {}, are left out: all their vertices "
-        "are on one mirror, so that they coincide with their mirror images\n",
+    tell(
+        "orbitutte: warning: {} faces of the input, the first face {}, are left out: all their vertices are "
+        "on "
+        "one mirror, so that they coincide with their mirror images\n",
         tiling.left_out.size(), tiling.left_out.front());
-  fmt::print(stderr, "{}: {} tiles, {} vertices, {} faces\n", arguments.output, tiling.tiles,
-             tiling.mesh.V.rows(), tiling.faces().count());
+  tell("{}: {} tiles, {} vertices, {} faces\n", arguments.output, tiling.tiles, tiling.mesh.V.rows(),
+       tiling.faces().count());
   return succeeded;
 }
 
@@ -91,7 +93,7 @@ int sample_command(const SampleArguments& arguments) {
                     arguments.shape));
   const Mesh mesh = sample_mesh(options);
   write_mesh(arguments.output, mesh);
-  fmt::print(stderr, "{}: {} vertices, {} triangles\n", arguments.output, mesh.V.rows(), mesh.F.rows());
+  tell("{}: {} vertices, {} triangles\n", arguments.output, mesh.V.rows(), mesh.F.rows());
   return succeeded;
 }
 

@@ -10,6 +10,7 @@
 namespace orbitutte::cli {
 
 /// None in builds without pictures.
-std::vector<PagePicture> page_pictures(const Mesh& mesh, const Embedding& embedding, const Report& report);
+std::vector<PagePicture> page_pictures(const Surface& surface, const Embedding& embedding,
+                                       const Report& report);
 
 }  // namespace orbitutte::cli

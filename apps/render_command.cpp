@@ -26,15 +26,16 @@ int render_command(const RenderArguments& arguments) {
   RenderOptions options = options_from(arguments);
   const Report report = read_report(arguments.report);
   Embedding embedding = read_embedding(arguments.embedding, report);
-  const Mesh mesh = read_source(arguments.mesh, embedding).triangles;
+  const Surface surface = read_source(arguments.mesh, embedding);
   if (!arguments.view.empty())
-    options.view = parse_view(arguments.view, options.up ? *options.up : default_up(mesh));
+    options.view = parse_view(arguments.view, options.up ? *options.up : default_up(surface));
   const std::string title = std::filesystem::path(arguments.mesh).filename().string();
-  write_picture(arguments.output, {mesh, embedding, report, title}, options);
+  write_picture(arguments.output, {surface, embedding, report, title}, options);
   return drawn;
 }
 
-std::vector<PagePicture> page_pictures(const Mesh& mesh, const Embedding& embedding, const Report& report) {
+std::vector<PagePicture> page_pictures(const Surface& surface, const Embedding& embedding,
+                                       const Report& report) {
   std::vector<PagePicture> pictures;
   for (const auto& [panel, caption] : {std::pair(Panel::source, "The mesh, its marked vertices and seams"),
                                        std::pair(Panel::sphere, "Its tile on the sphere, and the copies"),
@@ -43,7 +44,7 @@ std::vector<PagePicture> page_pictures(const Mesh& mesh, const Embedding& embedd
     RenderOptions options;
     options.panel = panel;
     options.width = options.height = 800;
-    pictures.push_back({caption, render_png({mesh, embedding, report, ""}, options)});
+    pictures.push_back({caption, render_png({surface, embedding, report, ""}, options)});
   }
   return pictures;
 }

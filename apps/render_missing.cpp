@@ -10,6 +10,6 @@ int render_command(const RenderArguments&) {
   throw ArgumentError("this binary was built without pictures; build it with -D ORBITUTTE_RENDER=ON");
 }
 
-std::vector<PagePicture> page_pictures(const Mesh&, const Embedding&, const Report&) { return {}; }
+std::vector<PagePicture> page_pictures(const Surface&, const Embedding&, const Report&) { return {}; }
 
 }  // namespace orbitutte::cli

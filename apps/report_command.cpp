@@ -7,6 +7,7 @@
 #include "orbitutte/page/page.h"
 #include "orbitutte/report/report.h"
 #include "page_pictures.h"
+#include "standard_streams.h"
 
 namespace orbitutte::cli {
 
@@ -14,14 +15,13 @@ int report_command(const ReportArguments& arguments) {
   constexpr int written = 0;
   const Report claims = read_report(arguments.report);
   Embedding embedding = read_embedding(arguments.embedding, claims);
-  const SourceMesh source = read_source(arguments.mesh, embedding);
+  const Surface surface = read_source(arguments.mesh, embedding);
   const std::string report = read_file(arguments.report);
   PageOptions options;
-  if (!has_interactive_view()) options.pictures = page_pictures(source.triangles, embedding, claims);
-  write_file(arguments.output, report_page({source.triangles, embedding, report, source.colours}, options));
+  if (!has_interactive_view()) options.pictures = page_pictures(surface, embedding, claims);
+  write_file(arguments.output, report_page({surface, embedding, report}, options));
   if (!has_interactive_view())
-    fmt::print(stderr, "{}: without the interactive view, since this binary was built without Node.js\n",
-               arguments.output);
+    tell("{} has no interactive view, because this program was built without Node.js\n", arguments.output);
   return written;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Times whole embeddings, stage by stage, beside the yardstick T0 in the same process; one JSON row a
+// Times whole embeddings, stage by stage, and the yardstick T0 in the same process. Prints one JSON row per
 // repetition.
 #include <sys/resource.h>
 
@@ -31,7 +31,7 @@ struct Arguments {
   std::string again;
 };
 
-// Every triangle in four, at the midpoints of its edges. The vertices keep their numbers.
+// Divides every triangle into four at the midpoints of its edges. The vertices keep their numbers.
 Mesh subdivided(const Mesh& mesh) {
   const int n = static_cast<int>(mesh.V.rows());
   const Connectivity connectivity = connect(mesh.F, n);
@@ -69,12 +69,12 @@ Input load(const Arguments& arguments) {
     input.mesh = to_triangle_mesh(read_mesh(arguments.mesh));
   }
   for (int k = 0; k < arguments.subdivisions; ++k) input.mesh = subdivided(input.mesh);
-  const Orbifold orbifold = parse_orbifold(arguments.orbifold);
+  const Target orbifold = parse_orbifold(arguments.orbifold);
   input.cones.resize(std::min(input.cones.size(), orbifold.marks.size()));
   return input;
 }
 
-// From here on, the operating system's peak counts anew (Linux 4.0 and later).
+// Makes the operating system count the peak memory anew from here on (Linux 4.0 and later).
 void reset_peak_memory() { std::ofstream("/proc/self/clear_refs") << 5; }
 
 long long peak_memory_bytes() {
@@ -89,7 +89,7 @@ long long peak_memory_bytes() {
 nlohmann::json run(const Arguments& arguments, const Input& input) {
   const benchmarks::Yardstick yardstick = benchmarks::measure_yardstick(input.mesh);
   EmbedOptions options;
-  options.weights.kind = WeightKind::cotan;  // those of the yardstick
+  options.weights.kind = WeightKind::cotan;  // the yardstick's
   options.threads = arguments.threads;
   options.laplacian.block_size = arguments.block_size;
   reset_peak_memory();
@@ -116,10 +116,10 @@ nlohmann::json run(const Arguments& arguments, const Input& input) {
   return row;
 }
 
-// Two more embeddings by the solver that made the first: one with other orders, one with other cones.
+// Makes two more embeddings with the solver that made the first: one with other orders, one with other cones.
 nlohmann::json run_again(const Arguments& arguments, const Input& input) {
   EmbedOptions options;
-  options.weights.kind = WeightKind::cotan;  // those of the yardstick
+  options.weights.kind = WeightKind::cotan;  // the yardstick's
   options.threads = arguments.threads;
   EmbeddingSolver solver(input.mesh, options);
   nlohmann::json row = {{"mesh", arguments.mesh}, {"faces", input.mesh.F.rows()}, {"kind", "again"}};

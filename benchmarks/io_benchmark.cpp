@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Times the work on files, on one core: mesh files of every format, the embedding's file and the digest of
-// the report. One JSON row per file and direction; seconds are the median of the repetitions.
+// the report. Prints one JSON row per file and direction; seconds are the median of the repetitions.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -52,7 +52,7 @@ class TemporaryFolder {
   fs::path path_;
 };
 
-// After this, a step pays for the pages that it touches, as the first work of a program does.
+// Makes the next step pay for the pages that it touches, as the first work of a program does.
 void give_back_freed_memory() {
 #ifdef __GLIBC__
   malloc_trim(0);
@@ -75,7 +75,7 @@ class Table {
  public:
   Table(int faces, int repetitions) : faces_(faces), repetitions_(repetitions) {}
 
-  /// Prints the row of a step on the bytes of a file that is there when the step has run.
+  /// Prints the row of a step; the size is that of the file, which exists once the step has run.
   void row(const char* direction, const std::string& path, const std::function<void()>& step) const {
     const double seconds = median_seconds(repetitions_, step);
     const auto bytes = fs::file_size(path);
@@ -90,7 +90,7 @@ class Table {
   int faces_, repetitions_;
 };
 
-// An embedding as large as that of the mesh: what it costs to write does not depend on what it says.
+// An embedding as large as that of the mesh. Its contents do not affect the time to write it.
 Embedding like_an_embedding(const Mesh& mesh) {
   Embedding embedding = {"432", 24, mesh.V.rowwise().normalized(), mesh.F, {}, {}, {}};
   embedding.source_vertex.resize(mesh.V.rows());

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""What a call from Python costs beyond the same computation of the command line, as the median of the ratios of alternating runs.
+"""Measures what a call from Python costs beyond the same computation on the command line: the median ratio of alternating runs.
 
 usage: PYTHONPATH=build/python python3 benchmarks/python_overhead.py [--faces N] [--repeat K] [--command build/orbitutte]
 
 Each run is a process of its own. The command line's time is the sum of its report's stages from 'validate' to 'certify', without reading
-and writing; Python's is the wall-clock time of orbitutte.embed() with its arrays at hand, which converts, computes and makes the report.
+and writing. Python's is the wall-clock time of orbitutte.embed() on arrays in memory, which converts, computes and makes the report.
 """
 import argparse
 import json
@@ -22,7 +22,7 @@ import json, sys, time
 import numpy, orbitutte
 orbitutte.keep_freed_memory()  # as the command line does
 V, F = orbitutte.read_mesh(sys.argv[1])
-V, F = V.copy(), F.astype(numpy.int64)  # as NumPy has integers by default: they have to be converted
+V, F = V.copy(), F.astype(numpy.int64)  # NumPy's default integers, which have to be converted
 start = time.perf_counter()
 embedding = orbitutte.embed(V, F, sys.argv[2], json.loads(sys.argv[3]))
 total = time.perf_counter() - start

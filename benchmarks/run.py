@@ -3,8 +3,8 @@
 """Runs the benchmarks and writes their tables into docs/benchmarks.md and the plot of growth beside it.
 
 Builds into build/benchmark, runs every case in a process of its own, and keeps all rows, as JSON, in build/benchmark/rows.jsonl.
-Figures are medians over the repetitions; ratios are formed within one run. Cases on real meshes are left out, saying so, where the
-folder with them (../shared) is missing. The plot needs gnuplot (./setup --benchmarks installs it).
+Figures are medians over the repetitions; ratios are formed within one run. If the folder with the real meshes (../shared) is missing,
+its cases are skipped, with a message. The plot needs gnuplot (./setup --benchmarks installs it).
 
   run.py            everything, about 10 minutes on two cores and up to 8 GiB
   run.py --quick    up to 400K triangles, printed only
@@ -35,14 +35,14 @@ LADDER = [('figure:100000', '432', 0, 7), ('figure:400000', '432', 0, 5), ('figu
           ('igea.ply', '432', 0, 5), ('igea.ply', '432', 1, 4), ('armadillo.obj', '432', 0, 7), ('armadillo.obj', '432', 2, 4),
           ('cortex_icbm152_lh.off', '432', 0, 7), ('cortex_icbm152_lh.off', '432', 2, 4), ('face.obj', '*432', 2, 5)]
 
-# The paper's Table 1: what stands for its models here. Of its times only the longest is known to us (MATLAB, one thread).
+# The meshes that stand in for the models of the paper's Table 1. Of the paper's times we know only the longest (MATLAB, one thread).
 TABLE_1 = [('Moon', 'itokawa.off', '432', 0, None), ('Fandisk', 'fandisk.off', '*432', 0, None), ('David', 'david_50k.off', '432', 0, None),
            ('Bunny', 'bunny.off', '432', 0, None), ('Armadillo', 'armadillo.obj', '432', 1, None),
            ('2M triangles', 'figure:2000000', '432', 0, 362)]
 
 
 def cones_of(mesh):
-    """The marked vertices of a shared mesh; none for samples, which know their own."""
+    """The marked vertices of a shared mesh; none for samples, which have their own."""
     if ':' in mesh:
         return None
     for line in (MESHES / 'cones.tsv').read_text(encoding='utf-8').splitlines():
@@ -62,7 +62,7 @@ def run(program, *arguments):
 
 
 def run_embedding(mesh, *arguments):
-    """The rows of one mesh; none where it is missing."""
+    """The rows of one mesh; none if it is missing."""
     if ':' not in mesh and not (MESHES / mesh).exists():
         print(f'left out: {mesh} (no {MESHES.name} folder beside the repository)', file=sys.stderr)
         return []

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Compares the weights on real meshes, as given and midpoint-subdivided once, and writes the tables of docs/weights.md.
+"""Compares the weights on real meshes, as given and subdivided once at the midpoints, and writes the tables of docs/weights.md.
 
-The meshes and their marked vertices are those of the acceptance test (../shared): where they are missing, nothing is done. Needs numpy
-and a built program. Takes some minutes.
+The meshes and their marked vertices are those of the acceptance test (../shared); if they are missing, it does nothing. Needs numpy and
+a built program. Takes some minutes.
 
   weights_table.py --program build/orbitutte
 """
@@ -32,7 +32,7 @@ def mesh_reader(shared):
 
 
 def subdivided(vertices, faces):
-    """Every triangle in four by its edges' midpoints, which follow the old vertices."""
+    """Divides every triangle into four at the midpoints of its edges. The midpoints follow the old vertices."""
     n, m = len(vertices), len(faces)
     ends = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]).astype(np.int64), axis=1)
     edges, middle = np.unique(ends[:, 0] * n + ends[:, 1], return_inverse=True)

@@ -7,7 +7,7 @@
 #include <chrono>
 #include <stdexcept>
 
-#include "orbitutte/mesh/connectivity.h"
+#include "orbitutte/inspect/recognition.h"
 #include "orbitutte/weights/weights.h"
 
 namespace orbitutte::benchmarks {
@@ -18,8 +18,9 @@ using Matrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 // The lower triangle of sum of w_ij (x_i - x_j)^2 + 1e-8 sum of x_i^2.
 Matrix laplacian(const Mesh& mesh) {
   const int n = static_cast<int>(mesh.V.rows());
-  const Connectivity connectivity = connect(mesh.F, n);
-  const EdgeWeights weights = edge_weights(mesh, connectivity, {WeightKind::cotan});
+  const Surface surface = make_surface(mesh);
+  const Connectivity& connectivity = surface.connectivity;
+  const EdgeWeights weights = edge_weights(surface, {WeightKind::cotan});
   std::vector<Eigen::Triplet<double, int>> entries;
   entries.reserve(connectivity.edges.size() + n);
   Eigen::VectorXd diagonal = Eigen::VectorXd::Constant(n, 1e-8);

@@ -12,9 +12,8 @@ struct Yardstick {
   double total_seconds() const { return analyze_seconds + factorize_seconds; }
 };
 
-/// CHOLMOD (METIS order, supernodal, everything else as it comes) on the scalar cotangent Laplacian of the
-/// uncut mesh, which is made definite by a small multiple of the identity. The matrix is assembled before the
-/// clock starts.
+/// Times CHOLMOD (METIS order, supernodal, defaults otherwise) on the scalar cotangent Laplacian of the uncut
+/// mesh. A small multiple of the identity makes the matrix definite. It is assembled before the clock starts.
 Yardstick measure_yardstick(const Mesh& mesh);
 
 }  // namespace orbitutte::benchmarks

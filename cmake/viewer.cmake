@@ -33,6 +33,8 @@ endif()
 
 orbitutte_embed_text(page_template ${ORBITUTTE_VIEWER_DIR}/page.html)
 orbitutte_embed_text(page_view ${ORBITUTTE_VIEWER_DIR}/view.html)
+orbitutte_embed_text(page_pictures ${ORBITUTTE_VIEWER_DIR}/pictures.html)
+orbitutte_embed_text(page_chart ${ORBITUTTE_VIEWER_DIR}/chart.html)
 orbitutte_embed_text(page_style ${ORBITUTTE_VIEWER_DIR}/style.css)
 orbitutte_embed_text(page_script ${ORBITUTTE_BUNDLE})
 orbitutte_embed_text(page_licences ${ORBITUTTE_BUNDLE_LICENCES})

@@ -8,7 +8,7 @@
 int main() {
   using namespace orbitutte;
   const Mesh mesh = sample_mesh({SampleShape::figure, 8000});
-  const Orbifold orbifold = parse_orbifold("432");
+  const Target orbifold = parse_orbifold("432");
   const std::vector<int> cones = choose_marked_vertices(mesh, orbifold);
 
   EmbedOptions options;

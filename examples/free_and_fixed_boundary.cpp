@@ -39,7 +39,7 @@ int main() {
     EmbedOptions options;
     options.weights.kind = WeightKind::cotan;  // the paper's
     const EmbedResult free = embed(mesh, parse_orbifold("*222"), corners, options);
-    const Orbifold triangle = polygon_orbifold(triangle_of(free.embedding));
+    const Target triangle = polygon_target(triangle_of(free.embedding));
     const EmbedResult fixed = embed(mesh, triangle, corner_vertices(triangle), options);
 
     std::printf("%d faces\n", faces);

@@ -34,7 +34,7 @@ Mesh turned(Mesh mesh) {
 }
 
 int main() {
-  const Orbifold orbifold = parse_orbifold("432");
+  const Target orbifold = parse_orbifold("432");
   bool certified = true;
   for (const int faces : {1000, 4000, 16000}) {
     const Mesh first = sample_mesh({SampleShape::figure, faces});

@@ -9,7 +9,7 @@
 int main() {
   using namespace orbitutte;
   const Mesh mesh = sample_mesh({SampleShape::mask, 4000});
-  const Orbifold orbifold = parse_orbifold("*432");
+  const Target orbifold = parse_orbifold("*432");
   const EmbedResult result = embed(mesh, orbifold, choose_marked_vertices(mesh, orbifold));
   const Tiling tiling = tile_sphere(result.embedding);
   write_tiling("sphere.glb", tiling);

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Measures what docs/choosing-cones.md states, and writes its tables: a minute on one core, default weights.
 
-The program makes the meshes 'figure' and 'mask' itself; the others are expected beside the repository (../shared).
+The program makes the meshes 'figure' and 'mask'; the others are expected beside the repository (../shared).
 
   cones.py                  all tables
   cones.py --program FILE   the command line to run (build/orbitutte)
@@ -37,7 +37,7 @@ class Program:
         return path
 
     def embed(self, mesh, symbol, cones, weights='standard'):
-        """The report. Exit codes 4 and 5 are results, too."""
+        """The report. Exit codes 4 and 5 count as results."""
         words = ['embed', mesh, '--orbifold', symbol, '--cones', ','.join(map(str, cones)), '--weights', weights, '--json', '--quiet']
         done = subprocess.run([self.path, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
         if done.returncode not in (0, 4, 5):

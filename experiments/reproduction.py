@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: MIT
 """Measures what docs/reproduction.md states and writes its tables, with the paper's weights throughout. Needs numpy.
 
-The program makes some of the meshes itself; the others are expected beside the repository (../shared). Where they are missing, only
-the first table can be made.
+The program makes some of the meshes; the others are expected beside the repository (../shared). If they are missing, only the first
+table can be made.
 
   reproduction.py                  all tables, a minute or two on two cores
-  reproduction.py --table cuts     this one only: families, meshes, areas, cuts, convergence
+  reproduction.py --table cuts     only this one: families, meshes, areas, cuts, convergence
   reproduction.py --program FILE   the command line to run (build/orbitutte)
 """
 import argparse
@@ -28,8 +28,8 @@ SAMPLES = {'figure': 20000, 'mask': 8000, 'boy': 20000}  # shape and number of f
 FAMILIES = [('532', 'figure'), ('432', 'figure'), ('332', 'figure'), ('225', 'figure'), ('55', 'figure'),
             ('*532', 'mask'), ('*432', 'mask'), ('*332', 'mask'), ('*225', 'mask'), ('*33', 'mask'),
             ('3*2', 'mask'), ('2*5', 'mask'), ('5*', 'mask'), ('3x', 'boy')]
-SEEDS = range(6)  # of the cuts that are compared
-CUT_FAMILIES = [(symbol, shape) for symbol, shape in FAMILIES if not symbol.startswith('*')]  # mirrors alone need no cut
+SEEDS = range(6)  # of the compared cuts
+CUT_FAMILIES = [(symbol, shape) for symbol, shape in FAMILIES if not symbol.startswith('*')]  # an orbifold with mirrors only needs no cut
 CONVERGENCE = ('spot.obj', '432')
 
 
@@ -37,7 +37,7 @@ CONVERGENCE = ('spot.obj', '432')
 
 
 class Program:
-    """The command line, and a folder for what it writes."""
+    """The command line, and a folder for its output."""
 
     def __init__(self, path, folder):
         self.path, self.folder = path, pathlib.Path(folder)
@@ -55,7 +55,7 @@ class Program:
         return path
 
     def embed(self, mesh, symbol, cones='auto', seed=0):
-        """The report and the file of the embedding. Exit codes 4 and 5 are results, too."""
+        """The report and the file of the embedding. Exit codes 4 and 5 count as results."""
         embedding = self.folder / 'map.ply'
         output = self.run('embed', mesh, '--orbifold', symbol, '--cones', cones, '--weights', 'cotan', '--cut-seed', seed, '--quiet',
                           '--json', '-o', embedding, codes=(0, 4, 5))
@@ -91,7 +91,7 @@ def generated_group(report):
     """All elements (|G| x 3 x 3) of the group that the seams generate."""
     elements = [np.eye(3)]
     generators = [np.array(seam['transform']) for seam in report['seams']]
-    for element in elements:  # grows meanwhile
+    for element in elements:  # the list grows during the loop
         for generator in generators:
             product = element @ generator
             if min(np.abs(product - other).max() for other in elements) > 1e-6:
@@ -100,23 +100,22 @@ def generated_group(report):
 
 
 def isometry_between(points, images):
-    """The element R of O(3), n x 3 points in rows, that brings R * point nearest to the images (Kabsch 1976), a reflection where that
-    is nearer."""
+    """The element R of O(3), rotation or reflection, that brings R * point nearest to the images (Kabsch 1976). Points and images are n x 3."""
     left, values, right = np.linalg.svd(images.T @ points)
     candidates = [left @ np.diag([1, 1, sign]) @ right for sign in (1, -1)]
     return min(candidates, key=lambda R: np.linalg.norm(points @ R.T - images))
 
 
 def of_sources(positions, sources):
-    """The position of one copy of every source vertex, the same one in all embeddings of a mesh."""
+    """The position of one copy of every source vertex, the same copy in all embeddings of a mesh."""
     result = np.zeros((sources.max() + 1, 3))
     result[sources[::-1]] = positions[::-1]
     return result
 
 
 def difference(first, second, group):
-    """The largest distance over all source vertices from the first position to the orbit of the second, once the isometry between
-    both is taken out: it is found on one triangle, then on all vertices."""
+    """The largest distance over all source vertices from the first position to the orbit of the second. The isometry between the two
+    embeddings is removed first: it is estimated on one triangle, then on all vertices."""
     (P, sources, faces), (Q, other_sources, other_faces) = first, second
     corners = P[faces]
     widest = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1).argmax()
@@ -176,7 +175,7 @@ def meshes_table(program):
 
 
 def where_lower(pairs):
-    """On how many meshes each number of area distortion is lower on the sphere."""
+    """Counts the meshes on which each measure of area distortion is lower on the sphere."""
     counts = [f"{key} on {sum(sphere['area'][key] < plane['area'][key] for sphere, plane in pairs)}"
               for key in ('mean', 'std', 'median', 'max')]
     return f"Of the {len(pairs)} meshes the sphere has the lower {', '.join(counts)}."
@@ -188,7 +187,7 @@ def areas_table(program):
     rows, pairs = [], []
     for name, path, marked in meshes:
         result = json.loads(program.run('compare', path, '--cones', marked, '--weights', 'cotan', '--json', codes=(0, 5)))
-        sides = [result['spherical'], result['euclidean']]
+        sides = result['maps']
         pairs.append(sides)
         rows.append([name] + [f'{side["area"][key]:.4g}' for key in ('mean', 'std', 'median', 'max') for side in sides] +
                     [f'{side["angle"]["mean"]:.4g}' for side in sides] + [', '.join('yes' if side['bijective'] else 'no' for side in sides)])

@@ -3,13 +3,13 @@
 """Evidence for or against the paper's conjecture that both conditions of theorem 2 always hold.
 
 Embeds every shared mesh into every family that `orbitutte types` lists, with several choices of marked vertices, and asks
-`orbitutte verify --theorem2` about each. One JSON row per run is appended to experiments/theorem2.jsonl; runs that have a row there
-are not repeated, so the experiment may be interrupted, and a family that is added later brings its own rows alone. Projective planes are
-meshes of `orbitutte sample`.
+`orbitutte verify --theorem2` about each. Every run appends a JSON row to experiments/theorem2.jsonl. Runs that have a row there are not
+repeated, so the experiment may be interrupted, and adding a family adds only its own rows. `orbitutte sample` makes the meshes of
+projective planes.
 
   theorem2.py                  runs what is missing, then writes the tables of docs/theorem2.md
-  theorem2.py --jobs N         so many runs at a time (2)
-  theorem2.py --minutes T      starts no run after so many minutes
+  theorem2.py --jobs N         runs N processes at a time (2)
+  theorem2.py --minutes T      starts no run after T minutes
   theorem2.py --program FILE   the command line to run (build/orbitutte)
   theorem2.py --summary        only writes the tables
 """
@@ -34,7 +34,7 @@ MESHES = ROOT.parent / 'shared' / 'meshes'
 ROWS = ROOT / 'experiments' / 'theorem2.jsonl'
 PAGE = ROOT / 'docs' / 'theorem2.md'
 
-ORDERS = [2, 3, 5, 8]  # the free order N; on meshes above LARGE faces the second alone, with the cones of cones.tsv alone
+ORDERS = [2, 3, 5, 8]  # the free order N; meshes of more than LARGE faces: only the second, with the cones of cones.tsv
 LARGE = 45000
 SEEDS = {'sphere': [1, 2, 3], 'disk': [1, 2], 'projective-plane': [1, 2, 3]}  # of random well separated cones
 SAMPLES = [('boy', 2000), ('boy', 8000), ('roman', 2000), ('roman', 8000)]  # projective planes
@@ -126,7 +126,7 @@ def inner_and_boundary(faces):
 
 
 def well_separated(points, pools, rng):
-    """A vertex of each pool at random, then again and again the farthest of twenty."""
+    """Picks a random first vertex, then each time the farthest of twenty random ones; one vertex from each pool."""
     marks = []
     for pool in pools:
         candidates = rng.sample(pool, min(20, len(pool))) if marks else [rng.choice(pool)]
@@ -136,7 +136,7 @@ def well_separated(points, pools, rng):
 
 
 class Meshes:
-    """The parts of meshes that random marks are chosen from, read once."""
+    """The vertices of each mesh from which random marks are chosen; each mesh is read once."""
 
     def __init__(self):
         self.known, self.lock = {}, threading.Lock()
@@ -166,7 +166,7 @@ def cones(run, meshes):
 
 
 def call(*command):
-    """Exit code, standard output and seconds. One thread each: several run at a time."""
+    """Exit code, standard output and seconds. The process has one thread, since several run at a time."""
     start = time.monotonic()
     environment = dict(os.environ, OPENBLAS_NUM_THREADS='1')
     done = subprocess.run(list(map(str, command)), stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, timeout=ALLOWED_SECONDS,
@@ -188,7 +188,7 @@ def conditions(theorem2):
 
 
 def measure(program, run, meshes, folder):
-    """The row of one run; without 'theorem2' where the mesh could not be embedded as asked."""
+    """The row of one run; without 'theorem2' if the mesh could not be embedded as asked."""
     row = {'mesh': run.source.name, 'faces': run.source.faces, 'family': run.family, 'signature': run.signature, 'cones': run.choice}
     with tempfile.TemporaryDirectory(dir=folder) as here:
         embedding, report = pathlib.Path(here, 'map.ply'), pathlib.Path(here, 'map.json')
@@ -259,7 +259,7 @@ def by(name, rows):
 
 
 def exceptions(rows):
-    """The runs where not everything holds."""
+    """The runs that are not certified or fail a condition."""
     odd = [row for row in rows if not (row['certified'] and row['theorem2']['holds'])]
     lines = [[row['mesh'], row['signature'].replace('*', '\\*'), row['cones'], 'yes' if row['certified'] else f"no (exit {row['exit']})",
               row['nonpositive_faces'], f"{row['theorem2']['max_edge_length']:.4g}", row['theorem2']['negative_eigenvalues'],

@@ -26,12 +26,12 @@ using test::vertex_count;
 
 /// With all marks on the boundary, or all inside where there is none.
 CutMesh cut_open(const Mesh& mesh, const std::vector<int>& marks, std::uint64_t seed = 0) {
-  return cut_to_disk(mesh, connect(mesh.F, vertex_count(mesh)), marks, 0, {seed});
+  return cut_to_disk(test::unjudged(mesh), marks, 0, {seed});
 }
 
 /// With the first mark inside a disk.
 CutMesh cut_inside(const Mesh& mesh, const std::vector<int>& marks, std::uint64_t seed = 0) {
-  return cut_to_disk(mesh, connect(mesh.F, vertex_count(mesh)), marks, 1, {seed});
+  return cut_to_disk(test::unjudged(mesh), marks, 1, {seed});
 }
 
 bool same(const CutMesh& a, const CutMesh& b) {
@@ -223,7 +223,7 @@ TEST(Cut, AddsOneCopyForEveryInnerVertexOfThePath) {
 TEST(Cut, BetweenTwoMarksIsAShortestPath) {
   const Mesh mesh = test::perturbed(test::icosphere(2), 0.03, 4);
   const Connectivity connectivity = connect(mesh.F, vertex_count(mesh));
-  const EdgeGraph graph = edge_length_graph(mesh, connectivity);
+  const EdgeGraph graph = edge_length_graph(test::unjudged(mesh));
   const CutMesh cut = cut_open(mesh, {0, 11});
   double length = 0;
   for (std::size_t k = 0; k < cut.boundary.size() / 2; ++k) {
@@ -396,7 +396,7 @@ TEST(Cut, FromAnyVertexInsideADiskWithAnyMarkOnItsBoundaryGivesADisk) {
 TEST(Cut, FromAMarkInsideEndsAtTheNearestVertexOfTheBoundaryThatIsNotMarked) {
   const Mesh mesh = test::perturbed(test::round_disk(6), 0.03, 4);
   const std::vector<char> outer = on_boundary(mesh);
-  const EdgeGraph graph = edge_length_graph(mesh, connect(mesh.F, vertex_count(mesh)));
+  const EdgeGraph graph = edge_length_graph(test::unjudged(mesh));
   for (const int a : {0, 7, 20, 45}) {
     const std::vector<double> d = distances(graph, {a});
     const int nearest = cut_inside(mesh, {a}).marks.back(),
@@ -554,7 +554,7 @@ TEST(Cut, EdgeLengthsArePositiveAndAlmostThoseInSpace) {
   Mesh mesh = test::icosphere(1);
   mesh.V.row(0) = mesh.V.row(mesh.F(0, 1));  // an edge of length zero
   const Connectivity connectivity = connect(mesh.F, vertex_count(mesh));
-  const EdgeGraph graph = edge_length_graph(mesh, connectivity);
+  const EdgeGraph graph = edge_length_graph(test::unjudged(mesh));
   ASSERT_EQ(graph.length.size(), connectivity.edges.size());
   EXPECT_EQ(graph.vertex_count(), vertex_count(mesh));
   for (std::size_t e = 0; e < graph.length.size(); ++e) {
@@ -568,7 +568,7 @@ TEST(Cut, EdgeLengthsArePositiveAndAlmostThoseInSpace) {
 
 std::string refusal(const Mesh& mesh, const std::vector<int>& marks, int inner_marks = 0) {
   try {
-    cut_to_disk(mesh, connect(mesh.F, vertex_count(mesh)), marks, inner_marks);
+    cut_to_disk(test::unjudged(mesh), marks, inner_marks);
     return {};
   } catch (const MeshError& error) {
     return error.what();

@@ -71,7 +71,7 @@ TEST(Embed, EveryFamilyIsConvergedAndCertified) {
   for (const std::string& signature : test::sample_signatures()) {
     const EmbedResult& result = test::sample_embedding(signature).result;
     expect_certified(result, signature);
-    EXPECT_EQ(result.embedding.signature, signature);
+    EXPECT_EQ(result.embedding.target.signature, signature);
     EXPECT_EQ(result.minimum.history.size(), static_cast<std::size_t>(result.minimum.iterations) + 1);
     EXPECT_GE(result.minimum.evaluations, result.minimum.iterations);
   }
@@ -118,12 +118,12 @@ TEST(Embed, EnergyApproachesTwiceTheAreaUnderRefinement) {
 TEST(Embed, MarksSitAtConesOfTheRightOrder) {
   for (const std::string& signature : test::sample_signatures()) {
     const test::SampleEmbedding& sample = test::sample_embedding(signature);
-    const Orbifold orbifold = parse_orbifold(signature);
+    const Target orbifold = parse_orbifold(signature);
     ASSERT_EQ(sample.embedding().cones.size(), sample.marks.size());
     for (std::size_t k = 0; k < sample.marks.size(); ++k) {
       const ConeCopies& cone = sample.embedding().cones[k];
       EXPECT_EQ(cone.vertex, sample.marks[k]);
-      EXPECT_EQ(cone.order, orbifold.marks[k].order);
+      EXPECT_EQ(cone.mark.order(), orbifold.marks[k].order());
     }
   }
 }
@@ -248,7 +248,7 @@ RC_GTEST_PROP(Embed, AnyConeInsideAndAnyCornerAreEmbedded, (std::uint32_t seed))
   const int cone = static_cast<int>(seed % 169), corner = 169 + static_cast<int>(seed / 169 % 48);
   const std::vector<std::string> signatures = {"3*2", "2*2", "2*3", "2*5", "2*8", "2*", "3*", "5*", "8*"};
   const std::string& signature = signatures[seed / 8112 % signatures.size()];
-  const Orbifold orbifold = parse_orbifold(signature);
+  const Target orbifold = parse_orbifold(signature);
   std::vector<int> marks = {cone, corner};
   marks.resize(orbifold.marks.size());
   EmbedOptions options = one_thread();
@@ -273,7 +273,7 @@ TEST(Embed, DiskWithoutVerticesInsideHasNoConeToChoose) {
     choose_marked_vertices(test::grid_disk(5, 1), parse_orbifold("3*2"));
     FAIL();
   } catch (const MeshError& error) {
-    EXPECT_STREQ(error.what(), "no vertex lies inside the surface, where one has to be marked");
+    EXPECT_STREQ(error.what(), "one vertex has to be marked inside the surface, but all are on its boundary");
   }
 }
 
@@ -323,7 +323,8 @@ TEST(Embed, RenumberingVerticesAndFacesChangesNothing) {
     const EmbedResult other = embedded(mesh, signature, marks);
     expect_certified(other, signature);
     const auto length = [](const Embedding& e, int f, int k) {
-      return arc_length(e.positions.row(e.faces(f, k)), e.positions.row(e.faces(f, (k + 1) % 3)));
+      return Space::sphere().distance(e.positions.row(e.faces(f, k)),
+                                      e.positions.row(e.faces(f, (k + 1) % 3)));
     };
     double worst = 0;
     for (int f = 0; f < test::face_count(mesh); ++f)
@@ -348,7 +349,7 @@ TEST(Embed, PermutingConesTogetherWithTheirOrdersChangesNothing) {
       }
       const EmbedResult other = embedded(sample.mesh, signature, marks);
       expect_certified(other, signature);
-      EXPECT_EQ(other.embedding.signature, signature);
+      EXPECT_EQ(other.embedding.target.signature, signature);
       EXPECT_LT(difference(test::edge_lengths(sample.mesh, other.embedding), before), 1e-8) << signature;
     } while (std::next_permutation(order.begin(), order.end()));
   }
@@ -596,7 +597,7 @@ TEST(Embed, FacesWithoutAreaSurvive) {
 
 TEST(Embed, ChosenMarksAreDifferentAndWhereTheyHaveToBe) {
   for (const std::string& signature : test::sample_signatures()) {
-    const Orbifold orbifold = parse_orbifold(signature);
+    const Target orbifold = parse_orbifold(signature);
     std::vector<int> marks = test::sample_embedding(signature).marks;
     EXPECT_EQ(marks.size(), orbifold.marks.size());
     if (orbifold.topology == Topology::disk) {
@@ -657,14 +658,11 @@ TEST(EmbeddingSolver, ChecksTheSameMarksForEveryOrbifold) {
   EXPECT_TRUE(solver.embed(parse_orbifold("3*2"), inside_and_outside).certificate.bijective);
 }
 
-TEST(EmbeddingSolver, TellsOfADefectEveryTime) {
-  EmbeddingSolver solver(test::torus(8, 6));
-  for (int k = 0; k < 2; ++k) EXPECT_THROW(solver.embed(parse_orbifold("432"), {0, 1, 2}), MeshError);
-}
+TEST(EmbeddingSolver, TellsOfADefectAtOnce) { EXPECT_THROW(EmbeddingSolver(test::torus(8, 6)), MeshError); }
 
 TEST(Embed, DoesNotDependOnTheNumberOfThreads) {
   for (const std::string signature : {"432", "22", "*532", "3*2", "5*"}) {
-    const Orbifold orbifold = parse_orbifold(signature);
+    const Target orbifold = parse_orbifold(signature);
     const Mesh mesh = orbifold.topology == Topology::sphere ? test::perturbed(test::icosphere(5), 0.01, 6)
                                                             : test::perturbed(test::round_disk(50), 0.01, 6);
     const std::vector<int> marks = choose_marked_vertices(mesh, orbifold);

@@ -14,7 +14,7 @@
 
 #include "base64_text.h"
 #include "orbitutte/export/export_files.h"
-#include "orbitutte/geometry/spherical_triangle.h"
+#include "orbitutte/geometry/space.h"
 #include "orbitutte/io/bytes.h"
 #include "orbitutte/io/file.h"
 #include "orbitutte/io/mesh_io.h"
@@ -36,7 +36,7 @@ const std::vector<TextureChart> charts = {TextureChart::stereographic, TextureCh
 
 ExportedModel model(const std::string& signature, TextureChart chart = TextureChart::stereographic) {
   const test::SampleEmbedding& sample = test::sample_embedding(signature);
-  return exported_model(sample.mesh, sample.embedding(), chart);
+  return exported_model(test::unjudged(sample.mesh), sample.embedding(), chart);
 }
 
 Vector2d uv(const TextureCoordinates& texture, Eigen::Index f, int k) {
@@ -147,6 +147,17 @@ TEST(TextureChart, NamesAreRead) {
   EXPECT_THROW(parse_texture_chart("mercator"), ArgumentError);
 }
 
+/// The faces of the input.
+Polygons faces_of(const ExportedModel& exported) {
+  const FaceView faces = exported.surface.faces();
+  Polygons result;
+  for (int f = 0; f < faces.count(); ++f) {
+    result.corners.insert(result.corners.end(), faces[f].begin(), faces[f].end());
+    result.start.push_back(static_cast<int>(result.corners.size()));
+  }
+  return result;
+}
+
 class ExportFiles : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -161,9 +172,10 @@ class ExportFiles : public ::testing::Test {
   /// The file holds the input's vertices and faces.
   void expect_input(const ExportedModel& exported, const std::string& file) const {
     const PolygonMesh back = read_mesh(path(file));
-    EXPECT_EQ(back.V, exported.mesh.V) << exported.embedding.signature;
-    EXPECT_EQ(back.corners, exported.mesh.corners) << exported.embedding.signature;
-    EXPECT_EQ(back.face_start, exported.mesh.face_start) << exported.embedding.signature;
+    EXPECT_EQ(back.V, exported.surface.V) << exported.embedding.target.signature;
+    const Polygons faces = faces_of(exported);
+    EXPECT_EQ(back.corners, faces.corners) << exported.embedding.target.signature;
+    EXPECT_EQ(back.face_start, faces.start) << exported.embedding.target.signature;
   }
 
   std::filesystem::path folder_;
@@ -191,7 +203,7 @@ TEST_F(ExportFiles, ObjNamesACopyOfTheVertexForEveryCorner) {
       for (char slash = 0; words >> vertex >> slash >> pair; ++corners)
         EXPECT_EQ(exported.embedding.source_vertex[pair - 1], vertex - 1) << signature;
     }
-    EXPECT_EQ(corners, 3 * exported.mesh.face_count());
+    EXPECT_EQ(corners, 3 * exported.surface.triangle_count());
   }
 }
 
@@ -204,7 +216,7 @@ TEST_F(ExportFiles, PlyHoldsTheLogarithmOfTheAreaDistortion) {
   for (std::size_t f = 0; f < quality.size(); ++f)
     EXPECT_NEAR(std::exp2(quality[f]), exported.of_face[f].area, 1e-5 * exported.of_face[f].area);
   EXPECT_EQ(file.find("vertex")->find("quality")->values.size(),
-            static_cast<std::size_t>(exported.mesh.V.rows()));
+            static_cast<std::size_t>(exported.surface.V.rows()));
   expect_input(exported, "model.ply");
 }
 
@@ -226,7 +238,7 @@ TEST_F(ExportFiles, OtherEndingsAndMissingFoldersAreRefused) {
 // Faces of five corners and more on a sphere, quadrilaterals on a disk and on a projective plane, where some
 // of the cut mesh are turned over.
 PolygonMesh polygons_for(const std::string& signature) {
-  const Orbifold orbifold = parse_orbifold(signature);
+  const Target orbifold = parse_orbifold(signature);
   if (orbifold.topology == Topology::sphere) return test::dual(test::perturbed(test::icosphere(2), 0.03, 7));
   if (orbifold.topology == Topology::disk)
     return test::quadrangulated(test::perturbed(test::round_disk(5), 0.02, 7));
@@ -235,11 +247,11 @@ PolygonMesh polygons_for(const std::string& signature) {
 
 ExportedModel polygon_model(const std::string& signature, TextureChart chart = TextureChart::stereographic) {
   const PolygonMesh mesh = polygons_for(signature);
-  const Orbifold orbifold = parse_orbifold(signature);
+  const Target orbifold = parse_orbifold(signature);
   EmbedOptions options;
   options.weights.kind = WeightKind::uniform;
   const EmbedResult result = embed(mesh, orbifold, choose_marked_vertices(mesh, orbifold), options);
-  return exported_model(mesh, result.embedding, chart);
+  return exported_model(test::unjudged(mesh), result.embedding, chart);
 }
 
 const std::vector<std::string> polygon_signatures = {"432", "*223", "2x"};
@@ -259,6 +271,7 @@ TEST_F(ExportFiles, EveryCornerOfAPolygonHasTheTextureOfItsOwnVertex) {
   for (const std::string& signature : polygon_signatures) {
     for (const TextureChart chart : charts) {
       const ExportedModel exported = polygon_model(signature, chart);
+      const std::vector<int>& corners = exported.surface.polygons.corners;
       std::istringstream text(obj_text(exported));
       std::size_t corner = 0;
       for (std::string line; std::getline(text, line);) {
@@ -266,15 +279,15 @@ TEST_F(ExportFiles, EveryCornerOfAPolygonHasTheTextureOfItsOwnVertex) {
         std::istringstream words(line.substr(2));
         int vertex = 0, pair = 0;
         for (char slash = 0; words >> vertex >> slash >> pair; ++corner) {
-          EXPECT_EQ(vertex - 1, exported.mesh.corners[corner]);
+          EXPECT_EQ(vertex - 1, corners[corner]);
           if (pair <= static_cast<int>(exported.embedding.source_vertex.size()))  // others are a turn further
             EXPECT_EQ(exported.embedding.source_vertex[pair - 1], vertex - 1) << signature;
         }
       }
-      EXPECT_EQ(corner, exported.mesh.corners.size());
+      EXPECT_EQ(corner, corners.size());
       const Polygons& cut = exported.embedding.polygons;
       for (std::size_t c = 0; c < cut.corners.size(); ++c)
-        any_turned |= exported.embedding.source_vertex[cut.corners[c]] != exported.mesh.corners[c];
+        any_turned |= exported.embedding.source_vertex[cut.corners[c]] != corners[c];
     }
   }
   EXPECT_TRUE(any_turned)
@@ -309,9 +322,9 @@ TEST_F(ExportFiles, ThePolygonsOfTheCutMeshAreTheCellsOfVtp) {
 TEST_F(ExportFiles, GlbHoldsPolygonsInTriangles) {
   for (const std::string& signature : polygon_signatures) {
     const ExportedModel exported = polygon_model(signature);
-    const Eigen::Index expected =
-        static_cast<Eigen::Index>(exported.mesh.corners.size()) - 2 * exported.mesh.face_count();
-    EXPECT_EQ(exported.triangles.rows(), expected);
+    const Polygons& polygons = exported.surface.polygons;
+    const int expected = static_cast<int>(polygons.corners.size()) - 2 * polygons.count();
+    EXPECT_EQ(exported.surface.triangle_count(), expected);
     EXPECT_THAT(glb_bytes(exported), HasSubstr("\"count\":" + std::to_string(3 * expected)));
   }
 }
@@ -320,13 +333,12 @@ TEST_F(ExportFiles, GlbHoldsPolygonsInTriangles) {
 TEST(Export, AreaRatiosOfPolygonsAddUpToTheTile) {
   for (const std::string& signature : polygon_signatures) {
     const ExportedModel exported = polygon_model(signature);
-    const Mesh triangles = {
-        exported.mesh.V, on_vertices({exported.triangles, exported.mesh.face_start}, exported.mesh.corners)};
-    std::vector<double> area(exported.mesh.face_count(), 0.0);
+    const Surface& surface = exported.surface;
+    std::vector<double> area(surface.polygons.count(), 0.0);
     double total = 0;
-    for (Eigen::Index t = 0, f = 0; t < triangles.F.rows(); ++t) {
-      while (exported.triangles(t, 0) >= exported.mesh.face_start[f + 1]) ++f;
-      const auto corner = [&](int k) { return Vector3(triangles.V.row(triangles.F(t, k))); };
+    for (Eigen::Index t = 0, f = 0; t < surface.triangles.rows(); ++t) {
+      while (surface.division(t, 0) >= surface.polygons.start[f + 1]) ++f;
+      const auto corner = [&](int k) { return Vector3(surface.V.row(surface.triangles(t, k))); };
       area[f] += (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm() / 2;
     }
     for (const double a : area) total += a;
@@ -344,9 +356,11 @@ TEST(Export, AnEmbeddingOfAnotherMeshIsRefused) {
   const test::SampleEmbedding& sample = test::sample_embedding("532");
   Mesh other = sample.mesh;
   other.F.row(0).swap(other.F.row(1));
-  EXPECT_THROW(exported_model(other, sample.embedding(), TextureChart::stereographic), MeshError);
-  EXPECT_THROW(exported_model(test::icosphere(1), sample.embedding(), TextureChart::stereographic),
+  EXPECT_THROW(exported_model(test::unjudged(other), sample.embedding(), TextureChart::stereographic),
                MeshError);
+  EXPECT_THROW(
+      exported_model(test::unjudged(test::icosphere(1)), sample.embedding(), TextureChart::stereographic),
+      MeshError);
 }
 
 }  // namespace

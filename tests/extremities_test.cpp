@@ -27,10 +27,10 @@ std::vector<int> extremities_of(const Mesh& mesh, int count) {
   const Connectivity connectivity = connect(mesh.F, vertex_count(mesh));
   const std::vector<int>& opposite = connectivity.opposite;
   const bool closed = std::find(opposite.begin(), opposite.end(), -1) == opposite.end();
-  return extremities(mesh, connectivity, {closed ? count : 0, closed ? 0 : count});
+  return extremities(test::unjudged(mesh), {closed ? count : 0, closed ? 0 : count});
 }
 
-EdgeGraph graph_of(const Mesh& mesh) { return edge_length_graph(mesh, connect(mesh.F, vertex_count(mesh))); }
+EdgeGraph graph_of(const Mesh& mesh) { return edge_length_graph(test::unjudged(mesh)); }
 
 std::vector<int> all_vertices(const Mesh& mesh) { return test::permutation(vertex_count(mesh), 0); }
 
@@ -101,7 +101,7 @@ TEST(Extremities, OfADiskAreOnItsBoundary) {
 
 TEST(Extremities, InsideADiskAreFarFromItsBoundary) {
   for (const Mesh& mesh : {test::grid_disk(6, 4), test::round_disk(5)}) {
-    const std::vector<int> chosen = extremities(mesh, connect(mesh.F, vertex_count(mesh)), {1, 1});
+    const std::vector<int> chosen = extremities(test::unjudged(mesh), {1, 1});
     ASSERT_EQ(chosen.size(), 2u);
     const std::vector<double> from_boundary = distances(graph_of(mesh), boundary_vertices(mesh));
     EXPECT_EQ(from_boundary[chosen[0]], *std::max_element(from_boundary.begin(), from_boundary.end()));
@@ -130,7 +130,7 @@ RC_GTEST_PROP(Extremities, AreDifferentVerticesThatCanBeMarked, (std::uint32_t s
   const Mesh mesh = test::random_sphere(seed, static_cast<int>(seed % 11));
   const std::vector<int> chosen = extremities_of(mesh, 3);
   RC_ASSERT(std::set<int>(chosen.begin(), chosen.end()).size() == 3u);
-  cut_to_disk(mesh, connect(mesh.F, vertex_count(mesh)), chosen, 3);  // throws where they cannot
+  cut_to_disk(test::unjudged(mesh), chosen, 3);  // throws where they cannot
 }
 
 TEST(Extremities, ExistWhereAllPositionsAreTheSame) {
@@ -158,7 +158,7 @@ TEST(Extremities, TooFewVerticesAreRefused) {
   };
   EXPECT_EQ(refusal(test::tetrahedron(), 4), "");
   EXPECT_EQ(refusal(test::tetrahedron(), 5), "5 vertices have to be marked, but only 4 can be");
-  EXPECT_THROW(extremities(test::grid_disk(5, 1), connect(test::grid_disk(5, 1).F, 12), {1, 0}), MeshError);
+  EXPECT_THROW(extremities(test::unjudged(test::grid_disk(5, 1)), {1, 0}), MeshError);
   EXPECT_EQ(refusal(test::round_disk(1), 6), "");
   EXPECT_EQ(refusal(test::round_disk(1), 7), "7 vertices have to be marked, but only 6 can be");
 }
@@ -173,13 +173,13 @@ TEST(Extremities, AreNoNeighboursWhereThatIsAskedForAndPossible) {
     Mesh mesh = needle;
     mesh.V.row(far) *= 10;
     const Connectivity connectivity = connect(mesh.F, 6);
-    EXPECT_FALSE(are_joined(connectivity, extremities(mesh, connectivity, {2, 0, true})));
+    EXPECT_FALSE(are_joined(connectivity, extremities(test::unjudged(mesh), {2, 0, true})));
   }
   const Mesh tetrahedron = test::tetrahedron();  // all are neighbours
-  EXPECT_EQ(extremities(tetrahedron, connect(tetrahedron.F, 4), {2, 0, true}).size(), 2u);
+  EXPECT_EQ(extremities(test::unjudged(tetrahedron), {2, 0, true}).size(), 2u);
   const Mesh disk = test::round_disk(3);
   const Connectivity of_disk = connect(disk.F, vertex_count(disk));
-  EXPECT_FALSE(are_joined(of_disk, extremities(disk, of_disk, {0, 2, true})));
+  EXPECT_FALSE(are_joined(of_disk, extremities(test::unjudged(disk), {0, 2, true})));
 }
 
 }  // namespace

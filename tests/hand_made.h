@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "orbitutte/orbifold/embedding.h"
+#include "orbitutte/orbifold/signature.h"
 
 namespace orbitutte::hand_made {
 
@@ -22,6 +23,9 @@ inline Matrix3 rotation(const Vector3& axis, double angle) {
 inline Matrix3 reflection(const Vector3& normal) {
   return Matrix3::Identity() - 2 * normal * normal.transpose() / normal.squaredNorm();
 }
+
+/// A symmetry of the sphere.
+inline Isometry symmetry(const Matrix3& matrix) { return Space::sphere().isometry(matrix); }
 
 /// The triangle with angles pi/n1, pi/n2, pi/n3 at a, b, c, counterclockwise from outside; a is the north
 /// pole.
@@ -48,10 +52,12 @@ struct TriangleGrid {
 };
 
 /// Collects vertices, those at the same place once, and triangles. One tile's worth: seams must be added by
-/// hand.
+/// hand. The target's canonical frame is the one in which the triangles above lie.
 class Builder {
  public:
   Embedding embedding;
+
+  explicit Builder(const ConwaySymbol& symbol) { embedding.target = parse_orbifold(symbol.text()); }
 
   int vertex(const Vector3& position) {
     const Vector3 p = position.normalized();
@@ -91,44 +97,43 @@ class Builder {
 };
 
 /// *n1 n2 n3: the triangle with three mirrors.
-inline Embedding mirror_triangle(int n1, int n2, int n3, int group_order, int n) {
+inline Embedding mirror_triangle(int n1, int n2, int n3, int n) {
   const Triangle triangle(n1, n2, n3);
-  Builder builder;
+  Builder builder({{}, {n1, n2, n3}, true, false});
   const TriangleGrid grid = builder.triangle(triangle.a, triangle.b, triangle.c, n);
-  builder.embedding.group_order = group_order;
-  builder.embedding.seams = {{grid.ab, grid.ab, triangle.mirror_ab()},
-                             {grid.bc, grid.bc, triangle.mirror_bc()},
-                             {grid.ca, grid.ca, triangle.mirror_ca()}};
+  builder.embedding.seams = {{grid.ab, grid.ab, symmetry(triangle.mirror_ab())},
+                             {grid.bc, grid.bc, symmetry(triangle.mirror_bc())},
+                             {grid.ca, grid.ca, symmetry(triangle.mirror_ca())}};
   return builder.embedding;
 }
 
 /// n1 n2 n3: the triangle and its mirror image across the side c a, glued by rotations about a and c.
-inline Embedding rotation_quadrilateral(int n1, int n2, int n3, int group_order, int n) {
+inline Embedding rotation_quadrilateral(int n1, int n2, int n3, int n) {
   const Triangle triangle(n1, n2, n3);
   const Vector3 b2 = triangle.mirror_ca() * triangle.b;
-  Builder builder;
+  Builder builder({{n1, n2, n3}, {}, false, false});
   const TriangleGrid first = builder.triangle(triangle.a, triangle.b, triangle.c, n);
   const TriangleGrid second = builder.triangle(triangle.a, triangle.c, b2, n);
   const std::vector<int> b2_to_c(second.bc.rbegin(), second.bc.rend());
   const std::vector<int> a_to_b2(second.ca.rbegin(), second.ca.rend());
-  builder.embedding.group_order = group_order;
-  builder.embedding.seams = {{a_to_b2, first.ab, triangle.mirror_ca() * triangle.mirror_ab()},
-                             {b2_to_c, first.bc, triangle.mirror_ca() * triangle.mirror_bc()}};
+  builder.embedding.seams = {{a_to_b2, first.ab, symmetry(triangle.mirror_ca() * triangle.mirror_ab())},
+                             {b2_to_c, first.bc, symmetry(triangle.mirror_ca() * triangle.mirror_bc())}};
   return builder.embedding;
 }
 
-/// Half of a lune: the sector of the northern hemisphere from the meridian 0 to the meridian `angle`, in k
-/// triangles that meet at the pole, each a grid of n^2.
+/// Of N*, the sector of the northern hemisphere from the meridian 0 to the meridian 2 pi/N, in k triangles
+/// that meet at the pole, each a grid of n^2.
 struct Sector {
   Embedding embedding;
   std::vector<int> east, west,
-      equator;  ///< pole to equator at 0, pole to equator at angle, equator from 0 to angle
+      equator;  ///< pole to equator at 0, pole to equator at 2 pi/N, equator from 0 to 2 pi/N
 };
 
 inline Vector3 on_equator(double longitude) { return {std::cos(longitude), std::sin(longitude), 0}; }
 
-inline Sector sector(double angle, int k, int n) {
-  Builder builder;
+inline Sector sector(int N, int k, int n) {
+  const double angle = 2 * std::numbers::pi / N;
+  Builder builder({{N}, {}, true, false});
   Sector result;
   for (int i = 0; i < k; ++i) {
     const TriangleGrid grid =
@@ -144,17 +149,16 @@ inline Sector sector(double angle, int k, int n) {
 /// N*: a sector of the hemisphere, its meridians glued by a rotation, the equator a mirror.
 inline Embedding mirror_bounded_cone(int N, int k, int n) {
   const double angle = 2 * std::numbers::pi / N;
-  Sector result = sector(angle, k, n);
-  result.embedding.group_order = 2 * N;
-  result.embedding.seams = {{result.west, result.east, rotation(Vector3::UnitZ(), angle)},
-                            {result.equator, result.equator, reflection(Vector3::UnitZ())}};
+  Sector result = sector(N, k, n);
+  result.embedding.seams = {{result.west, result.east, symmetry(rotation(Vector3::UnitZ(), angle))},
+                            {result.equator, result.equator, symmetry(reflection(Vector3::UnitZ()))}};
   return result.embedding;
 }
 
 /// NN: a lune from pole to pole, glued to itself by a rotation.
 inline Embedding rotation_lune(int N, int k, int n) {
   const double angle = 2 * std::numbers::pi / N;
-  Builder builder;
+  Builder builder({{N, N}, {}, false, false});
   std::vector<int> east, west;
   for (int i = 0; i < k; ++i) {
     const Vector3 p = on_equator(angle * i / k), q = on_equator(angle * (i + 1) / k);
@@ -169,14 +173,13 @@ inline Embedding rotation_lune(int N, int k, int n) {
       west.insert(west.end(), south.ab.rbegin() + 1, south.ab.rend());
     }
   }
-  builder.embedding.group_order = N;
-  builder.embedding.seams = {{west, east, rotation(Vector3::UnitZ(), angle)}};
+  builder.embedding.seams = {{west, east, symmetry(rotation(Vector3::UnitZ(), angle))}};
   return builder.embedding;
 }
 
 /// 1x: the hemisphere, its equator glued to itself by the antipodal map.
 inline Embedding antipodal_hemisphere(int n) {
-  Builder builder;
+  Builder builder({{1}, {}, false, true});
   std::vector<int> equator;
   for (int i = 0; i < 4; ++i) {
     const double from = i * std::numbers::pi / 2;
@@ -185,10 +188,9 @@ inline Embedding antipodal_hemisphere(int n) {
     equator.insert(equator.end(), grid.bc.begin(), grid.bc.end() - 1);
   }
   equator.push_back(equator.front());
-  builder.embedding.group_order = 2;
   builder.embedding.seams = {{{equator.begin(), equator.begin() + 2 * n + 1},
                               {equator.begin() + 2 * n, equator.end()},
-                              -Matrix3::Identity()}};
+                              symmetry(-Matrix3::Identity())}};
   return builder.embedding;
 }
 

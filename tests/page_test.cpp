@@ -13,9 +13,10 @@
 
 #include "base64_text.h"
 #include "orbitutte/export/html_text.h"
+#include "orbitutte/export/palette.h"
 #include "orbitutte/io/bytes.h"
 #include "orbitutte/mesh/triangulation.h"
-#include "orbitutte/page/page_charts.h"
+#include "orbitutte/page/html_template.h"
 #include "orbitutte/page/page_scene.h"
 #include "orbitutte/report/report.h"
 #include "orbitutte/samples/sample.h"
@@ -30,6 +31,12 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using Json = nlohmann::json;
 
+std::string scene_of(const test::SampleEmbedding& sample, const Points& colours = Points(0, 3)) {
+  Surface surface = test::unjudged(sample.mesh);
+  surface.colours = colours;
+  return page_scene(surface, sample.embedding(), measure_faces(surface, sample.embedding()));
+}
+
 constexpr const char* hostile =
     R"(a"'><img src=x onerror=alert(1)></script><script>alert(2)</script>{{style}})";
 
@@ -42,7 +49,7 @@ std::string sample_report(const std::string& signature) {
 std::string page_of(const std::string& signature, const std::string& report,
                     const PageOptions& options = {}) {
   const test::SampleEmbedding& sample = test::sample_embedding(signature);
-  return report_page({sample.mesh, sample.embedding(), report}, options);
+  return report_page({test::unjudged(sample.mesh), sample.embedding(), report}, options);
 }
 
 template <typename Number>
@@ -88,10 +95,41 @@ TEST(HtmlText, Base64DecodesToTheSameBytes) {
   EXPECT_EQ(test::from_base64(base64(large)), large);
 }
 
-TEST(HtmlText, SlotsAreFilledOnceAndMustBeKnown) {
-  EXPECT_EQ(fill_slots("{{a}} and {{b}}", {{"a", "{{b}}"}, {"b", "2"}}), "{{b}} and 2");
-  EXPECT_EQ(fill_slots("no slot }} {{", {}), "no slot }} {{");
-  EXPECT_THROW(fill_slots("{{c}}", {}), ArgumentError);
+TEST(HtmlTemplate, FillsOnceAndEscapesUnlessThreeBracesSayOtherwise) {
+  const Content content = {{"a", "{{b}}"}, {"b", "<'\"&>"}};
+  EXPECT_EQ(fill_template({"{{a}} {{b}} {{{b}}}", {}}, content), "{{b}} &lt;&#39;&quot;&amp;&gt; <'\"&>");
+}
+
+TEST(HtmlTemplate, RepeatsSectionsInsideWhichOuterNamesAreKnown) {
+  const Content content = {{"rows", {{{"k", "1"}}, {{"k", "2"}}}},
+                           {"words", {"<", "y"}},
+                           {"shown", true},
+                           {"hidden", false},
+                           {"unit", "s"}};
+  EXPECT_EQ(fill_template({"{{#rows}}{{k}}{{unit}} {{/rows}}", {}}, content), "1s 2s ");
+  EXPECT_EQ(fill_template({"{{#words}}{{.}},{{/words}}", {}}, content), "&lt;,y,");
+  EXPECT_EQ(
+      fill_template({"{{#shown}}a{{/shown}}{{#hidden}}b{{/hidden}}{{^hidden}}c{{/hidden}}", {}}, content),
+      "ac");
+  EXPECT_EQ(fill_template({"{{#rows}}{{>cell}}{{/rows}}", {{"cell", "<td>{{k}}</td>"}}}, content),
+            "<td>1</td><td>2</td>");
+}
+
+TEST(HtmlTemplate, RefusesNamesAndPartsWithoutContentAndSectionsThatDoNotEnd) {
+  EXPECT_THROW(fill_template({"{{c}}", {}}, Content::object()), ArgumentError);
+  EXPECT_THROW(fill_template({"{{#c}}{{/c}}", {}}, Content::object()), ArgumentError);
+  EXPECT_THROW(fill_template({"{{>c}}", {}}, Content::object()), ArgumentError);
+  EXPECT_THROW(fill_template({"{{#c}}", {}}, {{"c", true}}), ArgumentError);
+  EXPECT_THROW(fill_template({"{{>c}}", {{"c", "{{#d}}"}}}, {{"d", true}}), ArgumentError);
+  EXPECT_THROW(fill_template({"{{c}}", {}}, {{"c", 7}}), ArgumentError);
+}
+
+TEST(HtmlTemplate, AsksElsewhereForNamesThatTheContentDoesNotHave) {
+  const auto otherwise = [](const std::string& name) {
+    return name == "report.x" ? std::optional<std::string>("<") : std::nullopt;
+  };
+  EXPECT_EQ(fill_template({"{{report.x}}", {}, otherwise}, Content::object()), "&lt;");
+  EXPECT_THROW(fill_template({"{{report.y}}", {}, otherwise}, Content::object()), ArgumentError);
 }
 
 TEST(HtmlText, DigitsAreGroupedByThree) {
@@ -101,19 +139,9 @@ TEST(HtmlText, DigitsAreGroupedByThree) {
   EXPECT_EQ(grouped_digits(-123456), "-123,456");
 }
 
-TEST(PageCharts, NothingToShowGivesNoChart) {
-  EXPECT_EQ(histogram_svg({}), "");
-  EXPECT_EQ(histogram_svg({{0, 1, 2}, {0, 0}}), "");
-  EXPECT_EQ(histogram_svg({{0, 1}, {3, 4}}), "");
-  EXPECT_EQ(convergence_svg({}), "");
-  EXPECT_EQ(convergence_svg({{"zeros", {0, 0}}}), "");
-  EXPECT_THAT(convergence_svg({{"one", {1e-3}}}), HasSubstr("</svg>"));
-  EXPECT_THAT(histogram_svg({{0, 1}, {3}}), HasSubstr("</svg>"));
-}
-
 TEST(DisplayMesh, AMeshWithinTheLimitIsWhole) {
   const test::SampleEmbedding& sample = test::sample_embedding("432");
-  const DisplayMesh display = display_mesh(sample.mesh, sample.embedding());
+  const DisplayMesh display = display_mesh(test::unjudged(sample.mesh), sample.embedding());
   EXPECT_EQ(display.fine.faces, sample.embedding().faces);
   EXPECT_EQ(display.coarse.faces, sample.embedding().faces);
   std::size_t banks = 0;
@@ -124,11 +152,11 @@ TEST(DisplayMesh, AMeshWithinTheLimitIsWhole) {
 TEST(DisplayMesh, ALargeMeshIsCoarsenedToItsLimitAndKeepsItsOutline) {
   const Mesh mesh = sample_mesh({SampleShape::figure, 6000});
   const EmbedResult result = embed(mesh, parse_orbifold("332"), sample_cones(SampleShape::figure, mesh));
-  const DisplayMesh display = display_mesh(mesh, result.embedding, {3000, 12 * 800});
+  const DisplayMesh display = display_mesh(test::unjudged(mesh), result.embedding, {3000, 12 * 800});
   EXPECT_LE(display.fine.faces.rows(), 3000);
   EXPECT_LE(display.coarse.faces.rows(), 800);
   EXPECT_GT(display.fine.faces.rows(), 2000);
-  const DisplayMesh whole = display_mesh(mesh, result.embedding);
+  const DisplayMesh whole = display_mesh(test::unjudged(mesh), result.embedding);
   EXPECT_EQ(display.fine.outline.size(), whole.fine.outline.size());
   EXPECT_EQ(display.coarse.outline.size(), whole.fine.outline.size());
 }
@@ -136,14 +164,14 @@ TEST(DisplayMesh, ALargeMeshIsCoarsenedToItsLimitAndKeepsItsOutline) {
 TEST(DisplayMesh, ACoarseTileStillCoversItsShareOfTheSphere) {
   const Mesh mesh = sample_mesh({SampleShape::figure, 6000});
   const EmbedResult result = embed(mesh, parse_orbifold("332"), sample_cones(SampleShape::figure, mesh));
-  const DisplayMesh display = display_mesh(mesh, result.embedding, {3000, 12 * 800});
+  const DisplayMesh display = display_mesh(test::unjudged(mesh), result.embedding, {3000, 12 * 800});
   for (const DisplayLevel& level : {display.fine, display.coarse}) {
     double area = 0;
     for (Eigen::Index f = 0; f < level.faces.rows(); ++f) {
       const auto corner = [&](int k) -> Vector3 {
         return result.embedding.positions.row(display.cut_vertex[level.faces(f, k)]);
       };
-      area += signed_area(corner(0), corner(1), corner(2));
+      area += Space::sphere().area(corner(0), corner(1), corner(2));
     }
     EXPECT_NEAR(area, result.certificate.expected_area, 1e-9);
   }
@@ -153,7 +181,7 @@ TEST(PageScene, HoldsTheDrawnVerticesInSourceAndImage) {
   for (const char* signature : {"532", "*223", "3*2", "2x"}) {
     const test::SampleEmbedding& sample = test::sample_embedding(signature);
     const Embedding& embedding = sample.embedding();
-    const Json scene = Json::parse(page_scene(sample.mesh, embedding, {}));
+    const Json scene = Json::parse(scene_of(sample));
     const auto source = numbers<std::uint16_t>(scene["source"]);
     const auto image = numbers<float>(scene["image"]);
     const auto vertex = numbers<std::uint32_t>(scene["source_vertex"]);
@@ -168,7 +196,7 @@ TEST(PageScene, HoldsTheDrawnVerticesInSourceAndImage) {
       EXPECT_NEAR(low + size * source[i] / 65535, sample.mesh.V(v, k), size / 65535);
       EXPECT_NEAR(image[i], embedding.positions(static_cast<Eigen::Index>(i / 3), k), 1e-6);
     }
-    EXPECT_EQ(static_cast<int>(scene["copies"].size()), embedding.group_order);
+    EXPECT_EQ(static_cast<int>(scene["copies"].size()), embedding.target.group_order);
     EXPECT_EQ(scene["cones"].size(), embedding.cones.size());
     EXPECT_EQ(numbers<std::uint32_t>(scene["fine"]["indices"]).size(),
               static_cast<std::size_t>(embedding.faces.size()));
@@ -179,21 +207,38 @@ TEST(PageScene, HoldsTheColoursOfTheVerticesWhereTheMeshHasThem) {
   for (const char* signature : {"432", "*223", "2x"}) {
     const test::SampleEmbedding& sample = test::sample_embedding(signature);
     const Points colours = (sample.mesh.V.array() * 0.4 + 0.5).cwiseMax(0).cwiseMin(1);
-    const Json scene = Json::parse(page_scene(sample.mesh, sample.embedding(), colours));
+    const Json scene = Json::parse(scene_of(sample, colours));
     const auto colour = numbers<std::uint8_t>(scene["colour"]);
     const auto vertex = numbers<std::uint32_t>(scene["source_vertex"]);
     ASSERT_EQ(colour.size(), 3 * vertex.size());
     for (std::size_t i = 0; i < colour.size(); ++i)
       EXPECT_NEAR(colour[i] / 255.0, colours(vertex[i / 3], static_cast<Eigen::Index>(i % 3)), 0.5 / 255);
-    EXPECT_FALSE(Json::parse(page_scene(sample.mesh, sample.embedding(), {})).contains("colour"));
+    EXPECT_FALSE(Json::parse(scene_of(sample)).contains("colour"));
+  }
+}
+
+TEST(PageScene, BringsTheColoursOfPicturesAlong) {
+  const test::SampleEmbedding& sample = test::sample_embedding("432");
+  const Json scene = Json::parse(scene_of(sample));
+  for (std::size_t c = 0; c < scene["cones"].size(); ++c)
+    EXPECT_EQ(scene["cones"][c]["colour"], hexadecimal(cone_colour(static_cast<int>(c))));
+  EXPECT_EQ(scene["tile"], hexadecimal(bold_colour));
+  const std::vector<FaceDistortion> faces = measure_faces(test::unjudged(sample.mesh), sample.embedding());
+  for (const auto& [name, measure] : {std::pair("area", Measure::area), std::pair("angle", Measure::angle)}) {
+    const Json& scale = scene["scales"][name];
+    const ColourScale expected = colour_scale(measure, values_of(measure, faces));
+    EXPECT_EQ(scale["title"], expected.axis.title);
+    EXPECT_EQ(scale["high"], expected.axis.high);
+    EXPECT_EQ(scale["ticks"].size(), expected.axis.ticks.size());
+    EXPECT_EQ(scale["colours"].front(), hexadecimal(srgb(scale_colour(measure, 0))));
+    EXPECT_EQ(scale["colours"].back(), hexadecimal(srgb(scale_colour(measure, 1))));
   }
 }
 
 TEST(PageScene, NormalsAreUnitVectorsAndAgreeAcrossSeamsUpToSign) {
   for (const char* signature : {"432", "3x"}) {
     const test::SampleEmbedding& sample = test::sample_embedding(signature);
-    const auto normal =
-        numbers<std::int8_t>(Json::parse(page_scene(sample.mesh, sample.embedding(), {}))["normal"]);
+    const auto normal = numbers<std::int8_t>(Json::parse(scene_of(sample))["normal"]);
     const auto at = [&](int v) -> Vector3 {
       return Vector3(normal[3 * v], normal[3 * v + 1], normal[3 * v + 2]) / 127;
     };
@@ -218,16 +263,15 @@ TEST(Page, IsWellNestedHtmlThatHoldsEveryCheck) {
   }
 }
 
-TEST(Page, SpeaksOfFacesWhereTheyAreNotAllTriangles) {
+TEST(Page, CountsTheFacesOfTheInput) {
   const PolygonMesh mesh = test::dual(test::icosphere(1));
-  const Mesh triangles = {mesh.V, on_vertices(triangulate(mesh), mesh.corners)};
-  const Orbifold orbifold = parse_orbifold("432");
+  const Target orbifold = parse_orbifold("432");
   const EmbedResult result = embed(mesh, orbifold, choose_marked_vertices(mesh, orbifold));
   const std::string report = report_json(result, run);
-  const std::string page = report_page({triangles, result.embedding, report});
+  const std::string page = report_page({make_surface(mesh), result.embedding, report});
   EXPECT_THAT(page, HasSubstr("80 vertices and 42 faces"));
   EXPECT_THAT(page, HasSubstr("Every face is positively oriented"));
-  EXPECT_THAT(page_of("432", sample_report("432")), HasSubstr("162 vertices and 320 triangles"));
+  EXPECT_THAT(page_of("432", sample_report("432")), HasSubstr("162 vertices and 320 faces"));
 }
 
 TEST(Page, LoadsNothing) {
@@ -259,7 +303,7 @@ TEST(Page, FollowsTheFilesWhereTheReportClaimsOtherwise) {
   const test::SampleEmbedding& sample = test::sample_embedding("432");
   Embedding folded = sample.embedding();
   folded.positions.row(folded.faces(0, 0)) *= -1;
-  const std::string page = report_page({sample.mesh, folded, sample_report("432")});
+  const std::string page = report_page({test::unjudged(sample.mesh), folded, sample_report("432")});
   EXPECT_THAT(page, HasSubstr("Not certified"));
   EXPECT_THAT(page, HasSubstr("says otherwise"));
 }
@@ -299,9 +343,11 @@ TEST(Page, FiguresThatAreMissingOrOfAnotherTypeAreADash) {
 TEST(Page, RefusesAMeshThatWasNotEmbeddedAndAReportThatIsNone) {
   const test::SampleEmbedding& sample = test::sample_embedding("432");
   const std::string report = sample_report("432");
-  EXPECT_THROW(report_page({test::icosahedron(), sample.embedding(), report}), MeshError);
+  EXPECT_THROW(report_page({test::unjudged(test::icosahedron()), sample.embedding(), report}), MeshError);
   EXPECT_THROW(page_of("432", "{"), MeshError);
-  EXPECT_THROW(report_page({sample.mesh, sample.embedding(), report, Points::Zero(3, 3)}), MeshError);
+  Surface coloured = test::unjudged(sample.mesh);
+  coloured.colours = Points::Zero(3, 3);
+  EXPECT_THROW(report_page({coloured, sample.embedding(), report}), MeshError);
 }
 
 }  // namespace

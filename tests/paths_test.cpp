@@ -114,7 +114,7 @@ bool share_only_the_first(const std::array<Path, 2>& paths) {
 
 Graph graph_of(const Mesh& mesh) {
   const Connectivity connectivity = connect(mesh.F, test::vertex_count(mesh));
-  return {connectivity.edges, edge_length_graph(mesh, connectivity)};
+  return {connectivity.edges, edge_length_graph(test::unjudged(mesh))};
 }
 
 /// Do two disjoint paths go from this vertex to any two others?

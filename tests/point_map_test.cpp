@@ -4,12 +4,15 @@
 #include <gmock/gmock.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <numbers>
 #include <random>
 #include <set>
 
+#include "orbitutte/geometry/barycentric_coordinates.h"
 #include "orbitutte/geometry/orientation.h"
-#include "orbitutte/geometry/spherical_coordinates.h"
 #include "orbitutte/orbifold/polygon.h"
 #include "orbitutte/orbifold/symmetry_group.h"
 #include "sample_embeddings.h"
@@ -51,16 +54,17 @@ SurfacePoints random_surface_points(const Embedding& embedding, int copies, int 
 }
 
 // Every corner and the middle of every edge of some triangles, in every copy.
-Points corners_and_edges(const Embedding& embedding, const std::vector<Matrix3>& copies,
+Points corners_and_edges(const Embedding& embedding, const std::vector<Isometry>& copies,
                          const std::vector<int>& triangles) {
+  const Points positions = embedding.canonical_positions();
   std::vector<Vector3> points;
   for (const int f : triangles)
     for (int k = 0; k < 3; ++k) {
-      const Vector3 a = embedding.positions.row(embedding.faces(f, k)),
-                    b = embedding.positions.row(embedding.faces(f, (k + 1) % 3));
-      for (const Matrix3& copy : copies) {
+      const Vector3 a = positions.row(embedding.faces(f, k)),
+                    b = positions.row(embedding.faces(f, (k + 1) % 3));
+      for (const Isometry& copy : copies) {
         points.push_back(copy * a);
-        points.push_back(copy * (a + b).normalized());
+        points.push_back(copy * embedding.space().retract(a + b));
       }
     }
   Points rows(static_cast<Eigen::Index>(points.size()), 3);
@@ -100,9 +104,9 @@ TEST(PointMap, EveryCopyHoldsItsShareOfTheSphere) {
   for (const std::string& signature : sample_signatures()) {
     const Embedding& embedding = sample_embedding(signature).embedding();
     const SurfacePoints found = PointLocator(embedding).locate(random_directions(6000, 2));
-    std::vector<int> count(embedding.group_order, 0);
+    std::vector<int> count(embedding.target.group_order, 0);
     for (const int element : found.element) ++count[element];
-    const double share = 6000.0 / embedding.group_order;
+    const double share = 6000.0 / embedding.target.group_order;
     for (const int points : count) EXPECT_NEAR(points, share, 6 * std::sqrt(share)) << signature;
   }
 }
@@ -111,7 +115,7 @@ TEST(PointMap, LocatingUndoesTheMapInEveryCopy) {
   for (const std::string& signature : sample_signatures()) {
     const Embedding& embedding = sample_embedding(signature).embedding();
     const PointLocator locator(embedding);
-    const SurfacePoints points = random_surface_points(embedding, embedding.group_order, 300);
+    const SurfacePoints points = random_surface_points(embedding, embedding.target.group_order, 300);
     const SurfacePoints found = locator.locate(map_points(embedding, points));
     EXPECT_EQ(found.face, points.face) << signature;
     EXPECT_EQ(found.element, points.element) << signature;
@@ -236,7 +240,7 @@ TEST(PointMap, OutsideOfAPolygonNothingIsFound) {
   std::sort(polygon.begin(), polygon.end(), [](const PolygonCorner& a, const PolygonCorner& b) {
     return std::atan2(a.position.y(), a.position.x()) < std::atan2(b.position.y(), b.position.x());
   });
-  const Orbifold orbifold = polygon_orbifold(polygon);
+  const Target orbifold = polygon_target(polygon);
   const EmbedResult result = embed(mesh, orbifold, corner_vertices(orbifold));
   ASSERT_TRUE(result.certificate.bijective);
   const PointLocator locator(result.embedding);
@@ -256,17 +260,69 @@ TEST(PointMap, OutsideOfAPolygonNothingIsFound) {
   EXPECT_NEAR(inside / found.count(), result.certificate.signed_area / (4 * std::numbers::pi), 0.03);
 }
 
-TEST(PointMap, PointsOfThePlaneAreMappedButNotLocated) {
-  const Mesh mesh = test::perturbed(test::icosphere(2), 0.03, 7);
-  const Orbifold orbifold = parse_euclidean_orbifold("442");
-  const EmbedResult result = embed(mesh, orbifold, choose_marked_vertices(mesh, orbifold));
-  const Points image = map_points(result.embedding, {{3}, Points::Constant(1, 3, 1.0 / 3), {}});
-  const Faces& F = result.embedding.faces;
-  const Vector3 mean = (result.embedding.positions.row(F(3, 0)) + result.embedding.positions.row(F(3, 1)) +
-                        result.embedding.positions.row(F(3, 2))) /
-                       3;
-  EXPECT_LE((image.row(0).transpose() - mean).norm(), 1e-15);
-  EXPECT_THROW(PointLocator{result.embedding}, ArgumentError);
+TEST(PointMap, LocatingUndoesTheMapInTheCopiesOfThePlane) {
+  for (const std::string& signature : test::planar_signatures()) {
+    const Embedding& embedding = sample_embedding(signature).embedding();
+    const PointLocator locator(embedding);
+    const int copies = PointLocator::default_copies;
+    EXPECT_EQ(static_cast<int>(locator.elements().size()), copies) << signature;
+    const SurfacePoints points = random_surface_points(embedding, copies, 300);
+    const Points images = map_points(embedding, points);
+    const SurfacePoints found = locator.locate(images);
+    EXPECT_EQ(found.face, points.face) << signature;
+    EXPECT_EQ(found.element, points.element) << signature;
+    EXPECT_LE((found.barycentric - points.barycentric).cwiseAbs().maxCoeff(), 1e-9) << signature;
+    EXPECT_EQ(images.col(2), Eigen::VectorXd::Ones(images.rows())) << signature;
+  }
+}
+
+TEST(PointMap, EveryPointOfThePlaneNearTheTileIsTheImageOfThePointThatIsLocated) {
+  for (const std::string& signature : test::planar_signatures()) {
+    const Embedding& embedding = sample_embedding(signature).embedding();
+    Points points = random_directions(3000, 4);
+    points.col(2).setOnes();
+    EXPECT_LE(largest_round_trip(embedding, PointLocator(embedding), points), 1e-14) << signature;
+    const Points scaled = 4 * points;
+    EXPECT_LE((map_points(embedding, PointLocator(embedding).locate(scaled)) - points).cwiseAbs().maxCoeff(),
+              1e-14);
+  }
+}
+
+TEST(PointMap, CornersAndEdgesAlongSeamsAreLocatedInThePlane) {
+  for (const std::string& signature : test::planar_signatures()) {
+    const Embedding& embedding = sample_embedding(signature).embedding();
+    const PointLocator locator(embedding);
+    const std::vector<Isometry> near(locator.elements().begin(), locator.elements().begin() + 10);
+    const Points points = corners_and_edges(embedding, near, triangles_at_seams(embedding));
+    EXPECT_LE(largest_round_trip(embedding, locator, points), 1e-12) << signature;
+  }
+}
+
+TEST(PointMap, BeyondTheCopiesThatAreSearchedNothingIsFound) {
+  const Embedding& embedding = sample_embedding("442").embedding();
+  Points points(2, 3);
+  points << 1000, 0, 1, 0.2, 0.1, 1;
+  const SurfacePoints found = PointLocator(embedding).locate(points);
+  EXPECT_EQ(found.face[0], -1);
+  EXPECT_GE(found.face[1], 0);
+}
+
+// The map was turned to where doubles resolve it: points are mapped and located in the canonical frame.
+TEST(PointMap, PlacementMakesNoDifference) {
+  for (const char* signature : {"532", "2*3", "442", "*333"}) {
+    const Embedding& embedding = sample_embedding(signature).embedding();
+    const Isometry placement = embedding.space().rotation(embedding.space().retract({0.3, 0.2, 1}), 1.3);
+    Embedding placed = embedding;
+    placed.placement = placement;
+    placed.positions = placement.on_rows(embedding.positions);
+    for (Seam& seam : placed.seams) seam.transform = placement * seam.transform * placement.inverse();
+    const SurfacePoints points = random_surface_points(embedding, 20, 300);
+    const Points images = map_points(embedding, points);
+    EXPECT_LE((map_points(placed, points) - images).cwiseAbs().maxCoeff(), 1e-13) << signature;
+    const SurfacePoints found = PointLocator(placed).locate(images);
+    EXPECT_EQ(found.face, points.face) << signature;
+    EXPECT_EQ(found.element, points.element) << signature;
+  }
 }
 
 std::string refusal(const Embedding& embedding, const SurfacePoints& points) {
@@ -295,49 +351,72 @@ TEST(PointMap, PointsThatAreNoneAreNamed) {
   EXPECT_THAT(refusal(broken, {{0}, middle, {}}), HasSubstr("does not exist"));
   EXPECT_THROW(PointLocator{broken}, ArgumentError);
   broken = embedding;
-  broken.group_order = 60;
+  broken.target.group_order = 60;
   EXPECT_THROW(PointLocator{broken}, ArgumentError);
 }
 
-// A triangle whose corners are within `width` of one great arc.
-SphericalCorners thin_triangle(std::mt19937& random, double length, double width) {
-  std::normal_distribution<double> normal;
-  const auto vector = [&] { return Vector3(normal(random), normal(random), normal(random)); };
-  const Vector3 a = vector().normalized(), along = length * a.cross(vector()).normalized();
-  SphericalCorners corners = {a, (a + along).normalized(),
-                              (a + 0.4 * along + width * a.cross(along).normalized()).normalized()};
+const std::array<Space, 3> spaces = {Space::sphere(), Space::plane(), Space::hyperbolic_plane()};
+
+// A triangle whose corners are within `width` of one geodesic.
+TriangleCorners thin_triangle(Space space, std::mt19937& random, double length, double width) {
+  std::uniform_real_distribution<double> uniform(0, 1);
+  const double reach = uniform(random), longitude = 6.3 * uniform(random);
+  const Vector3 a = space.polar(space == Space::sphere() ? 3 * reach : reach, longitude);
+  const Vector3 along =
+      space.rotation(a, 6.3 * uniform(random)) * space.normal(Space::line(a, Vector3::UnitX()));
+  const Vector3 middle = space.at(a, along, 0.4 * length), b = space.at(a, along, length);
+  TriangleCorners corners = {a, b, space.at(middle, space.normal(Space::line(a, b)), width)};
   if (orientation_sign(corners[0], corners[1], corners[2]) < 0) std::swap(corners[1], corners[2]);
   return corners;
 }
 
-TEST(SphericalCoordinates, PointsComeBackFromTrianglesHoweverThinOrSmall) {
+TEST(BarycentricCoordinates, PointsComeBackFromTrianglesHoweverThinOrSmall) {
   std::mt19937 random(3);
-  for (const double length : {1.5, 0.1, 1e-3, 1e-7})
-    for (const double width : {1.0, 1e-3, 1e-6, 1e-10}) {
-      for (int k = 0; k < 50; ++k) {
-        const SphericalCorners corners = thin_triangle(random, length, length * width);
-        if (orientation_sign(corners[0], corners[1], corners[2]) <= 0) continue;
-        const Vector3 point = spherical_point(corners, random_coordinates(random));
-        const Vector3 coordinates = spherical_coordinates(corners, point);
-        EXPECT_GE(coordinates.minCoeff(), 0);
-        EXPECT_NEAR(coordinates.sum(), 1, 1e-15);
-        EXPECT_LE((spherical_point(corners, coordinates) - point).norm(), 1e-14) << length << " " << width;
+  for (const Space space : spaces)
+    for (const double length : {1.5, 0.1, 1e-3, 1e-7})
+      for (const double width : {1.0, 1e-3, 1e-6, 1e-10}) {
+        for (int k = 0; k < 50; ++k) {
+          const TriangleCorners corners = thin_triangle(space, random, length, length * width);
+          if (orientation_sign(corners[0], corners[1], corners[2]) <= 0) continue;
+          const Vector3 point = barycentric_point(space, corners, random_coordinates(random));
+          const Vector3 coordinates = barycentric_coordinates(space, corners, point);
+          EXPECT_GE(coordinates.minCoeff(), 0);
+          EXPECT_NEAR(coordinates.sum(), 1, 1e-15);
+          EXPECT_LE((barycentric_point(space, corners, coordinates) - point).norm(),
+                    1e-14 * point.squaredNorm())
+              << space.name() << " " << length << " " << width;
+        }
       }
-    }
 }
 
-TEST(SphericalCoordinates, TheFanOfAPointIsItsTriangleDivided) {
+TEST(BarycentricCoordinates, TheFanOfAPointIsItsTriangleDivided) {
   std::mt19937 random(4);
-  for (int k = 0; k < 200; ++k) {
-    const SphericalCorners corners = thin_triangle(random, 1, 0.7);
-    const Vector3 expected = random_coordinates(random), point = spherical_point(corners, expected);
-    EXPECT_LE((spherical_coordinates(corners, point) - expected).cwiseAbs().maxCoeff(), 1e-14);
-    EXPECT_TRUE(contains(corners, point));
-    EXPECT_FALSE(contains(corners, -point));
-    EXPECT_FALSE(contains(corners, spherical_point(corners, Vector3(0.7, 0.7, -0.4))));
-    for (int c = 0; c < 3; ++c) {
-      EXPECT_TRUE(contains(corners, corners[c]));
-      EXPECT_EQ(spherical_coordinates(corners, corners[c]), Vector3::Unit(c));
+  for (const Space space : spaces) {
+    for (int k = 0; k < 200; ++k) {
+      const TriangleCorners corners = thin_triangle(space, random, 1, 0.7);
+      const Vector3 expected = random_coordinates(random),
+                    point = barycentric_point(space, corners, expected);
+      EXPECT_LE((barycentric_coordinates(space, corners, point) - expected).cwiseAbs().maxCoeff(), 2e-14);
+      EXPECT_TRUE(contains(corners, point));
+      EXPECT_FALSE(contains(corners, -point));
+      EXPECT_FALSE(contains(corners, barycentric_point(space, corners, Vector3(0.7, 0.7, -0.4))));
+      for (int c = 0; c < 3; ++c) {
+        EXPECT_TRUE(contains(corners, corners[c]));
+        EXPECT_EQ(barycentric_coordinates(space, corners, corners[c]), Vector3::Unit(c));
+      }
+    }
+  }
+}
+
+TEST(BarycentricCoordinates, TheBulgeBoundsHowFarTrianglesAreFromFlatOnes) {
+  std::mt19937 random(5);
+  for (const Space space : spaces) {
+    for (int k = 0; k < 300; ++k) {
+      const TriangleCorners corners = thin_triangle(space, random, 0.9, 0.5);
+      const Vector3 l = random_coordinates(random);
+      const Vector3 flat = l[0] * corners[0] + l[1] * corners[1] + l[2] * corners[2];
+      EXPECT_LE((barycentric_point(space, corners, l) - flat).norm(), bulge(space, corners) + 1e-15)
+          << space.name();
     }
   }
 }

@@ -38,7 +38,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 /// An irregular sphere or disk of polygons, whichever the orbifold needs.
-PolygonMesh sample_polygons_for(const Orbifold& orbifold) {
+PolygonMesh sample_polygons_for(const Target& orbifold) {
   if (orbifold.topology == Topology::sphere) return test::dual(test::perturbed(test::icosphere(2), 0.03, 7));
   return test::quadrangulated(test::perturbed(test::round_disk(5), 0.02, 7));
 }
@@ -49,7 +49,7 @@ struct Sample {
 };
 
 Sample embedded(const PolygonMesh& mesh, const std::string& signature, const EmbedOptions& options = {}) {
-  const Orbifold orbifold = parse_orbifold(signature);
+  const Target orbifold = parse_orbifold(signature);
   return {mesh, embed(mesh, orbifold, choose_marked_vertices(mesh, orbifold), options)};
 }
 
@@ -98,10 +98,9 @@ bool all_corners_turn_left(const Embedding& embedding) {
 
 TEST(Triangulation, SquareGetsTheShorterDiagonal) {
   const PolygonMesh kite = test::polygon_mesh({{-3, 0, 0}, {0, -1, 0}, {3, 0, 0}, {0, 1, 0}}, {{0, 1, 2, 3}});
-  const Triangulation triangulation = triangulate(kite);
   Faces expected(2, 3);
   expected << 1, 2, 3, 3, 0, 1;
-  EXPECT_EQ(triangulation.corners, expected);
+  EXPECT_EQ(triangulate(kite), expected);
 }
 
 TEST(Triangulation, TrianglesOfAPolygonThatBendsInwardsDoNotOverlap) {
@@ -117,10 +116,10 @@ RC_GTEST_PROP(Triangulation, CoversEveryConvexPolygonOnce, ()) {
   const int n = *rc::gen::inRange(3, 40);
   PolygonMesh mesh = test::prism(n);
   for (double& x : mesh.V.leftCols<1>().reshaped()) x *= 3;
-  const Triangulation triangulation = triangulate(mesh);
-  const Faces F = on_vertices(triangulation, mesh.corners);
+  const Surface surface = make_surface(mesh);
+  const Faces& F = surface.triangles;
   RC_ASSERT(F.rows() == static_cast<Eigen::Index>(mesh.corners.size()) - 2 * mesh.face_count());
-  RC_ASSERT(triangulation.polygons(F).corners == mesh.corners);
+  RC_ASSERT(surface.polygons_on(F).corners == mesh.corners);
   double bottom = 0;
   for (int t = 0; t < n - 2; ++t) {
     const Vector3 a = mesh.V.row(F(t, 0)), b = mesh.V.row(F(t, 1)), c = mesh.V.row(F(t, 2));
@@ -133,11 +132,11 @@ RC_GTEST_PROP(Triangulation, CoversEveryConvexPolygonOnce, ()) {
 
 TEST(Triangulation, EdgesAreThoseOfThePolygons) {
   const PolygonMesh mesh = test::dual(test::icosahedron());
-  const Triangulation triangulation = triangulate(mesh);
-  const Connectivity connectivity = connect(mesh, triangulation);
+  const Faces division = triangulate(mesh);
+  const Connectivity connectivity = connect(mesh, division);
   EXPECT_EQ(connectivity.edges.size(), 30u);
   EXPECT_TRUE(std::is_sorted(connectivity.edges.begin(), connectivity.edges.end()));
-  const Faces F = on_vertices(triangulation, mesh.corners);
+  const Faces F = on_vertices(division, mesh.corners);
   int diagonals = 0;
   for (int h = 0; h < static_cast<int>(F.size()); ++h) {
     const int other = connectivity.opposite[h];
@@ -177,16 +176,16 @@ TEST_P(PolygonsOfEveryFamily, BecomeConvexAndKeepTheirOrder) {
 
 TEST_P(PolygonsOfEveryFamily, EnergyIsThatOfTheirEdges) {
   const auto [mesh, result] = sample(GetParam());
-  const Connectivity connectivity = connect(mesh, triangulate(mesh));
-  EXPECT_EQ(result.weights.w.size(), static_cast<Eigen::Index>(connectivity.edges.size()));
-  EXPECT_NEAR(dirichlet_energy(connectivity, result.weights, result.embedding), result.minimum.energy,
+  const Surface surface = make_surface(mesh);
+  EXPECT_EQ(result.weights.w.size(), static_cast<Eigen::Index>(surface.connectivity.edges.size()));
+  EXPECT_NEAR(dirichlet_energy(surface, result.weights, result.embedding), result.minimum.energy,
               1e-10 * result.minimum.energy);
 }
 
 TEST_P(PolygonsOfEveryFamily, AreTiledIntoAClosedSphere) {
   const auto [mesh, result] = sample(GetParam());
   const Tiling tiling = tile_sphere(result.embedding);
-  EXPECT_EQ(tiling.polygons.count(), mesh.face_count() * result.embedding.group_order);
+  EXPECT_EQ(tiling.polygons.count(), mesh.face_count() * result.embedding.target.group_order);
   const PolygonMesh polygons = {tiling.mesh.V, tiling.polygons.corners, tiling.polygons.start};
   EXPECT_EQ(inspect(polygons).topology, Topology::sphere);
   EXPECT_EQ(inspect(tiling.mesh).topology, Topology::sphere);
@@ -265,7 +264,7 @@ TEST(Polygons, TrianglesGivenAsPolygonsAreEmbeddedToTheSameBytes) {
     options.threads = 1;
     options.weights.kind = WeightKind::cotan;
     const PolygonMesh mesh = to_polygon_mesh(expected.mesh);
-    const Orbifold orbifold = parse_orbifold(signature);
+    const Target orbifold = parse_orbifold(signature);
     EXPECT_EQ(choose_marked_vertices(mesh, orbifold), expected.marks);
     const EmbedResult result = embed(mesh, orbifold, expected.marks, options);
     EXPECT_EQ(serialize_embedding(result.embedding), serialize_embedding(expected.embedding()));
@@ -278,8 +277,8 @@ Eigen::VectorXd polygon_edge_lengths(const PolygonMesh& mesh, const Embedding& e
   Eigen::VectorXd lengths(static_cast<Eigen::Index>(connectivity.edges.size()));
   for (int h = 0; h < static_cast<int>(embedding.faces.size()); ++h)
     if (const int e = connectivity.edge_of[h]; e >= 0)
-      lengths[e] = arc_length(embedding.positions.row(origin(embedding.faces, h)),
-                              embedding.positions.row(target(embedding.faces, h)));
+      lengths[e] = Space::sphere().distance(embedding.positions.row(origin(embedding.faces, h)),
+                                            embedding.positions.row(target(embedding.faces, h)));
   return lengths;
 }
 
@@ -325,11 +324,7 @@ TEST(Polygons, WeightsFileNamesTheirEdgesAndNoDiagonals) {
 }
 
 TEST(Polygons, CotangentsOfSquaresAreOne) {
-  const PolygonMesh mesh = test::square_grid(4, 3);
-  const Triangulation triangulation = triangulate(mesh);
-  const Connectivity connectivity = connect(mesh, triangulation);
-  const EdgeWeights weights =
-      edge_weights({mesh.V, on_vertices(triangulation, mesh.corners)}, connectivity, {WeightKind::cotan});
+  const EdgeWeights weights = edge_weights(make_surface(test::square_grid(4, 3)), {WeightKind::cotan});
   for (int e = 0; e < weights.w.size(); ++e)
     EXPECT_TRUE(weights.w[e] == 1 || weights.w[e] == 0.5) << weights.w[e];
   EXPECT_EQ(weights.clamped_edges, 0);
@@ -411,7 +406,7 @@ class Faults : public testing::Test {
  protected:
   Sample sample_ = sample("432");
   Embedding& embedding() { return sample_.result.embedding; }
-  Certificate judged() { return certify(sample_.mesh, embedding()); }
+  Certificate judged() { return certify(test::unjudged(sample_.mesh), embedding()); }
 
   // A face that no seam touches.
   int inner_face() {
@@ -500,11 +495,11 @@ TEST(PolygonFiles, EmbeddingReadsBackAsItIs) {
   EXPECT_EQ(read.polygons.start, result.embedding.polygons.start);
   EXPECT_EQ(read.positions, result.embedding.positions);
   EXPECT_EQ(read.source_vertex, result.embedding.source_vertex);
-  read.signature = result.embedding.signature;
-  read.group_order = result.embedding.group_order;
+  read.target = result.embedding.target;
+  read.placement = result.embedding.placement;
   read.seams = result.embedding.seams;
   read.cones = result.embedding.cones;
-  EXPECT_TRUE(certify(mesh, read).bijective);
+  EXPECT_TRUE(certify(test::unjudged(mesh), read).bijective);
   EXPECT_EQ(inspect(tile_sphere(read).mesh).topology, Topology::sphere);
   EXPECT_THAT(report_json(result, RunRecord()), HasSubstr(fmt::format("\"faces\": {}", mesh.face_count())));
   std::filesystem::remove(path);

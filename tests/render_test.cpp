@@ -11,14 +11,17 @@
 #include <numbers>
 #include <numeric>
 #include <regex>
+#include <set>
 
+#include "orbitutte/export/palette.h"
 #include "orbitutte/io/file.h"
+#include "orbitutte/page/svg_chart.h"
 #include "orbitutte/parallel.h"
-#include "orbitutte/render/area_histogram.h"
+#include "orbitutte/render/chart_drawing.h"
 #include "orbitutte/render/checkerboard.h"
 #include "orbitutte/render/default_view.h"
-#include "orbitutte/render/scales.h"
 #include "orbitutte/render/sphere_figure.h"
+#include "orbitutte/report/charts.h"
 #include "orbitutte/report/comparison.h"
 #include "sample_embeddings.h"
 
@@ -47,8 +50,8 @@ std::vector<std::string> one_signature_of_each_family() {
 
 Report report_of(const EmbedResult& result) {
   Report report;
-  report.signature = result.embedding.signature;
-  report.group_order = result.embedding.group_order;
+  report.signature = result.embedding.target.signature;
+  report.group_order = result.embedding.target.group_order;
   report.seams = result.embedding.seams;
   report.cones = result.embedding.cones;
   report.energy = result.minimum.energy;
@@ -60,10 +63,11 @@ Report report_of(const EmbedResult& result) {
 /// What a picture is made of, with the report that it refers to.
 struct Subject {
   const test::SampleEmbedding& sample;
+  Surface surface = unjudged(sample.mesh);
   Report report = report_of(sample.result);
 
   explicit Subject(const std::string& signature) : sample(sample_embedding(signature)) {}
-  RenderSubject get() const { return {sample.mesh, sample.embedding(), report, "sample"}; }
+  RenderSubject get() const { return {surface, sample.embedding(), report, "sample"}; }
 };
 
 RenderOptions options_of(Panel panel, int width, int height) {
@@ -167,10 +171,11 @@ TEST(Render, TurningMeshAndViewTogetherLeavesThePicture) {
   Mesh turned = subject.sample.mesh;
   turned.V = turned.V * R.transpose();
   options.view = R * *options.view, options.up = R * *options.up;
-  const Picture same(render_png({turned, subject.sample.embedding(), subject.report, ""}, options));
+  const Picture same(render_png({unjudged(turned), subject.sample.embedding(), subject.report, ""}, options));
   EXPECT_LT(mean_difference(picture, same), 3);
   options.view = -*options.view;
-  const Picture other(render_png({turned, subject.sample.embedding(), subject.report, ""}, options));
+  const Picture other(
+      render_png({unjudged(turned), subject.sample.embedding(), subject.report, ""}, options));
   EXPECT_GT(mean_difference(picture, other), 3);
 }
 
@@ -224,7 +229,7 @@ TEST(Render, SeamsStandOutOfTheSphereAllAlongTheirArcs) {
     const double angle = k * std::numbers::pi / 80;
     const auto height = height_of_ornament(ornaments, {std::cos(angle), std::sin(angle), 0});
     ASSERT_TRUE(height) << k;
-    EXPECT_GT(*height, 0.7 * seam_radius(embedding.group_order)) << k;
+    EXPECT_GT(*height, 0.7 * seam_radius(embedding.target.group_order)) << k;
   }
 }
 
@@ -256,7 +261,7 @@ TEST(Render, BallsOfTheNearSideAreSeenWhole) {
 TEST(Render, AMapOntoAPolygonIsShownAlone) {
   Embedding embedding = sample_embedding("*532").embedding();
   embedding.seams.clear();
-  embedding.group_order = 1;
+  embedding.target.group_order = 1;
   const SphereFigure sphere(embedding, std::vector<float>(embedding.source_vertex.size(), 1));
   EXPECT_EQ(sphere.copies().size(), 1U);
 }
@@ -265,7 +270,8 @@ TEST(Render, AMapOntoAPolygonIsShownAlone) {
 std::string compared(const std::vector<std::vector<double>>& log_areas, const std::string& ending) {
   Mesh mesh = icosphere(2);
   mesh.V.rightCols(2) *= 0.08;  // few pixels to shade
-  Comparison comparison = {mesh, {0, 1, 2}, {}};
+  const Surface surface = unjudged(mesh);
+  Comparison comparison = {surface, {0, 1, 2}, {}};
   for (const std::vector<double>& areas : log_areas) {
     ComparedMap map = {"a map", {1, 1, 1, 1}, std::vector<FaceDistortion>(mesh.F.rows())};
     for (std::size_t f = 0; f < map.faces.size(); ++f)
@@ -357,6 +363,35 @@ TEST(Render, SvgIsWellFormed) {
   }
 }
 
+/// All texts of an SVG that the page shows, each once.
+std::set<std::string> texts_of_page(const Chart& chart) {
+  const Content content = svg_chart(chart);
+  std::set<std::string> texts = {content.at("y_title").at("text").get<std::string>()};
+  for (const Content& text : content.at("texts")) texts.insert(text.at("text").get<std::string>());
+  return texts;
+}
+
+std::set<std::string> texts_of_picture(const Chart& chart) {
+  Canvas canvas(PictureFormat::svg, {600, 400}, 14);
+  draw_chart(canvas, {0, 0, 600, 400}, chart);
+  return {canvas.texts().begin(), canvas.texts().end()};
+}
+
+TEST(Charts, PageAndPicturesShowTheSameTextsLinesAndBars) {
+  for (const std::string& signature : {"432", "*532", "5*", "3x"}) {
+    const Subject subject(signature);
+    const std::vector<double> areas =
+        values_of(Measure::area, measure_faces(subject.surface, subject.sample.embedding()));
+    for (const Chart& chart : {area_histogram(areas), convergence_chart(subject.report.history)}) {
+      EXPECT_EQ(texts_of_page(chart), texts_of_picture(chart)) << signature;
+      for (const ChartAxis& axis : {chart.x, chart.y}) EXPECT_EQ(texts_of_page(chart).count(axis.title), 1U);
+      for (const ChartLine& line : chart.lines) EXPECT_EQ(texts_of_picture(chart).count(line.label), 1U);
+      EXPECT_EQ(svg_chart(chart).at("bars").size(), chart.bars.size());
+      EXPECT_EQ(svg_chart(chart).at("lines").size(), 2 * chart.lines.size()) << "and one each for the key";
+    }
+  }
+}
+
 TEST(Render, WhatMakesNoSenseIsRefused) {
   const Subject subject("432");
   RenderOptions options;
@@ -378,9 +413,9 @@ TEST(Render, WhatMakesNoSenseIsRefused) {
 TEST(Render, AnotherMeshIsRefused) {
   const Subject subject("432");
   const Mesh other = icosphere(1);
-  EXPECT_THROW(
-      render_png({other, subject.sample.embedding(), subject.report, ""}, options_of(Panel::area, 100, 100)),
-      MeshError);
+  EXPECT_THROW(render_png({unjudged(other), subject.sample.embedding(), subject.report, ""},
+                          options_of(Panel::area, 100, 100)),
+               MeshError);
 }
 
 TEST(Render, VerticesThatNoFaceUsesDoNotMakeTheFigureSmall) {
@@ -390,10 +425,11 @@ TEST(Render, VerticesThatNoFaceUsesDoNotMakeTheFigureSmall) {
   mesh.V.conservativeResize(n + 1, 3);
   mesh.V.row(n) << 100, 200, 300;
   const RenderOptions options = options_of(Panel::source, 90, 90);
-  EXPECT_TRUE(render_png({mesh, subject.sample.embedding(), subject.report, ""}, options) ==
+  EXPECT_TRUE(render_png({unjudged(mesh), subject.sample.embedding(), subject.report, ""}, options) ==
               render_png(subject.get(), options));
   mesh.V.row(n)[0] = std::nan("");
-  EXPECT_THROW(render_png({mesh, subject.sample.embedding(), subject.report, ""}, options), MeshError);
+  EXPECT_THROW(render_png({unjudged(mesh), subject.sample.embedding(), subject.report, ""}, options),
+               MeshError);
 }
 
 TEST(Render, PictureIsWrittenWhole) {
@@ -437,11 +473,11 @@ Mesh pyramid() {
 
 TEST(DefaultView, WhatStandsOnABroadBaseAcrossZHasZUp) {
   Mesh mesh = pyramid();
-  EXPECT_EQ(default_up(mesh), Vector3::UnitZ());
-  EXPECT_EQ(default_up({mesh.V(Eigen::all, {1, 2, 0}), mesh.F}), Vector3::UnitY());
+  EXPECT_EQ(default_up(test::unjudged(mesh)), Vector3::UnitZ());
+  EXPECT_EQ(default_up(test::unjudged(Mesh{mesh.V(Eigen::all, {1, 2, 0}), mesh.F}), Vector3::UnitY());
   mesh.F = mesh.F.bottomRows(4).eval();  // without its base it faces whoever looks at it
-  EXPECT_EQ(default_up(mesh), Vector3::UnitY());
-  EXPECT_EQ(default_up({}), Vector3::UnitY());
+  EXPECT_EQ(default_up(test::unjudged(mesh)), Vector3::UnitY());
+  EXPECT_EQ(default_up(test::unjudged(Mesh())), Vector3::UnitY());
 }
 
 TEST(DefaultView, OpenSurfacesAreSeenFromWhereTheyFace) {
@@ -550,25 +586,6 @@ TEST(Lighting, BallsThrowShadowsAwayFromTheMainLight) {
   EXPECT_LT(brightness(Vector3f::UnitZ(), {1, 0}), 0.7F * brightness(Vector3f::UnitZ(), {}));
 }
 
-TEST(Colours, MapsAreMonotoneInLightness) {
-  double previous = 2;
-  for (int k = 0; k <= 100; ++k) {
-    const double t = k / 100.0;
-    const double sequential = lightness(sequential_colour(t));
-    EXPECT_LT(sequential, previous);
-    previous = sequential;
-    EXPECT_NEAR(lightness(diverging_colour(t)), lightness(diverging_colour(-t)), 0.01);
-    if (k > 0) EXPECT_LT(lightness(diverging_colour(t)), lightness(diverging_colour(t - 0.01)));
-  }
-}
-
-TEST(Colours, EncodingToSrgbAndBackIsExact) {
-  for (int c = 0; c < 256; ++c) {
-    const auto channel = static_cast<std::uint8_t>(c);
-    EXPECT_EQ(srgb(linear({channel, 17, 255})), (Rgb{channel, 17, 255}));
-  }
-}
-
 TEST(Checkerboard, SquaresAreRightAngledWhereTheMapIsConformal) {
   // The identity of the sphere's upper half as the embedding: stereographic coordinates are conformal.
   const Mesh sphere = icosphere(4);
@@ -623,37 +640,6 @@ TEST(Checkerboard, NeighbouringSquaresDiffer) {
   const Colour far = board.colour(any, 1);
   any.u = 0.35F;
   EXPECT_LT((board.colour(any, 1) - far).abs().maxCoeff(), 1e-6F) << "squares smaller than pixels are grey";
-}
-
-TEST(Plots, HistogramsCountEveryTriangleOnAxesThatHoldAllMaps) {
-  const std::vector<double> narrow = {-0.3, 0, 0.1, 0.4}, wide = {-30, -3, -1, 0, 1, 2, 3};
-  for (const std::vector<double>& values : {narrow, wide}) {
-    const std::vector<double> shares = shares_by_bin(values, 2);
-    EXPECT_NEAR(std::accumulate(shares.begin(), shares.end(), 0.0), 1, 1e-12);
-  }
-  EXPECT_NEAR(shares_by_bin(wide, 2).front(), 2.0 / 7, 1e-12) << "what lies beyond is in the outermost bin";
-  const HistogramAxes both = histogram_axes({narrow, wide}), swapped = histogram_axes({wide, narrow});
-  for (const std::vector<double>& values : {narrow, wide}) {
-    const HistogramAxes own = histogram_axes({values});
-    EXPECT_GE(both.range, own.range);
-    EXPECT_GE(both.scale.range, own.scale.range);
-    for (const double share : shares_by_bin(values, both.range)) EXPECT_LE(share, both.highest);
-  }
-  EXPECT_EQ(both.range, swapped.range);
-  EXPECT_EQ(both.highest, swapped.highest);
-  EXPECT_EQ(both.lowest, -30);
-  EXPECT_GT(histogram_axes({}).highest, 0);
-}
-
-TEST(Plots, ScalesHoldNineTenthsOfTheTriangles) {
-  for (const std::string signature : {"432", "*532", "5*"}) {
-    const test::SampleEmbedding& sample = sample_embedding(signature);
-    const std::vector<FaceDistortion> faces = measure_faces(sample.mesh, sample.embedding());
-    const AreaScale scale = area_scale(log_areas(faces));
-    double inside = 0;
-    for (const FaceDistortion& face : faces) inside += std::abs(std::log2(face.area)) <= scale.range ? 1 : 0;
-    if (scale.range < 6) EXPECT_GE(inside, 0.89 * static_cast<double>(faces.size())) << signature;
-  }
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "orbitutte/io/file.h"
 #include "orbitutte/io/ply.h"
@@ -77,7 +78,7 @@ void expect_same(const std::vector<Seam>& a, const std::vector<Seam>& b) {
   for (std::size_t s = 0; s < a.size(); ++s) {
     EXPECT_EQ(a[s].left, b[s].left);
     EXPECT_EQ(a[s].right, b[s].right);
-    EXPECT_EQ(a[s].transform, b[s].transform);
+    EXPECT_EQ(a[s].transform.matrix(), b[s].transform.matrix());
   }
 }
 
@@ -85,8 +86,8 @@ void expect_same(const std::vector<ConeCopies>& a, const std::vector<ConeCopies>
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t k = 0; k < a.size(); ++k) {
     EXPECT_EQ(a[k].vertex, b[k].vertex);
-    EXPECT_EQ(a[k].order, b[k].order);
-    EXPECT_EQ(a[k].kind, b[k].kind);
+    EXPECT_EQ(a[k].mark.angle, b[k].mark.angle);
+    EXPECT_EQ(a[k].mark.kind, b[k].mark.kind);
     EXPECT_EQ(a[k].copies, b[k].copies);
   }
 }
@@ -99,20 +100,28 @@ TEST(Report, HoldsEveryKeyWithItsType) {
   };
   const auto is_integer = [](const Json& value) { return value.is_number_integer(); };
   const auto is_number = [](const Json& value) { return value.is_number(); };
-  for (const std::string& signature : test::sample_signatures()) {
+  for (const std::string& signature : test::all_sample_signatures()) {
     const Json json = sample_report(signature);
+    const Target target = parse_orbifold(signature);
     EXPECT_EQ(json.at("schema"), "orbitutte.report/1");
     EXPECT_EQ(json.at("mesh").at("path"), "mesh.ply");
     EXPECT_EQ(json.at("mesh").at("vertices"), test::vertex_count(test::sample_embedding(signature).mesh));
     EXPECT_EQ(json.at("mesh").at("faces"), test::face_count(test::sample_embedding(signature).mesh));
     EXPECT_EQ(json.at("mesh").at("topology"), name(parse_orbifold(signature).topology));
     EXPECT_EQ(json.at("orbifold").at("signature"), signature);
-    EXPECT_TRUE(json.at("orbifold").at("group_order").is_number_integer());
+    EXPECT_EQ(json.at("orbifold").at("group_order"),
+              target.group_order > 0 ? Json(target.group_order) : Json());
+    EXPECT_EQ(json.at("orbifold").at("space"), target.group_order > 0 ? "spherical" : "euclidean");
+    EXPECT_EQ(json.at("placement").size(), 3u);
+    EXPECT_TRUE(
+        all(json.at("placement"), [&](const Json& row) { return row.size() == 3 && all(row, is_number); }));
 
     ASSERT_TRUE(json.at("cones").is_array());
     for (const Json& cone : json.at("cones")) {
       EXPECT_TRUE(cone.at("vertex").is_number_integer());
       EXPECT_TRUE(cone.at("order").is_number_integer());
+      const double whole = (cone.at("kind") == "rotation" ? 2 : 1) * std::numbers::pi;
+      EXPECT_NEAR(cone.at("angle").get<double>(), whole / cone.at("order").get<int>(), 1e-15);
       EXPECT_THAT(cone.at("kind"), AnyOf("corner", "rotation"));
       EXPECT_TRUE(all(cone.at("copies"), is_integer));
     }
@@ -170,11 +179,13 @@ TEST(Report, EndsWithALineBreak) {
 }
 
 TEST(Report, ReadBackSaysTheSame) {
-  for (const std::string& signature : test::sample_signatures()) {
+  for (const std::string& signature : test::all_sample_signatures()) {
     const EmbedResult& result = test::sample_embedding(signature).result;
     const Report report = read(report_json(result, run));
     EXPECT_EQ(report.signature, signature);
-    EXPECT_EQ(report.group_order, result.embedding.group_order);
+    EXPECT_EQ(report.group_order, result.embedding.target.group_order);
+    EXPECT_EQ(report.space, result.embedding.space());
+    EXPECT_EQ(report.placement.matrix(), result.embedding.placement.matrix());
     expect_same(report.seams, result.embedding.seams);
     expect_same(report.cones, result.embedding.cones);
     EXPECT_EQ(report.energy, result.minimum.energy);
@@ -188,10 +199,36 @@ TEST(Report, ReadBackSaysTheSame) {
   }
 }
 
+// Reports of the first version.
+TEST(Report, WithoutSpacePlacementAndAnglesItSpeaksOfTheSphereAndOfOrders) {
+  Json json = sample_report("532");
+  const Report expected = read(json.dump());
+  json.erase("placement");
+  json["orbifold"].erase("space");
+  for (Json& cone : json["cones"]) cone.erase("angle");
+  const Report report = read(json.dump());
+  EXPECT_EQ(report.space, Space::sphere());
+  EXPECT_TRUE(report.placement.is_identity());
+  expect_same(report.cones, expected.cones);
+}
+
+TEST(Report, PlacementIsReadBack) {
+  EmbedResult result = test::sample_embedding("532").result;
+  result.embedding.placement = Space::sphere().rotation(Vector3(1, 2, 2) / 3, 0.7);
+  const Report report = read(report_json(result, run));
+  EXPECT_EQ(report.placement.matrix(), result.embedding.placement.matrix());
+  EXPECT_LT((report.placement * report.placement.inverse()).difference({}), 1e-15);
+}
+
+TEST(Report, AngleThatContradictsTheOrderIsRefused) {
+  EXPECT_THAT(refusal([](Json& json) { json["cones"][0]["angle"] = 1.0; }),
+              AllOf(HasSubstr("'order'"), HasSubstr("'angle'")));
+}
+
 TEST(Report, SaysWhatFailed) {
   EmbedResult result = test::sample_embedding("33").result;
   result.embedding.positions.row(40) = -result.embedding.positions.row(40);
-  result.certificate = certify(test::sample_embedding("33").mesh, result.embedding);
+  result.certificate = certify(test::unjudged(test::sample_embedding("33").mesh), result.embedding);
   result.minimum.termination = Termination::max_iterations;
   const Report report = read(report_json(result, run));
   EXPECT_FALSE(report.bijective);
@@ -259,7 +296,9 @@ TEST(Report, ValuesOfTheWrongTypeAreNamed) {
       {"/schema", {1, nullptr, Json::array(), "orbitutte.report/2", ""}},
       {"/orbifold", {1, "532", Json::array()}},
       {"/orbifold/signature", {532, nullptr, Json::array()}},
-      {"/orbifold/group_order", {"60", 60.5, nullptr, true, 0, -60, 4294967356LL, 1e300, Json::array({60})}},
+      {"/orbifold/group_order", {"60", 60.5, true, 0, -60, 4294967356LL, 1e300, Json::array({60})}},
+      {"/orbifold/space", {1, nullptr, "flat", Json::array()}},
+      {"/placement", {1, nullptr, Json::array(), Json({{1, 0, 0}, {0, 1, 0}, {0, 0}})}},
       {"/seams", {1, nullptr, "left", Json::object(), true}},
       {"/seams/0/left",
        {1, "1", nullptr, Json::object(), Json::array({"1"}), Json::array({1.5}), Json::array({true})}},
@@ -274,6 +313,7 @@ TEST(Report, ValuesOfTheWrongTypeAreNamed) {
       {"/cones", {1, nullptr, Json::object()}},
       {"/cones/0/vertex", {"1", 1.5, nullptr, true, 99999999999LL}},
       {"/cones/0/order", {"5", 5.5, nullptr, 99999999999LL}},
+      {"/cones/0/angle", {"1", true, Json::array()}},
       {"/cones/0/kind", {1, nullptr, "", "cone"}},
       {"/cones/0/copies", {1, nullptr, Json::array({nullptr}), Json::array({"1"})}},
       {"/weights", {1, nullptr, "cotan"}},
@@ -306,7 +346,7 @@ TEST(Report, MissingFileIsAFileError) { EXPECT_THROW(read_report("/nowhere/repor
 // The embedding
 
 TEST(EmbeddingFile, RoundTripIsExact) {
-  for (const std::string& signature : test::sample_signatures()) {
+  for (const std::string& signature : test::all_sample_signatures()) {
     const Embedding& written = test::sample_embedding(signature).embedding();
     const TemporaryFile file(serialize_embedding(written), ".ply");
     const Embedding read_back = read_embedding(file.path());
@@ -317,12 +357,13 @@ TEST(EmbeddingFile, RoundTripIsExact) {
 }
 
 TEST(EmbeddingFile, WithItsReportIsCertifiedAgain) {
-  for (const char* signature : {"532", "33", "*432", "*22"}) {
+  for (const char* signature : {"532", "33", "*432", "*22", "442", "2222", "*333"}) {
     const test::SampleEmbedding& sample = test::sample_embedding(signature);
     const TemporaryFile file(serialize_embedding(sample.embedding()), ".ply");
     const Embedding embedding = read_embedding(file.path(), read(report_json(sample.result, run)));
-    EXPECT_EQ(embedding.signature, signature);
-    EXPECT_TRUE(certify(sample.mesh, embedding).bijective);
+    EXPECT_EQ(embedding.target.signature, signature);
+    EXPECT_EQ(embedding.space(), sample.embedding().space());
+    EXPECT_TRUE(certify(test::unjudged(sample.mesh), embedding).bijective);
   }
 }
 
@@ -346,7 +387,7 @@ bool same_bits(double a, double b) {
 }
 
 TEST(EmbeddingFile, HoldsTheSameBitsForAnyReaderOfPly) {
-  for (const std::string& signature : test::sample_signatures()) {
+  for (const std::string& signature : test::all_sample_signatures()) {
     const Embedding& written = test::sample_embedding(signature).embedding();
     const PlyFile file = parse_ply(serialize_embedding(written));
     EXPECT_EQ(file.comments, std::vector<std::string>{"orbitutte embedding " + signature});
@@ -432,7 +473,7 @@ TEST(EmbeddingFile, DefectsOfBinaryFilesAreNamed) {
   const int count = static_cast<int>(good.source_vertex.size());
   for (const int wrong : {-1, count}) {
     const std::string named =
-        "names the vertex " + std::to_string(wrong) + "; there are " + std::to_string(count);
+        "names the vertex " + std::to_string(wrong) + ", but there are " + std::to_string(count);
     Embedding embedding = good;
     embedding.source_vertex[5] = wrong;
     EXPECT_THAT(ply_refusal(serialize_embedding(embedding)),

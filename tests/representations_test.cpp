@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "hand_made.h"
-#include "orbitutte/orbifold/tile.h"
+#include "orbitutte/orbifold/signature.h"
 #include "spherical_families.h"
 
 namespace orbitutte {
@@ -17,16 +17,7 @@ namespace {
 using std::numbers::pi;
 using testing::ElementsAre;
 
-SymmetryGroup group_of(const std::string& signature) {
-  const Orbifold orbifold = parse_orbifold(signature);
-  std::vector<int> arrangement;
-  for (std::size_t k = 0; k < orbifold.marks.size(); ++k) arrangement.push_back(static_cast<int>(k));
-  if (orbifold.topology == Topology::disk && orbifold.inner_marks > 0)
-    arrangement.insert(arrangement.begin() + 1, static_cast<int>(orbifold.marks.size()));
-  std::vector<Matrix3> generators;
-  for (const TileSide& side : basic_tile(orbifold, arrangement).sides) generators.push_back(side.transform);
-  return {generators, orbifold.group_order};
-}
+SymmetryGroup group_of(const std::string& signature) { return group_of(parse_orbifold(signature)); }
 
 std::vector<std::string> all_signatures() {
   std::vector<std::string> result;

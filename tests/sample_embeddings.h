@@ -7,12 +7,13 @@
 #include <vector>
 
 #include "orbitutte/embed.h"
-#include "orbitutte/geometry/spherical_triangle.h"
+#include "orbitutte/geometry/space.h"
+#include "planar_families.h"
 #include "test_meshes.h"
 
 namespace orbitutte::test {
 
-/// All families that are embedded, with the free order N in {2, 3, 5, 12}.
+/// All families of the sphere, with the free order N in {2, 3, 5, 12}.
 inline std::vector<std::string> sample_signatures() {
   return {"532", "432",   "332",  "222",    "223",  "225",  "2,2,12", "22",   "33",
           "55",  "12,12", "*532", "*432",   "*332", "*222", "*223",   "*225", "*2,2,12",
@@ -22,7 +23,7 @@ inline std::vector<std::string> sample_signatures() {
 
 /// An irregular sphere of 320 faces, a bent disk of 384, or a projective plane of 640, whichever the orbifold
 /// needs.
-inline Mesh sample_mesh_for(const Orbifold& orbifold) {
+inline Mesh sample_mesh_for(const Target& orbifold) {
   if (orbifold.topology == Topology::sphere) return perturbed(icosphere(2), 0.03, 7);
   if (orbifold.topology == Topology::projective_plane) return perturbed(projective_plane(3), 0.01, 7);
   Mesh mesh = round_disk(8);
@@ -38,8 +39,15 @@ struct SampleEmbedding {
   const Embedding& embedding() const { return result.embedding; }
 };
 
+/// Those of the plane too.
+inline std::vector<std::string> all_sample_signatures() {
+  std::vector<std::string> all = sample_signatures();
+  for (const std::string& signature : planar_signatures()) all.push_back(signature);
+  return all;
+}
+
 inline SampleEmbedding make_sample(const std::string& signature, const EmbedOptions& options) {
-  const Orbifold orbifold = parse_orbifold(signature);
+  const Target orbifold = parse_orbifold(signature);
   const Mesh mesh = sample_mesh_for(orbifold);
   const std::vector<int> marks = choose_marked_vertices(mesh, orbifold);
   return {mesh, marks, embed(mesh, orbifold, marks, options)};
@@ -56,16 +64,17 @@ inline const SampleEmbedding& sample_embedding(const std::string& signature) {
   return samples.emplace(signature, make_sample(signature, options)).first->second;
 }
 
-/// The arc length of every undirected edge of the uncut mesh, in the order of its Connectivity: what does not
-/// depend on the cut, nor on a rotation of the sphere.
+/// The length of every undirected edge of the uncut mesh, in the order of its Connectivity: what does not
+/// depend on the cut, nor on where the map lies.
 inline Eigen::VectorXd edge_lengths(const Mesh& mesh, const Embedding& embedding) {
   Faces source = embedding.faces;  // not the mesh's, where faces are turned over
   for (int& v : source.reshaped()) v = embedding.source_vertex[v];
   const Connectivity connectivity = connect(source, vertex_count(mesh));
   Eigen::VectorXd lengths(static_cast<Eigen::Index>(connectivity.edges.size()));
   for (int h = 0; h < static_cast<int>(embedding.faces.size()); ++h)
-    lengths[connectivity.edge_of[h]] = arc_length(embedding.positions.row(origin(embedding.faces, h)),
-                                                  embedding.positions.row(target(embedding.faces, h)));
+    lengths[connectivity.edge_of[h]] =
+        embedding.space().distance(embedding.positions.row(origin(embedding.faces, h)),
+                                   embedding.positions.row(target(embedding.faces, h)));
   return lengths;
 }
 

@@ -8,10 +8,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "planar_families.h"
 #include "spherical_families.h"
 
 namespace orbitutte {
@@ -22,9 +24,12 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-const std::string euclidean = " is a Euclidean orbifold: its tiles fill the plane, not the sphere";
+const std::string euclidean =
+    " is a Euclidean orbifold for which there is no tile; of those there are 333, 442, 632, 2222, *333, "
+    "*442, "
+    "*632 and *2222";
 const std::string hyperbolic =
-    " is a hyperbolic orbifold: its tiles fill the hyperbolic plane, not the sphere";
+    " is a hyperbolic orbifold: its tiles fill the hyperbolic plane, not the sphere or the plane";
 const std::string bad =
     " is not an orbifold of the sphere: one order alone, or two different ones, close up no tiling (a "
     "teardrop or spindle)";
@@ -50,9 +55,9 @@ void expect_refused(const std::vector<std::string>& texts, const std::string& re
   for (const std::string& text : texts) EXPECT_EQ(refusal(text), "'" + text + "'" + reason);
 }
 
-std::vector<int> orders(const Orbifold& orbifold) {
+std::vector<int> orders(const Target& orbifold) {
   std::vector<int> result;
-  for (const Mark& mark : orbifold.marks) result.push_back(mark.order);
+  for (const Mark& mark : orbifold.marks) result.push_back(mark.order());
   return result;
 }
 
@@ -82,20 +87,77 @@ bool spherical(const ConwaySymbol& symbol) {
          (symbol.rotations[0] == 2 || (symbol.rotations[0] == 3 && symbol.corners[0] == 2));
 }
 
+/// Are these the orders of one of the four families of the plane, with or without mirrors?
+bool planar(std::vector<int> n) {
+  std::sort(n.begin(), n.end());
+  for (const auto& orders : {std::vector<int>{3, 3, 3}, {2, 4, 4}, {2, 3, 6}, {2, 2, 2, 2}})
+    if (n == orders) return true;
+  return false;
+}
+
+bool planar(const ConwaySymbol& symbol) {
+  if (symbol.cross) return false;
+  return symbol.star ? symbol.rotations.empty() && planar(symbol.corners) : planar(symbol.rotations);
+}
+
 // ------------------------------------------------------------------------------------------- what is read
 
 TEST(Signature, EveryFamilyHasItsGroupOrderTopologyAndMarks) {
   for (const SphericalOrbifold& expected : test::arranged_orbifolds()) {
     const std::string text = test::symbol(expected);
     SCOPED_TRACE(text);
-    const Orbifold orbifold = parse_orbifold(text);
+    const Target orbifold = parse_orbifold(text);
     EXPECT_EQ(orbifold.signature, text);
     EXPECT_EQ(orbifold.group_order, expected.group_order);
+    EXPECT_EQ(orbifold.space, Space::sphere());
     EXPECT_EQ(orbifold.topology, expected.topology());
     EXPECT_EQ(orders(orbifold), expected.orders);
     EXPECT_EQ(orbifold.inner_marks, expected.inside);
     for (int k = 0; k < static_cast<int>(orbifold.marks.size()); ++k)
       EXPECT_EQ(orbifold.marks[k].kind, k < expected.inside ? ConeKind::rotation : ConeKind::corner);
+  }
+}
+
+TEST(Signature, EuclideanOrbifoldsAreRowsLikeTheOthers) {
+  for (const std::string text : {"333", "442", "244", "424", "632", "236", "326", "2222", "*333", "*442",
+                                 "*244", "*632", "*263", "*2222"}) {
+    SCOPED_TRACE(text);
+    const Target orbifold = parse_orbifold(text);
+    EXPECT_EQ(orbifold.signature, text);
+    EXPECT_EQ(orbifold.group_order, 0) << "it is infinite";
+    EXPECT_EQ(orbifold.space, Space::plane());
+    const bool star = text[0] == '*';
+    EXPECT_EQ(orbifold.topology, star ? Topology::disk : Topology::sphere);
+    EXPECT_EQ(orbifold.inner_marks, star ? 0 : static_cast<int>(text.size()));
+    std::vector<int> expected;
+    for (const char digit : text.substr(star)) expected.push_back(digit - '0');
+    EXPECT_EQ(orders(orbifold), expected);
+    EXPECT_FALSE(orbifold.is_free_to_rotate);
+  }
+  EXPECT_EQ(parse_orbifold("2,2,2,2").signature, "2222");
+  EXPECT_EQ(parse_orbifold("*3,3,3").signature, "*333");
+}
+
+TEST(Signature, MarksHaveTheAnglesOfTheirOrders) {
+  for (const int n : {1, 2, 3, 5, 7, 12, 97, 1000, 19999, 20000}) {
+    const double pi = std::numbers::pi;
+    EXPECT_NEAR(Mark::of_order(n, ConeKind::rotation).angle, 2 * pi / n, 1e-15);
+    EXPECT_NEAR(Mark::of_order(n, ConeKind::corner).angle, pi / n, 1e-15);
+    for (const ConeKind kind : {ConeKind::rotation, ConeKind::corner})
+      EXPECT_EQ(Mark::of_order(n, kind).order(), n);
+  }
+  EXPECT_EQ(Mark::of_order(7, ConeKind::fixed).order(), 1);
+  EXPECT_EQ((Mark{2.0, ConeKind::rotation}).order(), 0) << "no order has this angle";
+  EXPECT_EQ((Mark{0.0, ConeKind::corner}).order(), 0);
+  EXPECT_EQ((Mark{-1.0, ConeKind::rotation}).order(), 0);
+  EXPECT_EQ((Mark{8.0, ConeKind::rotation}).order(), 0) << "more than a full turn";
+}
+
+TEST(Signature, OnlyTwoConesOrOneAloneLeaveARotationFree) {
+  for (const SphericalOrbifold& expected : test::arranged_orbifolds()) {
+    const std::set<std::string> free = {"NN", "N*", "Nx"};
+    EXPECT_EQ(parse_orbifold(test::symbol(expected)).is_free_to_rotate, free.count(expected.family) > 0)
+        << test::symbol(expected);
   }
 }
 
@@ -119,8 +181,8 @@ TEST(Signature, CommasMayStandBetweenSingleDigits) {
 
 TEST(Signature, CanonicalTextIsReadAsTheSameOrbifold) {
   for (const SphericalOrbifold& expected : test::arranged_orbifolds()) {
-    const Orbifold once = parse_orbifold(test::symbol(expected, true));
-    const Orbifold twice = parse_orbifold(once.signature);
+    const Target once = parse_orbifold(test::symbol(expected, true));
+    const Target twice = parse_orbifold(once.signature);
     EXPECT_EQ(twice.signature, once.signature);
     EXPECT_EQ(once.symbol.text(), once.signature);
     EXPECT_EQ(twice.group_order, once.group_order);
@@ -136,7 +198,14 @@ TEST(Signature, FamiliesAreListedOnceEach) {
     EXPECT_FALSE(family.marked_points.empty());
   }
   for (const SphericalOrbifold& orbifold : test::spherical_orbifolds()) expected.insert(orbifold.family);
-  for (const std::string& family : expected) EXPECT_TRUE(listed.count(family)) << family;
+  for (const std::string& family : test::planar_signatures()) expected.insert(family);
+  EXPECT_EQ(listed, expected);
+  for (const FamilyDescription& family : families()) {
+    const std::vector<std::string> planar = test::planar_signatures();
+    const bool flat = std::count(planar.begin(), planar.end(), family.family) > 0;
+    EXPECT_EQ(family.space, flat ? Space::plane() : Space::sphere()) << family.family;
+    EXPECT_EQ(family.group_order == "infinite", flat) << family.family;
+  }
 }
 
 TEST(Signature, TheLargestOrderIsAcceptedAndTheNextRefused) {
@@ -152,10 +221,8 @@ TEST(Signature, TheLargestOrderIsAcceptedAndTheNextRefused) {
 
 // -------------------------------------------------------------------------------------- what is refused
 
-TEST(Signature, EuclideanOrbifoldsAreRefused) {
-  expect_refused({"333", "632", "442", "2,2,2,2", "*333", "*632", "*442", "*2,2,2,2", "3*3", "4*2", "2,2*",
-                  "2*2,2", "2,2x", "326", "*244"},
-                 euclidean);
+TEST(Signature, EuclideanOrbifoldsWithoutATileAreRefused) {
+  expect_refused({"3*3", "4*2", "2,2*", "2*2,2", "2,2x"}, euclidean);
 }
 
 TEST(Signature, HyperbolicOrbifoldsAreRefused) {
@@ -189,7 +256,7 @@ TEST(Signature, TheEmptyTextIsRefused) {
 }
 
 TEST(Signature, AStarAloneMarksNothing) {
-  expect_refused({"*"}, " marks no vertex; every family embedded has one to three (see 'orbitutte types')");
+  expect_refused({"*"}, " marks no vertex; every family embedded has one to four (see 'orbitutte types')");
 }
 
 TEST(Signature, OtherCharactersAreNoSymbol) {
@@ -253,7 +320,6 @@ struct Ambiguity {
 std::vector<Ambiguity> ambiguities() {
   return {{"1212", "1,2,1,2", {"12,12"}},
           {"2212", "2,2,1,2", {"2,2,12", "2,21,2"}},
-          {"2222", "2,2,2,2", {"2,2,22", "2,22,2", "22,2,2", "22,22"}},
           {"2233", "2,2,3,3", {"2,2,33"}},
           {"2332", "2,3,3,2", {"2,33,2"}},
           {"3322", "3,3,2,2", {"33,2,2"}},
@@ -262,7 +328,6 @@ std::vector<Ambiguity> ambiguities() {
           {"22100", "2,2,100", {}},
           {"*2212", "*2,2,1,2", {"*2,2,12", "*2,21,2"}},
           {"*1212", "*1,2,1,2", {"*12,12"}},
-          {"*2222", "*2,2,2,2", {"*2,2,22", "*2,22,2", "*22,2,2", "*22,22"}},
           {"22*", "2,2*", {"22,*"}},
           {"33*", "3,3*", {"33,*"}},
           {"2*22", "2*2,2", {"2*22,"}},
@@ -295,13 +360,16 @@ TEST(Signature, EveryReadingThatIsNamedCanBeTypedAsItStands) {
 
 // --------------------------------------------------------------------------------------- any text at all
 
-/// What holds for every text: it is refused in one sentence, or |G| is 2 over the Euler characteristic.
+/// What holds for every text: it is refused in one sentence, or |G| is 2 over the Euler characteristic, and
+/// infinite where that is zero.
 void check_any(const std::string& text) {
   try {
-    const Orbifold orbifold = parse_orbifold(text);
-    const double quotient = 2 / euler_characteristic(orbifold.symbol);
-    RC_ASSERT(std::abs(quotient - orbifold.group_order) <= 1e-9 * quotient);
-    RC_ASSERT(spherical(orbifold.symbol));
+    const Target orbifold = parse_orbifold(text);
+    const double chi = euler_characteristic(orbifold.symbol);
+    const bool is_round = orbifold.space == Space::sphere();
+    RC_ASSERT(std::abs(chi * orbifold.group_order - (is_round ? 2 : 0)) <= 1e-9);
+    RC_ASSERT(is_round || std::abs(chi) <= 1e-12);
+    RC_ASSERT(is_round ? spherical(orbifold.symbol) : planar(orbifold.symbol));
     RC_ASSERT((orbifold.topology == Topology::disk) == orbifold.symbol.star);
     RC_ASSERT((orbifold.topology == Topology::projective_plane) == orbifold.symbol.cross);
     RC_ASSERT(orbifold.symbol.star == (text.find('*') != std::string::npos));
@@ -329,8 +397,9 @@ RC_GTEST_PROP(Signature, OrdersBetweenCommasAreReadAsTheyStand, ()) {
   RC_PRE(wanted.size() >= 2u);
   const bool star = *rc::gen::arbitrary<bool>();
   const std::string text = test::symbol(star, wanted, true);
-  RC_ASSERT(refusal(text).empty() == spherical(wanted));
-  if (spherical(wanted)) {
+  const bool accepted = spherical(wanted) || planar(wanted);
+  RC_ASSERT(refusal(text).empty() == accepted);
+  if (accepted) {
     RC_ASSERT(orders(parse_orbifold(text)) == wanted);
   }
 }
@@ -343,8 +412,9 @@ TEST(Signature, DigitsWithoutCommasAreOneOrderEach) {
       std::vector<int> expected;
       for (const char digit : digits) expected.push_back(digit - '0');
       const std::string text = (star ? "*" : "") + digits;
-      ASSERT_EQ(refusal(text).empty(), spherical(expected)) << text;
-      if (spherical(expected)) {
+      const bool accepted = spherical(expected) || planar(expected);
+      ASSERT_EQ(refusal(text).empty(), accepted) << text;
+      if (accepted) {
         ASSERT_EQ(orders(parse_orbifold(text)), expected);
       }
     }

@@ -14,7 +14,8 @@
 #include <utility>
 #include <vector>
 
-#include "orbitutte/mesh/polygon_mesh.h"
+#include "orbitutte/mesh/surface.h"
+#include "orbitutte/mesh/triangulation.h"
 
 namespace orbitutte::test {
 
@@ -30,6 +31,24 @@ inline Mesh mesh(const std::vector<Vector3>& points, const std::vector<std::vect
 
 inline int vertex_count(const Mesh& mesh) { return static_cast<int>(mesh.V.rows()); }
 inline int face_count(const Mesh& mesh) { return static_cast<int>(mesh.F.rows()); }
+
+/// The mesh as a surface that nobody has judged: for planted faults, which make_surface would refuse.
+inline Surface unjudged(const Mesh& mesh) {
+  Surface surface;
+  surface.V = mesh.V;
+  surface.triangles = mesh.F;
+  surface.connectivity = connect(mesh.F, vertex_count(mesh));
+  return surface;
+}
+inline Surface unjudged(const PolygonMesh& mesh) {
+  Surface surface;
+  surface.V = mesh.V;
+  surface.division = triangulate(mesh);
+  surface.triangles = on_vertices(surface.division, mesh.corners);
+  surface.connectivity = connect(mesh, surface.division);
+  surface.polygons = {mesh.corners, mesh.face_start};
+  return surface;
+}
 
 // Spheres
 

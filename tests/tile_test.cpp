@@ -9,10 +9,13 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <random>
 #include <string>
 #include <vector>
 
+#include "orbitutte/orbifold/signature.h"
 #include "orbitutte/orbifold/symmetry_group.h"
+#include "planar_families.h"
 #include "spherical_families.h"
 
 namespace orbitutte {
@@ -23,19 +26,19 @@ constexpr double rounding = 1e-12;
 
 struct Case {
   int mirrors;
-  Orbifold orbifold;
+  Target orbifold;
   std::vector<int> arrangement;
   Tile tile;
 };
 
 /// The order and kind of a corner: of a mark, or of an ordinary point on a mirror.
-Mark mark_at(const Orbifold& orbifold, std::size_t corner) {
-  return corner < orbifold.marks.size() ? orbifold.marks[corner] : Mark{1, ConeKind::corner};
+Mark mark_at(const Target& orbifold, std::size_t corner) {
+  return corner < orbifold.marks.size() ? orbifold.marks[corner] : Mark::of_order(1, ConeKind::corner);
 }
 
-/// All orders in which a boundary may meet the marks. Where rotations and mirrors mix, it is cut from the
+/// All sequences in which a boundary may meet the marks. Where rotations and mirrors mix, it is cut from the
 /// cone to the mirror, where it has a corner of its own, the last index.
-std::vector<std::vector<int>> arrangements(const Orbifold& orbifold) {
+std::vector<std::vector<int>> arrangements(const Target& orbifold) {
   const int marks = static_cast<int>(orbifold.marks.size());
   if (orbifold.topology == Topology::disk && orbifold.inner_marks > 0)
     return {marks == 1 ? std::vector<int>{0, 1} : std::vector<int>{0, 2, 1}};
@@ -48,19 +51,29 @@ std::vector<std::vector<int>> arrangements(const Orbifold& orbifold) {
   return result;
 }
 
-bool is_first(const std::vector<int>& arrangement, const Orbifold& orbifold) {
+bool is_first(const std::vector<int>& arrangement, const Target& orbifold) {
   return arrangement == arrangements(orbifold).front();
 }
 
-/// The tiles of all families, of all arrangements of the orders, and of all orders in which a boundary may
+/// The tiles of all families, of all arrangements of the orders, and of all sequences in which a boundary may
 /// meet the marks.
 const std::vector<Case>& cases() {
   static const std::vector<Case> all = [] {
     std::vector<Case> result;
     for (const test::SphericalOrbifold& spherical : test::arranged_orbifolds()) {
-      const Orbifold orbifold = parse_orbifold(test::symbol(spherical));
+      const Target orbifold = parse_orbifold(test::symbol(spherical));
       for (const std::vector<int>& arrangement : arrangements(orbifold))
         result.push_back({spherical.mirrors, orbifold, arrangement, basic_tile(orbifold, arrangement)});
+    }
+    for (std::string text : test::planar_signatures()) {
+      const auto orders = text.begin() + (text[0] == '*');
+      std::sort(orders, text.end());
+      do {
+        const Target orbifold = parse_orbifold(text);
+        const int mirrors = text[0] == '*' ? static_cast<int>(orbifold.marks.size()) : 0;
+        for (const std::vector<int>& arrangement : arrangements(orbifold))
+          result.push_back({mirrors, orbifold, arrangement, basic_tile(orbifold, arrangement)});
+      } while (std::next_permutation(orders, text.end()));
     }
     return result;
   }();
@@ -82,6 +95,12 @@ void for_every_tile(const Check& check) {
   }
 }
 
+std::vector<Isometry> generators(const Tile& tile) {
+  std::vector<Isometry> result;
+  for (const TileSide& side : tile.sides) result.push_back(side.transform);
+  return result;
+}
+
 int size(const Tile& tile) { return static_cast<int>(tile.sides.size()); }
 
 /// The side before side k around the tile.
@@ -89,6 +108,7 @@ const TileSide& before(const Tile& tile, int k) { return tile.sides[(k + size(ti
 
 /// The unit tangent with which a side arrives at its end.
 Vector3 arrival(const TileSide& side) {
+  if (side.space == Space::plane()) return side.direction;
   return -std::sin(side.length) * side.start + std::cos(side.length) * side.direction;
 }
 
@@ -109,7 +129,7 @@ struct Integral {
 
 Integral integrate(const Tile& tile, double offset, int steps) {
   const TileSide& first = tile.sides.front();
-  const Vector3 apex = (first.point(first.length / 2) + offset * first.pole()).normalized();
+  const Vector3 apex = (first.point(first.length / 2) + offset * first.line()).normalized();
   const Vector3 e1 = apex.unitOrthogonal(), e2 = apex.cross(e1);
   const auto angle = [&](const Vector3& p) { return std::atan2(p.dot(e2), p.dot(e1)); };
   Integral result;
@@ -131,17 +151,22 @@ Integral integrate(const Tile& tile, double offset, int steps) {
 
 // --------------------------------------------------------------------------------------------- the polygon
 
-TEST(Tile, SidesAreUnitSpeedGreatArcs) {
+TEST(Tile, SidesAreUnitSpeedGeodesics) {
   for_every_tile([](const Case& c) {
+    const Space space = c.orbifold.space;
     for (const TileSide& side : c.tile.sides) {
-      EXPECT_NEAR(side.start.norm(), 1, rounding);
-      EXPECT_NEAR(side.direction.norm(), 1, rounding);
-      EXPECT_NEAR(side.start.dot(side.direction), 0, rounding);
+      EXPECT_EQ(side.space, space);
+      EXPECT_LE(space.defect(side.start), rounding);
+      EXPECT_NEAR(space.norm(side.direction), 1, rounding);
+      EXPECT_NEAR((space.tangent(side.start, side.direction) - side.direction).norm(), 0, rounding);
       EXPECT_GT(side.length, 0);
-      EXPECT_LE(side.length, pi);
-      EXPECT_NEAR(side.point(side.length / 3).norm(), 1, rounding);
+      if (space == Space::sphere()) {
+        EXPECT_LE(side.length, pi);
+      }
+      EXPECT_LE(space.defect(side.point(side.length / 3)), rounding);
+      EXPECT_NEAR(space.distance(side.start, side.point(side.length / 3)), side.length / 3, rounding);
       EXPECT_NEAR((side.point(0) - side.start).norm(), 0, rounding);
-      EXPECT_NEAR(side.pole().dot(side.point(side.length / 3)), 0, rounding);
+      EXPECT_NEAR(side.line().dot(side.point(side.length / 3)), 0, rounding);
     }
   });
 }
@@ -161,9 +186,9 @@ TEST(Tile, LiesOnTheLeftOfEverySide) {
     for (int k = 0; k < size(c.tile); ++k) {
       const TileSide& side = c.tile.sides[k];
       EXPECT_LE(interior_angle(c.tile, k), pi + rounding) << "the tile is not convex";
-      EXPECT_GT(side.pole().dot(centroid), 0);
+      EXPECT_GT(side.line().dot(centroid), 0);
       for (const TileSide& other : c.tile.sides)
-        EXPECT_GE(side.pole().dot(other.point(0.4 * other.length)), -rounding);
+        EXPECT_GE(side.line().dot(other.point(0.4 * other.length)), -rounding);
     }
   });
 }
@@ -183,7 +208,7 @@ TEST(Tile, AnglesAroundAMarkAddUpToItsOrdersShare) {
     for (int k = 0; k < size(c.tile); ++k) angle[c.tile.sides[k].mark] += interior_angle(c.tile, k);
     for (std::size_t m = 0; m < angle.size(); ++m) {
       const Mark mark = mark_at(c.orbifold, m);
-      EXPECT_NEAR(angle[m], (mark.kind == ConeKind::rotation ? 2 : 1) * pi / mark.order, rounding)
+      EXPECT_NEAR(angle[m], (mark.kind == ConeKind::rotation ? 2 : 1) * pi / mark.order(), rounding)
           << "mark " << m;
     }
   });
@@ -196,8 +221,10 @@ TEST(Tile, OnlyTheEndOfACutToTheMirrorOfACornerSlides) {
   });
 }
 
-TEST(Tile, CopiesOfAMarkShareItsAngleEqually) {
+// The parallelograms of 2222 may be any with corners at the marks.
+TEST(Tile, CopiesOfAMarkShareItsAngleEquallyInKites) {
   for_every_tile([](const Case& c) {
+    if (c.orbifold.signature == "2222") return;
     for (int k = 0; k < size(c.tile); ++k) {
       for (int l = 0; l < k; ++l) {
         if (c.tile.sides[k].mark != c.tile.sides[l].mark) continue;
@@ -207,17 +234,18 @@ TEST(Tile, CopiesOfAMarkShareItsAngleEqually) {
   });
 }
 
-TEST(Tile, AreaIsTheSpheresOverTheGroupOrder) {
+TEST(Tile, AreaIsTheSpheresOverTheGroupOrderAndAngleExcessInThePlaneZero) {
   for_every_tile([](const Case& c) {
+    const int order = c.orbifold.group_order;
     double excess = 2 * pi;  // Gauss-Bonnet: the area is 2 pi less the exterior angles
     for (int k = 0; k < size(c.tile); ++k) excess -= pi - interior_angle(c.tile, k);
-    EXPECT_NEAR(excess, 4 * pi / c.orbifold.group_order, rounding);
+    EXPECT_NEAR(excess, order > 0 ? 4 * pi / order : 0, rounding);
   });
 }
 
 TEST(Tile, CentroidIsTheDirectionOfTheIntegralOfThePosition) {
   for_every_tile([](const Case& c) {
-    if (!is_first(c.arrangement, c.orbifold)) return;
+    if (!is_first(c.arrangement, c.orbifold) || c.orbifold.space != Space::sphere()) return;
     const double area = 4 * pi / c.orbifold.group_order;
     const Integral integral = integrate(c.tile, area / 20, 2000);
     EXPECT_NEAR(integral.area, area, 1e-3 * area);
@@ -262,22 +290,25 @@ TEST(Tile, PartnerOfThePartnerIsTheSideWithTheInverseTransform) {
       ASSERT_LT(side.partner, size(c.tile));
       const TileSide& partner = c.tile.sides[side.partner];
       EXPECT_EQ(partner.partner, k);
-      EXPECT_NEAR((side.transform * partner.transform - Matrix3::Identity()).norm(), 0, rounding);
+      EXPECT_NEAR((side.transform * partner.transform).difference({}), 0, rounding);
+      EXPECT_NEAR(side.transform.inverse().difference(partner.transform), 0, rounding);
     }
   });
 }
 
-TEST(Tile, TransformsAreReflectionsAtMirrorsAndTurnTheSphereOverWhereTheSurfaceHasNoOrientation) {
+TEST(Tile, TransformsAreReflectionsAtMirrorsAndTurnTheTileOverWhereTheSurfaceHasNoOrientation) {
   for_every_tile([](const Case& c) {
     int mirrors = 0;
     for (int k = 0; k < size(c.tile); ++k) {
       const TileSide& side = c.tile.sides[k];
       const bool mirror = side.partner == k;
       mirrors += mirror;
-      EXPECT_NEAR((side.transform.transpose() * side.transform - Matrix3::Identity()).norm(), 0, rounding);
-      EXPECT_NEAR(side.transform.determinant(), mirror || c.orbifold.symbol.cross ? -1 : 1, rounding);
+      EXPECT_LE(c.orbifold.space.isometry_defect(side.transform.matrix()), rounding);
+      EXPECT_EQ(side.transform.reverses_orientation(), mirror || c.orbifold.symbol.cross);
       if (mirror) {
-        EXPECT_NEAR((side.transform * side.pole() + side.pole()).norm(), 0, rounding);
+        const Vector3 inside = c.tile.centroid();
+        EXPECT_NEAR(side.line().dot(side.transform * inside), -side.line().dot(inside), rounding);
+        EXPECT_NEAR((side.transform * side.transform).difference({}), 0, rounding);
       }
     }
     EXPECT_EQ(mirrors, c.mirrors);
@@ -289,32 +320,29 @@ TEST(Tile, TransformsTakeTheTileOffItself) {
     const Vector3 centroid = c.tile.centroid();
     for (const TileSide& side : c.tile.sides) {
       // The neighbour across a side lies on its other side.
-      EXPECT_LT(side.pole().dot(side.transform * centroid), 0);
+      EXPECT_LT(side.line().dot(side.transform * centroid), 0);
     }
   });
 }
 
 TEST(Tile, TransformsGenerateTheGroup) {
   for_every_tile([](const Case& c) {
-    if (!is_first(c.arrangement, c.orbifold)) return;
-    std::vector<Matrix3> generators;
-    for (const TileSide& side : c.tile.sides) generators.push_back(side.transform);
-    EXPECT_EQ(SymmetryGroup(generators, 2 * c.orbifold.group_order).order(), c.orbifold.group_order);
+    if (!is_first(c.arrangement, c.orbifold) || c.orbifold.group_order == 0) return;
+    const SymmetryGroup group(c.orbifold.space, generators(c.tile), 2 * c.orbifold.group_order);
+    EXPECT_EQ(group.order(), c.orbifold.group_order);
   });
 }
 
-TEST(Tile, OnlyTwoConesOnASphereOrOneOnAProjectivePlaneLeaveARotationFree) {
+TEST(Tile, OnlyTwoConesOnASphereOrOneAloneLeaveARotationFree) {
   for_every_tile([](const Case& c) {
-    Vector3 axis;
-    const bool expected =
-        c.orbifold.symbol.cross || (c.orbifold.topology == Topology::sphere && c.orbifold.marks.size() == 2);
-    EXPECT_EQ(free_rotation_axis(c.tile, axis), expected);
+    const std::size_t marks = c.orbifold.marks.size();
+    const bool expected = (c.orbifold.topology == Topology::sphere && marks == 2) ||
+                          (c.orbifold.inner_marks == 1 && marks == 1);
+    EXPECT_EQ(is_free_to_rotate(c.tile), expected);
     if (!expected) return;
-    EXPECT_NEAR(axis.norm(), 1, rounding);
-    for (const TileSide& side : c.tile.sides) {
-      EXPECT_NEAR(std::abs(axis.dot(side.start)), 1, rounding);
-      EXPECT_NEAR((side.transform * axis - side.transform.determinant() * axis).norm(), 0, rounding);
-    }
+    const Isometry turn = Space::sphere().rotation(Space::origin(), 0.7);
+    for (const TileSide& side : c.tile.sides)
+      EXPECT_NEAR((turn * side.transform).difference(side.transform * turn), 0, rounding);
   });
 }
 
@@ -322,7 +350,7 @@ TEST(Tile, LargestOrdersStillCloseUp) {
   for (const std::string text : {"2,2,20000", "2,20000,2", "20000,20000", "*2,2,20000", "*20000,20000",
                                  "2*20000", "20000*", "20000x"}) {
     SCOPED_TRACE(text);
-    const Orbifold orbifold = parse_orbifold(text);
+    const Target orbifold = parse_orbifold(text);
     const Tile tile = basic_tile(orbifold, arrangements(orbifold).front());
     for (int k = 0; k < size(tile); ++k) {
       const TileSide& side = tile.sides[k];
@@ -331,9 +359,111 @@ TEST(Tile, LargestOrdersStillCloseUp) {
       const double s = side.length / 3, t = side.partner_reverses() ? side.length - s : s;
       EXPECT_NEAR((previous.point(previous.length) - side.start).norm(), 0, 1e-10);
       EXPECT_NEAR((side.point(s) - side.transform * partner.point(t)).norm(), 0, 1e-10);
-      EXPECT_GT(side.pole().dot(tile.centroid()), 0);
+      EXPECT_GT(side.line().dot(tile.centroid()), 0);
     }
   }
+}
+
+// ------------------------------------------------------------------------------------- the canonical frame
+
+/// Elements of the group, in the plane those near to the tile.
+std::vector<Isometry> elements(const Target& orbifold) { return group_of(orbifold, 400).elements(); }
+
+/// The arrangements that a cut of one and the same mesh may have: where all marks lie on the boundary, those
+/// that go around in the same sequence, and the other way around as well, for a mesh turned over.
+bool is_of_the_same_mesh(const Target& orbifold, const std::vector<int>& arrangement) {
+  const int marks = static_cast<int>(orbifold.marks.size());
+  if (orbifold.inner_marks > 0 || marks < 4) return true;
+  for (int k = 0; k < marks; ++k) {
+    const int step = std::abs(arrangement[k] - arrangement[(k + 1) % marks]);
+    if (step != 1 && step != marks - 1) return false;
+  }
+  return true;
+}
+
+/// Points of the tile, its border left out.
+std::vector<Vector3> points_inside(const Tile& tile, int count) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(0.05, 1);
+  std::vector<Vector3> points;
+  for (int k = 0; k < count; ++k) {
+    Vector3 sum = uniform(random) * tile.centroid();
+    for (const TileSide& side : tile.sides)
+      sum += uniform(random) * side.start + uniform(random) * side.point(side.length / 2);
+    points.push_back(tile.space().retract(sum));
+  }
+  return points;
+}
+
+bool holds(const Tile& tile, const Vector3& point) {
+  return std::all_of(tile.sides.begin(), tile.sides.end(),
+                     [&](const TileSide& side) { return side.line().dot(point) > 0; });
+}
+
+template <typename Check>
+void for_every_tile_of_a_small_group(const Check& check) {
+  for_every_tile([&](const Case& c) {
+    if (c.orbifold.group_order <= 120 && is_of_the_same_mesh(c.orbifold, c.arrangement)) check(c);
+  });
+}
+
+TEST(CanonicalTile, TheGroupIsTheSameForEveryArrangement) {
+  for_every_tile_of_a_small_group([](const Case& c) {
+    const SymmetryGroup group = group_of(c.orbifold, 400);
+    for (const Isometry& generator : generators(c.tile)) EXPECT_GE(group.find(generator), 0);
+    // and these generate no less
+    const SymmetryGroup generated =
+        SymmetryGroup::nearest_elements(c.orbifold.space, generators(c.tile), c.tile.centroid(), 400);
+    for (const Isometry& generator : generators(basic_tile(c.orbifold, first_arrangement(c.orbifold))))
+      EXPECT_GE(generated.find(generator), 0);
+  });
+}
+
+TEST(CanonicalTile, PointsOfOneTileLieInTheCopiesOfAnyOtherExactlyOnce) {
+  for_every_tile_of_a_small_group([](const Case& c) {
+    const Tile first = basic_tile(c.orbifold, first_arrangement(c.orbifold));
+    const std::vector<Isometry> group = elements(c.orbifold);
+    for (const Vector3& point : points_inside(c.tile, 20)) {
+      EXPECT_TRUE(holds(c.tile, point));
+      const auto in_first = [&](const Isometry& g) { return holds(first, g * point); };
+      EXPECT_EQ(std::count_if(group.begin(), group.end(), in_first), 1);
+    }
+  });
+}
+
+/// Does an element of the group take p to q?
+bool same_in_the_quotient(const std::vector<Isometry>& group, const Vector3& p, const Vector3& q) {
+  return std::any_of(group.begin(), group.end(),
+                     [&](const Isometry& g) { return (g * p - q).norm() < 1e-9; });
+}
+
+TEST(CanonicalTile, EveryMarkIsTheSamePointOfTheQuotientForEveryArrangement) {
+  for_every_tile_of_a_small_group([](const Case& c) {
+    const Tile first = basic_tile(c.orbifold, first_arrangement(c.orbifold));
+    const std::vector<Isometry> group = elements(c.orbifold);
+    for (const TileSide& side : c.tile.sides)
+      for (const TileSide& other : first.sides) {
+        if (side.mark != other.mark) continue;
+        EXPECT_TRUE(same_in_the_quotient(group, side.start, other.start)) << "mark " << side.mark;
+      }
+  });
+}
+
+TEST(CanonicalTile, MarkZeroIsAtTheOriginAndMarkOneInTheDirectionOfX) {
+  for_every_tile_of_a_small_group([](const Case& c) {
+    const std::vector<Isometry> group = elements(c.orbifold);
+    for (const TileSide& side : c.tile.sides) {
+      if (side.mark == 0) {
+        EXPECT_TRUE(same_in_the_quotient(group, side.start, Space::origin()));
+      }
+      if (side.mark == 1 && !c.orbifold.is_free_to_rotate) {
+        EXPECT_TRUE(std::any_of(group.begin(), group.end(), [&](const Isometry& g) {
+          const Vector3 image = g * side.start;
+          return std::abs(image.y()) < 1e-9 && image.x() > -1e-9;
+        }));
+      }
+    }
+  });
 }
 
 // ------------------------------------------------------------------------------------------------- refusals

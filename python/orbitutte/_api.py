@@ -20,8 +20,8 @@ Cones = Union[Sequence[int], npt.NDArray[np.integer], str, None]
 
 
 def embed(V: npt.ArrayLike, F: Any, signature: str, cones: Cones = "auto", *, progress: Progress | None = None, polygon: Any = None,
-          geometry: str = "spherical", **options: Any) -> Embedding:
-    """Embed a mesh into a spherical orbifold.
+          geometry: str | None = None, **options: Any) -> Embedding:
+    """Embed a mesh into an orbifold of the sphere or the plane.
 
     Parameters
     ----------
@@ -38,41 +38,41 @@ def embed(V: npt.ArrayLike, F: Any, signature: str, cones: Cones = "auto", *, pr
     polygon : path, (k, 4) array_like of vertex, x, y, z, or (k, 3) array_like for the vertices in `cones`
         The corners, for the signature "polygon": counterclockwise, on the unit sphere.
     geometry : "spherical" or "euclidean"
-        "euclidean" for the orbifolds 333, 442, 632, 2222 and the same with mirrors.
+        Deprecated: the signature decides the space.
     weights : str, (i, j, w), or scipy sparse matrix
         "standard" (the default: delaunay, or cotan for polygons), "cotan", "delaunay", "mean-value" or "uniform"; or
         a weight >= 0 for every edge, once.
     weights_file : path
         Lines ``i j w`` instead.
     clamp : float
-        What cotangent weights that are not positive become, 0.01.
+        Replaces every cotangent weight that is zero or negative; 0.01.
     cut_seed : int
-        Another cut through the same cones.
+        Another number gives another cut through the same cones.
     spread : "arc-length" or "equidistant"
-        Of boundary vertices along the sides of a polygon.
+        How boundary vertices are spread along the sides of a polygon.
     tolerance : float
-        Of the gradient and of the step, 1e-9.
+        The optimiser stops if the gradient and the last step are smaller; 1e-9.
     max_iterations : int
-        2000.
+        After so many the result is returned as it is, not converged; 2000.
     threads : int
         0, as many as the machine has. Results do not depend on it.
 
     Returns
     -------
     Embedding
-        Not converging and not being certified are results, told by an `EmbeddingWarning`.
+        If it has not converged or is not certified, an `EmbeddingWarning` says so.
 
     Raises
     ------
     MeshError
-        Where the mesh cannot be embedded as asked; names the vertex, edge or face.
+        If the mesh cannot be embedded as asked; the message names the vertex, edge or face.
     ArgumentError, TypeError
-        Where an argument has no meaning.
+        If an argument has no meaning.
     Cancelled
-        Where `progress` returned False.
+        If `progress` returned False.
     """
     chosen = _options.options(**options)
-    target = _options.orbifold(signature, cones, polygon, geometry)
+    target = _options.target(signature, cones, polygon, geometry)
     mesh = _arrays.mesh(V, F)
     vertices = _options.marked_vertices(mesh, target, cones)
     return _told(Embedding._of(_orbitutte.embed(mesh, target, vertices, chosen, _callable(progress))))
@@ -100,9 +100,9 @@ class Solver:
         self._core = _orbitutte.Solver(self._mesh, chosen)
 
     def embed(self, signature: str, cones: Cones = "auto", *, progress: Progress | None = None, polygon: Any = None,
-              geometry: str = "spherical") -> Embedding:
+              geometry: str | None = None) -> Embedding:
         """As the function `embed`. One thread at a time."""
-        target = _options.orbifold(signature, cones, polygon, geometry)
+        target = _options.target(signature, cones, polygon, geometry)
         vertices = _options.marked_vertices(self._mesh, target, cones)
         return _told(Embedding._of(self._core.embed(target, vertices, _callable(progress))))
 
@@ -123,9 +123,9 @@ def signatures() -> list[dict[str, str]]:
     return json.loads(_orbitutte.families())
 
 
-def choose_cones(V: npt.ArrayLike, F: Any, signature: str, *, geometry: str = "spherical") -> list[int]:
+def choose_cones(V: npt.ArrayLike, F: Any, signature: str, *, geometry: str | None = None) -> list[int]:
     """Well separated extremities to be marked, as `embed` takes them for "auto"."""
-    return _arrays.mesh(V, F).choose_cones(_options.orbifold(signature, None, None, geometry))
+    return _arrays.mesh(V, F).choose_cones(_options.target(signature, None, None, geometry))
 
 
 def verify(embedding: Embedding, V: npt.ArrayLike | None = None, F: Any = None, *, weights_file: str | os.PathLike | None = None,
@@ -179,7 +179,7 @@ def tile(embedding: Embedding) -> Tiling:
     Raises
     ------
     ArgumentError
-        Where the copies do not close up into a sphere, as those of a polygon do not.
+        If the copies do not close up into a sphere; those of a polygon do not.
     """
     V, triangles, corners, start, element = _embedding(embedding)._core.tile()
     if len(start) < 2:
@@ -227,12 +227,12 @@ def read_mesh(path: str | os.PathLike) -> tuple[npt.NDArray[np.float64], _arrays
     Raises
     ------
     FileError, MeshError, ArgumentError
-        Where it cannot be read, makes no sense, or its ending is not known.
+        If it cannot be read, makes no sense, or has an unknown ending.
 
     Warns
     -----
     MeshWarning
-        If something in the file that may matter was passed over.
+        If something in the file that may matter was ignored.
     """
     mesh = _orbitutte.Mesh.read(_arrays.path(path))
     for sentence in mesh.warnings:
@@ -277,5 +277,5 @@ def _mesh_or_none(V: Any, F: Any) -> _orbitutte.Mesh | None:
     if V is None and F is None:
         return None
     if V is None or F is None:
-        raise ArgumentError("V and F belong together; give both or none")
+        raise ArgumentError("give both V and F, or none of them")
     return _arrays.mesh(V, F)

@@ -58,7 +58,7 @@ class Location(NamedTuple):
 
 
 class Embedding:
-    """A map of a mesh onto an orbifold of the sphere, with its certificate.
+    """A map of a mesh onto an orbifold of the sphere or the plane, with its certificate.
 
     Made by `orbitutte.embed`, `Solver.embed` and `Embedding.load`. Nothing of it can be changed; arrays are views
     that keep it alive, and are read-only. Indices are 0-based, angles in radians. The *cut mesh* is the mesh after cutting: its faces
@@ -68,6 +68,14 @@ class Embedding:
     ----------
     positions : (n_cut, 3) float64
         Unit vectors, one for every cut vertex (points of the plane z = 1 for a Euclidean orbifold).
+    canonical_positions : (n_cut, 3) float64
+        The same in the canonical frame of the orbifold, which depends on its marks alone: in it, embeddings into one orbifold can be
+        compared, whatever their cuts. `map_points` and `locate` work in it.
+    placement : (3, 3) float64
+        Takes the canonical frame to the one of `positions`, `seams` and `group`: the identity, unless the map was turned to where
+        doubles resolve a small limb.
+    is_free_to_rotate : bool
+        Does the orbifold (NN, N* or Nx) fix the map only up to a rotation about its axis? See `rotation_to`.
     faces : (m, 3) int32
         The input faces on cut vertices. Faces of k corners are (m, k); where their number differs, a list of tuples.
     triangles : (t, 3) int32
@@ -78,8 +86,8 @@ class Embedding:
         ``kind``, ``left``, ``right``, ``transform`` (3 x 3): position(left[i]) = transform position(right[i]).
     cones : list of Cone
         ``vertex``, ``order``, ``kind``, ``copies``.
-    group : (|G|, 3, 3) float64
-        The symmetries of the sphere; the first is the identity.
+    group : (k, 3, 3) float64
+        The symmetries, the identity first: all |G| of the sphere; of the plane those that take the tile to the 100 nearest places.
     signature : str
         Conway's symbol, or "polygon".
     energy : float
@@ -131,6 +139,21 @@ class Embedding:
         return self._core.positions
 
     @property
+    def canonical_positions(self) -> npt.NDArray[np.float64]:
+        """(n_cut, 3) the positions in the canonical frame of the orbifold."""
+        return self._core.canonical_positions
+
+    @property
+    def placement(self) -> npt.NDArray[np.float64]:
+        """(3, 3) the isometry from the canonical frame to the one of the positions."""
+        return self._core.placement
+
+    @property
+    def is_free_to_rotate(self) -> bool:
+        """Is the map fixed only up to a rotation about the z axis?"""
+        return self._core.is_free_to_rotate
+
+    @property
     def faces(self) -> _arrays.Faces:
         """(m, 3) cut vertices, or (m, k), or a list of tuples, as the input's faces are."""
         corners, start = self._core.polygons
@@ -158,7 +181,7 @@ class Embedding:
 
     @property
     def group(self) -> npt.NDArray[np.float64]:
-        """(|G|, 3, 3) orthogonal matrices, the identity first."""
+        """(k, 3, 3) the identity first; see the class."""
         return self._core.group
 
     @property
@@ -239,7 +262,7 @@ class Embedding:
     # Points
 
     def map_points(self, face: npt.ArrayLike, barycentric: npt.ArrayLike, element: npt.ArrayLike | None = None) -> Array:
-        """Take points of the surface to the sphere.
+        """Take points of the surface to the sphere or the plane, in the canonical frame of the orbifold.
 
         Parameters
         ----------
@@ -254,8 +277,7 @@ class Embedding:
         Returns
         -------
         (k, 3) float64, or (3,)
-            The combination of the three positions, normalised: triangles agree on their edges, and copies on seams. For a Euclidean
-            orbifold the combination itself.
+            The combination of the three positions, on the sphere normalised: triangles agree on their edges, and copies on seams.
 
         Raises
         ------
@@ -273,24 +295,23 @@ class Embedding:
         return images[0] if single else images
 
     def locate(self, points: npt.ArrayLike) -> Location:
-        """Find points of the sphere on the surface, in any of the |G| copies: the inverse of `map_points`.
+        """Find points of the sphere or the plane on the surface, in any of its copies: the inverse of `map_points`.
+
+        The points of another embedding into the same orbifold, with corresponding cones in the same order, are its
+        `canonical_positions`; if `is_free_to_rotate`, turn them by `rotation_to` first.
 
         Parameters
         ----------
         points : (k, 3) array_like, or (3,)
-            Directions; their lengths do not matter.
+            In the canonical frame; their lengths do not matter.
 
         Returns
         -------
         Location
             ``face``, ``barycentric`` and ``element``; ``map_points(*location)`` is the direction again. Where the embedding is certified,
-            every direction is found. -1 and NaN where nothing is: outside of a polygon, where no face of an embedding that is not
-            bijective lies, and for vectors that are zero or not finite. Of several copies or faces the first is taken.
-
-        Raises
-        ------
-        ArgumentError
-            For embeddings into the plane.
+            every direction is found, and in the plane every point of the copies in `group`. -1 and NaN where nothing is: outside of a
+            polygon, where no face of an embedding that is not bijective lies, and for vectors that are zero or not finite. Of several
+            copies or faces the first is taken.
 
         Notes
         -----
@@ -302,6 +323,29 @@ class Embedding:
             object.__setattr__(self, "_locator", _orbitutte.PointLocator(self._core))
         face, barycentric, element = self._locator.locate(directions)
         return Location(int(face[0]), barycentric[0], int(element[0])) if single else Location(face, barycentric, element)
+
+    def rotation_to(self, points: npt.ArrayLike, other_points: npt.ArrayLike) -> npt.NDArray[np.float64]:
+        """The rotation that takes points of this map best to those of another one into the same orbifold.
+
+        Parameters
+        ----------
+        points, other_points : (k, 3) array_like
+            Images of corresponding points, in the canonical frame: of all vertices of a mesh, or of one further landmark.
+
+        Returns
+        -------
+        (3, 3) float64
+            ``points @ rotation.T`` lie where `other_points` do, as nearly as a rotation about the axis can bring them there, modulo the
+            group. The identity unless `is_free_to_rotate`.
+
+        Raises
+        ------
+        ArgumentError
+            The numbers of points differ, or all lie on the axis.
+        """
+        first = _arrays.positions(_rows(points, 2), "points", "point")
+        second = _arrays.positions(_rows(other_points, 2), "other_points", "point")
+        return _orbitutte.rotation_between(self._core, first, second)
 
     def source_points(self, face: npt.ArrayLike, barycentric: npt.ArrayLike) -> Array:
         """The same points on the surface in space: (k, 3), or (3,). Needs the mesh; NaN where the face is -1."""

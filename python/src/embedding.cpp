@@ -6,6 +6,7 @@
 #include "held_embedding.h"
 #include "orbitutte/export/tiling.h"
 #include "orbitutte/io/file.h"
+#include "orbitutte/map/point_map.h"
 #include "orbitutte/orbifold/symmetry_group.h"
 #include "orbitutte/report/embedding_file.h"
 #include "orbitutte/report/verification.h"
@@ -21,7 +22,8 @@ using Release = py::call_guard<py::gil_scoped_release>;
 py::list seams(const HeldEmbedding& held) {
   py::list result;
   for (const Seam& seam : held.embedding.seams)
-    result.append(py::make_tuple(name(seam.kind()), copy(seam.left), copy(seam.right), copy(seam.transform)));
+    result.append(
+        py::make_tuple(name(seam.kind()), copy(seam.left), copy(seam.right), copy(seam.transform.matrix())));
   return result;
 }
 
@@ -29,20 +31,16 @@ py::list seams(const HeldEmbedding& held) {
 py::list cones(const HeldEmbedding& held) {
   py::list result;
   for (const ConeCopies& cone : held.embedding.cones)
-    result.append(py::make_tuple(cone.vertex, cone.order, name(cone.kind), copy(cone.copies)));
+    result.append(py::make_tuple(cone.vertex, cone.mark.order(), name(cone.mark.kind), copy(cone.copies)));
   return result;
 }
 
-void require_spherical(const Embedding& embedding, const char* what) {
-  if (embedding.geometry != Geometry::spherical)
-    throw ArgumentError(std::string(what) + " are there for embeddings on the sphere only, not in the plane");
-}
-
+// The elements that SurfacePoints::element counts, in the frame of the positions.
 py::array group(const HeldEmbedding& held) {
-  require_spherical(held.embedding, "the elements of a finite group");
-  std::vector<Matrix3> generators;
-  for (const Seam& seam : held.embedding.seams) generators.push_back(seam.transform);
-  return copy(SymmetryGroup(generators, held.embedding.group_order).elements());
+  std::vector<Matrix3> matrices;
+  for (const Isometry& element : group_of(held.embedding, PointLocator::default_copies).elements())
+    matrices.push_back(element.matrix());
+  return copy(matrices);
 }
 
 py::tuple polygons(const Held& held) {
@@ -54,11 +52,11 @@ py::tuple polygons(const Held& held) {
 // The edges (k x 2) and one weight for each.
 py::tuple weights(const HeldEmbedding& held) {
   const EdgeWeights weights = held.edge_weights();
-  const Connectivity connectivity =
-      weights.triangulation ? Connectivity() : held.source("the list of edges").connectivity();
-  const auto& edges = weights.triangulation ? weights.triangulation->connectivity.edges : connectivity.edges;
+  const Connectivity& connectivity = weights.triangulation
+                                         ? weights.triangulation->connectivity
+                                         : held.source("the list of edges").surface()->connectivity;
   std::vector<int> i, j;
-  for (const auto& edge : edges) {
+  for (const auto& edge : connectivity.edges) {
     i.push_back(edge[0]);
     j.push_back(edge[1]);
   }
@@ -69,7 +67,7 @@ py::tuple weights(const HeldEmbedding& held) {
 // A and the ratio of singular values of every triangle.
 py::tuple face_distortion(const HeldEmbedding& held) {
   const std::vector<FaceDistortion> faces =
-      measure_faces(held.source("distortion").triangles(), held.embedding);
+      measure_faces(*held.source("distortion").surface(), held.embedding);
   std::vector<double> area, angle;
   for (const FaceDistortion& face : faces) {
     area.push_back(face.area);
@@ -81,11 +79,13 @@ py::tuple face_distortion(const HeldEmbedding& held) {
 // With the keys of the report.
 py::dict distortion(const HeldEmbedding& held) {
   using namespace py::literals;
-  const Distortion measured = measure_distortion(held.source("distortion").triangles(), held.embedding);
+  const Distortion measured = measure_distortion(*held.source("distortion").surface(), held.embedding);
   const auto& [mean, std, median, max] = measured.area;
   return py::dict(
       "area"_a = py::dict("mean"_a = mean, "std"_a = std, "median"_a = median, "max"_a = max),
-      "angle"_a = py::dict("mean"_a = measured.angle.mean, "max"_a = measured.angle.max),
+      "angle"_a = py::dict("mean"_a = measured.angle.mean, "area_mean"_a = measured.angle.area_mean,
+                           "median"_a = measured.angle.median, "max"_a = measured.angle.max),
+      "sigma"_a = measured.sigma, "within_4"_a = measured.within_4, "below_64"_a = measured.below_64,
       "histogram"_a = py::dict("quantity"_a = "log2 of the area ratio", "edges"_a = measured.histogram.edges,
                                "counts"_a = measured.histogram.counts),
       "measured_faces"_a = measured.measured_faces);
@@ -105,16 +105,12 @@ VerificationOptions verification_options(const HeldEmbedding& held, const std::s
 // named.
 std::string verify_again(const HeldEmbedding& held, const MaybeMesh& mesh, const std::string& weights_file,
                          const std::string& depth) {
-  require_spherical(held.embedding, "verifications");
   const SourceMesh& judge = mesh ? *mesh : held.source("verification");
-  return verdict_json(verify(judge.polygons(), held.embedding, parse_report(held.report),
+  return verdict_json(verify(*judge.surface(), held.embedding, parse_report(held.report),
                              verification_options(held, weights_file, depth)));
 }
 
-Tiling tiled(const HeldEmbedding& held) {
-  require_spherical(held.embedding, "tilings");
-  return tile_sphere(held.embedding);
-}
+Tiling tiled(const HeldEmbedding& held) { return tile_sphere(held.embedding); }
 
 // (V, triangles, polygons' corners and starts, tile of each triangle)
 py::tuple tile(const HeldEmbedding& held) {
@@ -146,7 +142,6 @@ Held unpickled(const py::bytes& ply, std::string report, MaybeMesh mesh) {
 }
 
 void save(const HeldEmbedding& held, const std::string& ply, const std::string& json) {
-  require_spherical(held.embedding, "files of embeddings");
   write_file(ply, serialize_embedding(held.embedding));
   if (!json.empty()) write_file(json, held.report);
 }
@@ -164,6 +159,13 @@ void bind_embedding(py::module_& module) {
   py::class_<HeldEmbedding, Held>(module, "Embedding")
       .def_property_readonly("positions",
                              [](const Held& held) { return view(held->embedding.positions, py::cast(held)); })
+      .def_property_readonly("canonical_positions",
+                             [](const Held& held) { return take(held->embedding.canonical_positions()); })
+      .def_property_readonly(
+          "placement", [](const HeldEmbedding& held) { return copy(held.embedding.placement.matrix()); })
+      .def_property_readonly(
+          "is_free_to_rotate",
+          [](const HeldEmbedding& held) { return held.embedding.target.is_free_to_rotate; })
       .def_property_readonly("triangles",
                              [](const Held& held) { return view(held->embedding.faces, py::cast(held)); })
       .def_property_readonly("polygons", &polygons)

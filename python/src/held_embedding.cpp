@@ -26,10 +26,10 @@ const SourceMesh& HeldEmbedding::source(const char* purpose) const {
 EdgeWeights HeldEmbedding::edge_weights() const {
   if (weights) return *weights;
   const SourceMesh& known = source("the computation of weights");
-  const WeightOptions options = parse_report(report).weights;
-  if (options.kind == WeightKind::file)
+  const Report claims = parse_report(report);
+  if (claims.weights.kind == WeightKind::file)
     throw ArgumentError("the weights were given by the caller, and files of embeddings do not hold them");
-  return weights_of(known.triangles(), known.connectivity(), options, embedding);
+  return weights_of(*known.surface(), embedding, claims);
 }
 
 HeldEmbedding hold(EmbedResult result, std::shared_ptr<const SourceMesh> mesh, double total_seconds) {

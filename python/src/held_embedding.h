@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "orbitutte/embed.h"
+#include "orbitutte/embed_types.h"
 #include "orbitutte/report/report.h"
 #include "source_mesh.h"
 

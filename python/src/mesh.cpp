@@ -18,12 +18,16 @@ namespace {
 using Release = py::call_guard<py::gil_scoped_release>;
 
 std::shared_ptr<SourceMesh> from_triangles(const DoubleArray& V, const IntArray& F) {
-  return std::make_shared<SourceMesh>(Mesh{to_points(V), to_faces(F)});
+  Mesh mesh = {to_points(V), to_faces(F)};
+  const py::gil_scoped_release release;
+  return std::make_shared<SourceMesh>(std::move(mesh));
 }
 
 std::shared_ptr<SourceMesh> from_polygons(const DoubleArray& V, const IntArray& corners,
                                           const IntArray& start) {
-  return std::make_shared<SourceMesh>(PolygonMesh{to_points(V), to_vector(corners), to_vector(start)});
+  PolygonMesh mesh = {to_points(V), to_vector(corners), to_vector(start)};
+  const py::gil_scoped_release release;
+  return std::make_shared<SourceMesh>(std::move(mesh));
 }
 
 std::shared_ptr<SourceMesh> from_file(const std::string& path) {
@@ -42,18 +46,19 @@ std::string info(const SourceMesh& mesh) {
 
 py::tuple faces_of(const std::shared_ptr<SourceMesh>& mesh) {
   const py::object owner = py::cast(mesh);
-  if (const Mesh* triangles = std::get_if<Mesh>(&mesh->input()))
-    return py::make_tuple(view(triangles->F, owner), py::none());
-  const PolygonMesh& polygons = std::get<PolygonMesh>(mesh->input());
-  return py::make_tuple(view(polygons.corners, owner), view(polygons.face_start, owner));
+  const auto [V, F, corners, start] = mesh->arrays();
+  if (F) return py::make_tuple(view(*F, owner), py::none());
+  return py::make_tuple(view(*corners, owner), view(*start, owner));
 }
 
 void write(const SourceMesh& mesh, const std::string& path) {
-  std::visit([&](const auto& known) { write_mesh(path, known); }, mesh.input());
+  const auto [V, F, corners, start] = mesh.arrays();
+  if (F) return write_mesh(path, Mesh{*V, *F});
+  write_mesh(path, PolygonMesh{*V, *corners, *start});
 }
 
-std::vector<int> choose_cones(const SourceMesh& mesh, const Orbifold& orbifold) {
-  return std::visit([&](const auto& known) { return choose_marked_vertices(known, orbifold); }, mesh.input());
+std::vector<int> choose_cones(const SourceMesh& mesh, const Target& orbifold) {
+  return choose_marked_vertices(*mesh.surface(), orbifold);
 }
 
 }  // namespace
@@ -66,7 +71,7 @@ void bind_mesh(py::module_& module) {
       .def_static("sample", &sample, Release())
       .def_property_readonly(
           "positions",
-          [](const std::shared_ptr<SourceMesh>& mesh) { return view(mesh->positions(), py::cast(mesh)); })
+          [](const std::shared_ptr<SourceMesh>& mesh) { return view(*mesh->arrays().V, py::cast(mesh)); })
       .def_property_readonly("faces", &faces_of, "(m x 3, None), or (corners, start) of polygons")
       .def_property_readonly("warnings", &SourceMesh::warnings)
       .def("info", &info, Release())

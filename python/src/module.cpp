@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "bindings.h"
-#include "orbitutte/linear/sparse_factor.h"
 #include "orbitutte/memory.h"
+#include "orbitutte/options.h"
 #include "orbitutte/version.h"
 
 namespace {

@@ -4,6 +4,7 @@
 
 #include "arrays.h"
 #include "held_embedding.h"
+#include "orbitutte/map/alignment.h"
 
 namespace orbitutte::python {
 namespace {
@@ -31,6 +32,11 @@ py::array map(const HeldEmbedding& held, const IntArray& face, const DoubleArray
   return take(std::move(images));
 }
 
+// 3 x 3
+py::array rotation_between(const HeldEmbedding& held, const DoubleArray& from, const DoubleArray& to) {
+  return copy(best_rotation(held.embedding.target, to_points(from), to_points(to)).matrix());
+}
+
 }  // namespace
 
 void bind_point_map(py::module_& module) {
@@ -41,6 +47,7 @@ void bind_point_map(py::module_& module) {
       }))
       .def("locate", &locate);
   module.def("map_points", &map);
+  module.def("rotation_between", &rotation_between);
 }
 
 }  // namespace orbitutte::python

@@ -7,6 +7,7 @@
 
 #include "arrays.h"
 #include "held_embedding.h"
+#include "orbitutte/embed.h"
 
 namespace orbitutte::python {
 namespace {
@@ -68,9 +69,9 @@ class ProgressHook {
 class Solver {
  public:
   Solver(std::shared_ptr<const SourceMesh> mesh, EmbedOptions options)
-      : mesh_(std::move(mesh)), solver_(make_solver(*mesh_, with_hook(std::move(options)))) {}
+      : mesh_(std::move(mesh)), solver_(mesh_->surface(), with_hook(std::move(options))) {}
 
-  HeldEmbedding embed(const Orbifold& orbifold, const std::vector<int>& cones, py::object listener) {
+  HeldEmbedding embed(const Target& orbifold, const std::vector<int>& cones, py::object listener) {
     const Busy busy(busy_);
     ProgressHook hook(std::move(listener));
     hook_ = &hook;
@@ -108,26 +109,21 @@ class Solver {
     return options;
   }
 
-  static EmbeddingSolver make_solver(const SourceMesh& mesh, const EmbedOptions& options) {
-    return std::visit([&](const auto& known) { return EmbeddingSolver(known, options); }, mesh.input());
-  }
-
   std::shared_ptr<const SourceMesh> mesh_;
   EmbeddingSolver solver_;
   ProgressHook* hook_ = nullptr;  // of the computation that runs
   std::atomic<bool> busy_ = false;
 };
 
-// For one embedding: without the copies of the mesh that a solver keeps.
-HeldEmbedding embed_once(const std::shared_ptr<SourceMesh>& mesh, const Orbifold& orbifold,
+// For one embedding: without what a solver keeps for the next.
+HeldEmbedding embed_once(const std::shared_ptr<SourceMesh>& mesh, const Target& orbifold,
                          const std::vector<int>& cones, EmbedOptions options, py::object listener) {
   ProgressHook hook(std::move(listener));
   options.progress = [&](const Progress& progress) { return hook(progress); };
   try {
     const py::gil_scoped_release release;
     const Clock::time_point start = Clock::now();
-    EmbedResult result =
-        std::visit([&](const auto& known) { return embed(known, orbifold, cones, options); }, mesh->input());
+    EmbedResult result = embed(*mesh->surface(), orbifold, cones, options);
     return hold(std::move(result), mesh, seconds_since(start));
   } catch (const Cancelled&) {
     hook.rethrow();

@@ -6,21 +6,11 @@
 #include <algorithm>
 
 #include "orbitutte/export/cut_triangles.h"
-#include "orbitutte/inspect/inspection.h"
+#include "orbitutte/inspect/recognition.h"
 #include "orbitutte/mesh/triangulation.h"
 
 namespace orbitutte::python {
 namespace {
-
-std::variant<Mesh, PolygonMesh> triangles_where_possible(PolygonMesh mesh) {
-  if (is_triangle_mesh(mesh)) return to_triangle_mesh(std::move(mesh));
-  return mesh;
-}
-
-Mesh divide(const PolygonMesh& mesh) {
-  require_embeddable(inspect(mesh));
-  return {mesh.V, on_vertices(triangulate(mesh), mesh.corners)};
-}
 
 // The same corners, or the same the other way round from the first on.
 bool is_same_face(std::span<const int> face, std::span<const int> cut,
@@ -57,46 +47,50 @@ void require_same_faces(const Points& V, const FaceView& faces, const Embedding&
 
 }  // namespace
 
-SourceMesh::SourceMesh(PolygonMesh mesh)
-    : warnings_(std::move(mesh.warnings)), input_(triangles_where_possible(std::move(mesh))) {}
-
-const Points& SourceMesh::positions() const {
-  return std::visit([](const auto& mesh) -> const Points& { return mesh.V; }, input_);
+template <typename AnyMesh>
+SourceMesh::Input SourceMesh::judged(AnyMesh mesh) {
+  try {
+    return std::make_shared<const Surface>(make_surface(std::move(mesh)));
+  } catch (const MeshError&) {
+    return mesh;  // as it was
+  }
 }
 
-int SourceMesh::face_count() const {
-  if (const Mesh* mesh = std::get_if<Mesh>(&input_)) return static_cast<int>(mesh->F.rows());
-  return std::get<PolygonMesh>(input_).face_count();
+SourceMesh::Input SourceMesh::judged_triangles_or_polygons(PolygonMesh mesh) {
+  if (is_triangle_mesh(mesh)) return judged(to_triangle_mesh(std::move(mesh)));
+  return judged(std::move(mesh));
+}
+
+SourceMesh::SourceMesh(Mesh mesh) : input_(judged(std::move(mesh))) {}
+
+SourceMesh::SourceMesh(PolygonMesh mesh)
+    : warnings_(std::move(mesh.warnings)), input_(judged_triangles_or_polygons(std::move(mesh))) {}
+
+SourceMesh::Arrays SourceMesh::arrays() const {
+  if (const Mesh* mesh = std::get_if<Mesh>(&input_)) return {&mesh->V, &mesh->F, nullptr, nullptr};
+  if (const PolygonMesh* mesh = std::get_if<PolygonMesh>(&input_))
+    return {&mesh->V, nullptr, &mesh->corners, &mesh->face_start};
+  const Surface& surface = *std::get<SharedSurface>(input_);
+  if (!surface.has_polygons()) return {&surface.V, &surface.triangles, nullptr, nullptr};
+  return {&surface.V, nullptr, &surface.polygons.corners, &surface.polygons.start};
 }
 
 PolygonMesh SourceMesh::polygons() const {
-  if (const Mesh* mesh = std::get_if<Mesh>(&input_)) return to_polygon_mesh(*mesh);
-  return std::get<PolygonMesh>(input_);
+  const auto [V, F, corners, start] = arrays();
+  return F ? to_polygon_mesh({*V, *F}) : PolygonMesh{*V, *corners, *start};
 }
 
-const Mesh& SourceMesh::triangles() const {
-  if (const Mesh* mesh = std::get_if<Mesh>(&input_)) return *mesh;
-  std::call_once(divided_, [&] { divided_mesh_ = divide(std::get<PolygonMesh>(input_)); });
-  return divided_mesh_;
-}
-
-Connectivity SourceMesh::connectivity() const {
+std::shared_ptr<const Surface> SourceMesh::surface() const {
+  if (const SharedSurface* surface = std::get_if<SharedSurface>(&input_)) return *surface;
   if (const Mesh* mesh = std::get_if<Mesh>(&input_))
-    return connect(mesh->F, static_cast<int>(mesh->V.rows()));
-  const PolygonMesh& mesh = std::get<PolygonMesh>(input_);
-  require_embeddable(inspect(mesh));
-  return connect(mesh, triangulate(mesh));
+    return std::make_shared<const Surface>(make_surface(*mesh));  // throws
+  return std::make_shared<const Surface>(make_surface(std::get<PolygonMesh>(input_)));
 }
 
 Embedding SourceMesh::belonging(Embedding embedding) const {
-  if (const Mesh* mesh = std::get_if<Mesh>(&input_)) {
-    require_same_faces(mesh->V, FaceView(mesh->F), embedding);
-    return embedding;
-  }
-  const PolygonMesh& mesh = std::get<PolygonMesh>(input_);
-  require_same_faces(mesh.V, {mesh.corners, mesh.face_start}, embedding);
-  require_embeddable(inspect(mesh));
-  embedding.faces = cut_triangles(mesh, triangulate(mesh), embedding);
+  const Arrays given = arrays();
+  require_same_faces(*given.V, given.faces(), embedding);
+  if (!given.F) embedding.faces = cut_triangles(*surface(), embedding);
   return embedding;
 }
 

@@ -2,45 +2,57 @@
 // The mesh that is embedded, as the caller gave it.
 #pragma once
 
-#include <mutex>
+#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
 
-#include "orbitutte/mesh/connectivity.h"
 #include "orbitutte/mesh/polygon_mesh.h"
+#include "orbitutte/mesh/surface.h"
 #include "orbitutte/orbifold/embedding.h"
 
 namespace orbitutte::python {
 
+/// A surface, or what is no surface but can be inspected and written. Never changes, so that arrays of Python
+/// may refer to its memory.
 class SourceMesh {
  public:
-  explicit SourceMesh(Mesh mesh) : input_(std::move(mesh)) {}
-
-  /// Keeps triangles where that is all there is.
+  explicit SourceMesh(Mesh mesh);
   explicit SourceMesh(PolygonMesh mesh);
 
-  const std::variant<Mesh, PolygonMesh>& input() const { return input_; }
-  const std::vector<std::string>& warnings() const { return warnings_; }  ///< of the file's reader
-  const Points& positions() const;
-  int face_count() const;
+  /// What the reader of the file passed over.
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
+  /// The vertices and faces as they were given: either F, or corners and start, is null.
+  struct Arrays {
+    const Points* V = nullptr;
+    const Faces* F = nullptr;
+    const std::vector<int>* corners = nullptr;
+    const std::vector<int>* start = nullptr;
+
+    FaceView faces() const { return F ? FaceView(*F) : FaceView(*corners, *start); }
+  };
+  Arrays arrays() const;
+
   PolygonMesh polygons() const;  ///< a copy
 
-  /// The mesh in triangles: polygons are divided, for which they must be sound. Throws MeshError.
-  const Mesh& triangles() const;
-
-  /// Of the faces that were given. Throws MeshError.
-  Connectivity connectivity() const;
+  /// Throws MeshError with the first defect.
+  std::shared_ptr<const Surface> surface() const;
 
   /// The embedding of this mesh, from a file, with its polygons divided as those of the mesh are. Throws
   /// MeshError naming the first face that is not the mesh's.
   Embedding belonging(Embedding embedding) const;
 
  private:
+  using SharedSurface = std::shared_ptr<const Surface>;
+  using Input = std::variant<SharedSurface, Mesh, PolygonMesh>;
+
+  template <typename AnyMesh>
+  static Input judged(AnyMesh mesh);
+  static Input judged_triangles_or_polygons(PolygonMesh mesh);
+
   std::vector<std::string> warnings_;
-  std::variant<Mesh, PolygonMesh> input_;
-  mutable std::once_flag divided_;
-  mutable Mesh divided_mesh_;  // of polygons, once somebody asked for it
+  Input input_;
 };
 
 }  // namespace orbitutte::python

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "orbitutte/embed.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <numeric>
 
@@ -10,7 +8,6 @@
 #include "orbitutte/inspect/weak_places.h"
 #include "orbitutte/parallel.h"
 #include "orbitutte/preparation.h"
-#include "orbitutte/solve/flipped_edges.h"
 #include "orbitutte/solve/placement.h"
 #include "orbitutte/warnings.h"
 
@@ -21,40 +18,32 @@ namespace {
 void refuse(Certificate& certificate, const Minimum& minimum, double tolerance) {
   certificate.bijective = false;
   certificate.checks.push_back(
-      {"converged", false, minimum.gradient_norm, tolerance, "the optimiser ended before it converged"});
+      {"converged", false, minimum.gradient_norm, tolerance, "the optimiser stopped before it converged"});
 }
 
-// The gluing problem of the mesh that is cut in `prepared`.
+// The gluing problem of the surface that is cut.
 GluingProblem gluing_problem(const EmbedRequest& request, const EdgeWeights& weights,
-                             const Preparation& prepared) {
-  const Mesh& mesh = request.mesh;
-  const CutMesh& cut = prepared.cut;
-  const Connectivity& connectivity = prepared.surface->connectivity;
-  const auto glued_along = [&](const BoundaryConditions& conditions) {
-    return weights.triangulation
-               ? flipped_edges(mesh.F, connectivity, *weights.triangulation, cut, conditions)
-               : glued_edges(cut, connectivity, conditions);
-  };
-  LaplacianOptions laplacian = request.options.laplacian;
-  laplacian.reuse = prepared.laplacians;
+                             const EmbeddingCache& cache) {
+  const Surface& surface = request.prepared.surface;
+  const CutMesh& cut = cache.cut.cut;
   const Tile tile = basic_tile(request.orbifold, cut.arrangement);  // appendix A
-  return {mesh,
+  return {surface,
           cut,
           request.orbifold,
           weights,
-          glued_along,
-          laplacian,
+          {request.options.laplacian, cache.laplacians},
           tile,
-          boundary_conditions(mesh, cut, tile, request.orbifold, request.options.spread)};
+          boundary_conditions(surface, cut, tile, request.orbifold, request.options.spread)};
 }
 
 // Certificate and distortion of result.embedding.
-void judge(const EmbedRequest& request, const FaceView& faces, EmbedResult& result) {
-  const Mesh& mesh = request.mesh;
-  result.certificate = certify(static_cast<int>(mesh.V.rows()), faces, result.embedding);
+void judge(const EmbedRequest& request, EmbedResult& result) {
+  const Surface& surface = request.prepared.surface;
+  result.certificate = certify(surface, result.embedding);
   if (!result.certificate.bijective && result.weights.triangulation)
-    result.intrinsic_certificate = certify_intrinsic(mesh, result.embedding, *result.weights.triangulation);
-  result.distortion = measure_distortion(mesh, result.embedding);
+    result.intrinsic_certificate =
+        certify_intrinsic(surface, result.embedding, *result.weights.triangulation);
+  result.distortion = measure_distortion(surface, result.embedding);
   if (result.minimum.termination == Termination::converged) return;
   refuse(result.certificate, result.minimum, request.options.tolerance);
   if (result.intrinsic_certificate)
@@ -65,54 +54,46 @@ void append(const std::vector<std::string>& more, std::vector<std::string>& warn
   warnings.insert(warnings.end(), more.begin(), more.end());
 }
 
-// The method, from the mesh to the certificate.
-EmbedResult embed_once(const EmbedRequest& request, Preparation& prepared) {
-  const auto& [mesh, orbifold, marked_vertices, options] = request;
-  if (marked_vertices.size() != orbifold.marks.size())
-    throw MeshError(fmt::format("{} needs {} marked vertices, not {}", orbifold.signature,
-                                orbifold.marks.size(), marked_vertices.size()));
+// The method, from the surface to the certificate. kept_faces: see find_weights.
+EmbedResult embed_once(const EmbedRequest& request, const std::vector<int>& kept_faces,
+                       EmbeddingCache& cache) {
+  const auto& [prepared, orbifold, marked_vertices, options] = request;
+  const Surface& surface = prepared.surface;
   EmbedResult result;
   Stages stage(options.progress, result.timings);
   result.threads = thread_count();
   result.backend = options.laplacian.backend;
 
-  stage("validate", [&] { find_surface(request, prepared); });
-  stage("weights", [&] { result.weights = find_weights(request, prepared); });  // section 4
-  stage("cut", [&] { find_cut(request, result.weights, prepared); });           // section 4.1
-  const CutMesh& cut = prepared.cut;
+  stage("weights", [&] { result.weights = find_weights(request, kept_faces, cache.weights); });  // section 4
+  stage("cut", [&] { find_cut(request, result.weights, cache); });  // section 4.1
+  const CutMesh& cut = cache.cut.cut;
 
   LbfgsOptions lbfgs;
   lbfgs.tolerance = options.tolerance;
   lbfgs.max_iterations = options.max_iterations;
-  Placement placed = place(gluing_problem(request, result.weights, prepared), lbfgs, stage);  // (2)
+  Placement placed = place(gluing_problem(request, result.weights, cache), lbfgs, stage);  // (2)
   result.minimum = std::move(placed.minimum);
   const Tile& tile = placed.tile;
   const BoundaryConditions& boundary = placed.boundary;
 
-  const InputFaces faces(prepared, mesh.F), cut_faces(prepared, cut.F, cut.turned);
-  const std::vector<Ear> ears = find_ears(cut_faces.view(), tile, boundary);
+  result.embedding = {
+      orbifold,          placed.frame,   Points(),       cut.F,
+      cut.source_vertex, boundary.seams, boundary.cones, surface.polygons_on(cut.F, cut.turned)};
+  const std::vector<Ear> ears = find_ears(result.embedding.input_faces(), tile, boundary);
   round_outward(ears, result.minimum.positions);
-  result.embedding = {orbifold.signature,
-                      orbifold.group_order,
-                      boundary.spread(result.minimum.positions, cut.source_vertex),
-                      cut.F,
-                      cut.source_vertex,
-                      boundary.seams,
-                      boundary.cones,
-                      cut_faces.polygons(),
-                      orbifold.geometry};
-  stage("certify", [&] { judge(request, faces.view(), result); });
+  result.embedding.positions = boundary.spread(result.minimum.positions, cut.source_vertex);
+  stage("certify", [&] { judge(request, result); });
 
   result.warnings = warnings_about(result.weights, ears);
   append(prepared.warnings, result.warnings);
   if (const std::vector<int>& nonpositive = result.certificate.nonpositive_faces; !nonpositive.empty()) {
     const auto mirrors = mirrors_of(tile, boundary, cut.source_vertex);
-    const std::vector<int> collapsing = collapsing_faces(faces.view(), mirrors, marked_vertices);
-    append(warnings_of_collapse(faces.view(), collapsing, nonpositive), result.warnings);
+    const std::vector<int> collapsing = collapsing_faces(surface.faces(), mirrors, marked_vertices);
+    append(warnings_of_collapse(surface.faces(), collapsing, nonpositive), result.warnings);
   }
-  result.topology = prepared.surface->topology;
-  result.unreferenced_vertices = prepared.surface->unreferenced_vertices;
-  result.zero_area_faces = prepared.surface->zero_area_faces;
+  result.topology = surface.topology;
+  result.unreferenced_vertices = surface.unreferenced_vertices;
+  result.zero_area_faces = surface.zero_area_faces;
   return result;
 }
 
@@ -126,14 +107,15 @@ bool may_keep_faces(const EmbedResult& result) {
 
 // `kept` with the faces that share a vertex with one of `faces`; ascending.
 std::vector<int> with_faces_around(const std::vector<int>& faces, const std::vector<int>& kept,
-                                   const Mesh& mesh) {
-  std::vector<char> near(mesh.V.rows(), 0), chosen(mesh.F.rows(), 0);
+                                   const Surface& surface) {
+  const Faces& F = surface.triangles;
+  std::vector<char> near(surface.V.rows(), 0), chosen(F.rows(), 0);
   for (const int f : kept) chosen[f] = 1;
   for (const int f : faces)
-    for (const int v : mesh.F.row(f)) near[v] = 1;
+    for (const int v : F.row(f)) near[v] = 1;
   std::vector<int> result;
-  for (int f = 0; f < static_cast<int>(mesh.F.rows()); ++f)
-    if (chosen[f] || near[mesh.F(f, 0)] || near[mesh.F(f, 1)] || near[mesh.F(f, 2)]) result.push_back(f);
+  for (int f = 0; f < static_cast<int>(F.rows()); ++f)
+    if (chosen[f] || near[F(f, 0)] || near[F(f, 1)] || near[F(f, 2)]) result.push_back(f);
   return result;
 }
 
@@ -147,19 +129,17 @@ std::vector<int> all_faces(const Faces& F) {
 // among its faces, are turned over. Then those and the faces around them become faces of it, and the map is
 // computed again, up to a few times; at last with all faces kept, which leaves the paper's weights but for
 // the cones. The first that is certified is the result; where none is, the very first.
-EmbedResult embed_or_keep_faces(const EmbedRequest& request, Preparation& prepared) {
-  const Mesh& mesh = request.mesh;
+EmbedResult embed_or_keep_faces(const EmbedRequest& request, EmbeddingCache& cache) {
+  const Surface& surface = request.prepared.surface;
   constexpr int attempts = 4;
-  EmbedResult first = embed_once(request, prepared);
+  std::vector<int> kept;
+  EmbedResult first = embed_once(request, kept, cache);
   if (!may_keep_faces(first)) return first;
-  EmbedOptions keeping = request.options;
-  const EmbedRequest retry = {mesh, request.orbifold, request.marked_vertices, keeping};
-  std::vector<int>& kept = keeping.weights.kept_faces;
   std::vector<int> turned = first.certificate.nonpositive_faces;
   for (int k = 0; k < attempts; ++k) {
     const bool is_last = k + 1 == attempts;
-    kept = is_last ? all_faces(mesh.F) : with_faces_around(turned, kept, mesh);
-    EmbedResult next = embed_once(retry, prepared);
+    kept = is_last ? all_faces(surface.triangles) : with_faces_around(turned, kept, surface);
+    EmbedResult next = embed_once(request, kept, cache);
     first.timings.insert(first.timings.end(), next.timings.begin(), next.timings.end());
     if (next.certificate.bijective) {
       next.timings = first.timings;
@@ -171,75 +151,104 @@ EmbedResult embed_or_keep_faces(const EmbedRequest& request, Preparation& prepar
   return first;
 }
 
-std::vector<int> far_from_each_other(const Mesh& mesh, const SoundSurface& surface,
-                                     const Orbifold& orbifold) {
-  require_topology(mesh, surface, orbifold);
-  const int outer = static_cast<int>(orbifold.marks.size()) - orbifold.inner_marks;
-  return extremities(mesh, surface.connectivity, {orbifold.inner_marks, outer, are_opposite(orbifold.marks)});
+// Runs `compute` with the threads that the options ask for.
+template <typename Compute>
+auto with_threads_of(const EmbedOptions& options, const Compute& compute) {
+  if (options.threads < 0) throw ArgumentError("the number of threads must not be negative");
+  return with_threads(options.threads, compute);
 }
 
-EmbedResult embed_prepared(const Mesh& mesh, Preparation& prepared, const Orbifold& orbifold,
-                           const std::vector<int>& marked_vertices, const EmbedOptions& options) {
-  if (options.threads < 0) throw ArgumentError("the number of threads must not be negative");
-  EmbedOptions chosen = options;
-  if (chosen.weights.kind == WeightKind::standard)
-    chosen.weights.kind = prepared.polygons ? WeightKind::cotan : WeightKind::delaunay;
-  return with_threads(options.threads, [&] {
-    return embed_or_keep_faces({mesh, orbifold, marked_vertices, chosen}, prepared);
+// Validates, as the first stage, what is then embedded. validate() returns the prepared surface.
+template <typename Validate>
+EmbedResult embed_validated(const Validate& validate, const Target& orbifold,
+                            const std::vector<int>& marked_vertices, const EmbedOptions& options,
+                            EmbeddingCache& cache) {
+  return with_threads_of(options, [&] {
+    Timings timings;
+    Stages stage(options.progress, timings);
+    const PreparedSurface prepared = stage("validate", validate);
+    const EmbedRequest request = {prepared, orbifold, marked_vertices, options};
+    require_fit(request);
+    EmbedResult result = embed_or_keep_faces(request, cache);
+    result.timings.insert(result.timings.begin(), timings.begin(), timings.end());
+    return result;
   });
+}
+
+template <typename AnyMesh>
+EmbedResult embed_mesh(const AnyMesh& mesh, const Target& orbifold, const std::vector<int>& marked_vertices,
+                       const EmbedOptions& options) {
+  Surface surface;
+  const auto validate = [&] {
+    surface = make_surface(mesh);
+    return prepare(surface, options);
+  };
+  EmbeddingCache cache(Kept::order);
+  return embed_validated(validate, orbifold, marked_vertices, options, cache);
 }
 
 }  // namespace
 
-EmbedResult embed(const Mesh& mesh, const Orbifold& orbifold, const std::vector<int>& marked_vertices,
+EmbedResult embed(const Surface& surface, const Target& orbifold, const std::vector<int>& marked_vertices,
                   const EmbedOptions& options) {
-  Preparation prepared;
-  return embed_prepared(mesh, prepared, orbifold, marked_vertices, options);
+  const auto validate = [&] { return prepare(surface, options); };
+  EmbeddingCache cache(Kept::order);
+  return embed_validated(validate, orbifold, marked_vertices, options, cache);
 }
 
-EmbedResult embed(const PolygonMesh& mesh, const Orbifold& orbifold, const std::vector<int>& marked_vertices,
+EmbedResult embed(const Mesh& mesh, const Target& orbifold, const std::vector<int>& marked_vertices,
                   const EmbedOptions& options) {
-  if (is_triangle_mesh(mesh)) return embed(to_triangle_mesh(mesh), orbifold, marked_vertices, options);
-  Preparation prepared;
-  const Mesh triangles = prepare(mesh, options, prepared);
-  return embed_prepared(triangles, prepared, orbifold, marked_vertices, options);
+  return embed_mesh(mesh, orbifold, marked_vertices, options);
+}
+
+EmbedResult embed(const PolygonMesh& mesh, const Target& orbifold, const std::vector<int>& marked_vertices,
+                  const EmbedOptions& options) {
+  return embed_mesh(mesh, orbifold, marked_vertices, options);
 }
 
 struct EmbeddingSolver::State {
-  Mesh mesh;
+  std::shared_ptr<const Surface> surface;
   EmbedOptions options;
-  Preparation prepared;
+  PreparedSurface prepared;  // refers to the surface
+  EmbeddingCache cache;
 };
 
-EmbeddingSolver::EmbeddingSolver(Mesh mesh, EmbedOptions options)
-    : state_(std::make_unique<State>(State{std::move(mesh), std::move(options), {}})) {
-  state_->prepared.laplacians = reusable_laplacians(Kept::factors);
+EmbeddingSolver::EmbeddingSolver(std::shared_ptr<const Surface> surface, EmbedOptions options) {
+  PreparedSurface prepared = prepare(*surface, options);
+  state_ = std::make_unique<State>(
+      State{std::move(surface), std::move(options), std::move(prepared), EmbeddingCache(Kept::factors)});
 }
 
-EmbeddingSolver::EmbeddingSolver(const PolygonMesh& mesh, EmbedOptions options)
-    : EmbeddingSolver(Mesh(), std::move(options)) {
-  if (is_triangle_mesh(mesh)) {
-    state_->mesh = to_triangle_mesh(mesh);
-    return;
-  }
-  state_->mesh = prepare(mesh, state_->options, state_->prepared);
-}
+EmbeddingSolver::EmbeddingSolver(Surface surface, EmbedOptions options)
+    : EmbeddingSolver(std::make_shared<const Surface>(std::move(surface)), std::move(options)) {}
+
+EmbeddingSolver::EmbeddingSolver(Mesh mesh, EmbedOptions options)
+    : EmbeddingSolver(with_threads_of(options, [&] { return make_surface(std::move(mesh)); }), options) {}
+
+EmbeddingSolver::EmbeddingSolver(PolygonMesh mesh, EmbedOptions options)
+    : EmbeddingSolver(with_threads_of(options, [&] { return make_surface(std::move(mesh)); }), options) {}
 
 EmbeddingSolver::~EmbeddingSolver() = default;
 EmbeddingSolver::EmbeddingSolver(EmbeddingSolver&&) noexcept = default;
 
-EmbedResult EmbeddingSolver::embed(const Orbifold& orbifold, const std::vector<int>& marked_vertices) {
-  return embed_prepared(state_->mesh, state_->prepared, orbifold, marked_vertices, state_->options);
+EmbedResult EmbeddingSolver::embed(const Target& orbifold, const std::vector<int>& marked_vertices) {
+  State& state = *state_;
+  const auto validate = [&] { return state.prepared; };
+  return embed_validated(validate, orbifold, marked_vertices, state.options, state.cache);
 }
 
-std::vector<int> choose_marked_vertices(const Mesh& mesh, const Orbifold& orbifold) {
-  return far_from_each_other(mesh, require_surface(mesh), orbifold);
+std::vector<int> choose_marked_vertices(const Surface& surface, const Target& orbifold) {
+  require_topology(surface, orbifold);
+  const int outer = static_cast<int>(orbifold.marks.size()) - orbifold.inner_marks;
+  return extremities(surface, {orbifold.inner_marks, outer, are_opposite(orbifold.marks)});
 }
 
-std::vector<int> choose_marked_vertices(const PolygonMesh& mesh, const Orbifold& orbifold) {
-  if (is_triangle_mesh(mesh)) return choose_marked_vertices(to_triangle_mesh(mesh), orbifold);
-  const DividedMesh divided = divide(mesh);
-  return far_from_each_other(divided.triangles, divided.surface, orbifold);
+std::vector<int> choose_marked_vertices(const Mesh& mesh, const Target& orbifold) {
+  return choose_marked_vertices(make_surface(mesh), orbifold);
+}
+
+std::vector<int> choose_marked_vertices(const PolygonMesh& mesh, const Target& orbifold) {
+  return choose_marked_vertices(make_surface(mesh), orbifold);
 }
 
 }  // namespace orbitutte

@@ -9,29 +9,18 @@
 #include "orbitutte/inspect/coincidence.h"
 #include "orbitutte/inspect/weak_places.h"
 #include "orbitutte/parallel.h"
+#include "orbitutte/warnings.h"
 #include "orbitutte/weights/cone_weights.h"
 
 namespace orbitutte {
 namespace {
 
-void require_weights_of_polygons(const EmbedOptions& options) {
-  using enum WeightKind;
-  const WeightKind kind = options.weights.kind;
-  if (!options.weights_file.empty() || kind == file || kind == standard || kind == cotan || kind == uniform)
-    return;
-  throw ArgumentError(fmt::format(
-      "{} weights are not there for faces of more than three corners; take cotan or uniform, or a "
-      "file of weights",
-      name(kind)));
+// The edges that have the weights: the surface's, or those of a triangulation of it.
+const std::vector<std::array<int, 2>>& weighted_edges(const EdgeWeights& weights, const Surface& surface) {
+  return weights.triangulation ? weights.triangulation->connectivity.edges : surface.connectivity.edges;
 }
 
-// The edges that have the weights: the mesh's, or those of a triangulation of its surface.
-const std::vector<std::array<int, 2>>& weighted_edges(const EdgeWeights& weights,
-                                                      const Connectivity& connectivity) {
-  return weights.triangulation ? weights.triangulation->connectivity.edges : connectivity.edges;
-}
-
-std::vector<ConeAngle> cone_angles(const Orbifold& orbifold, const std::vector<int>& marked_vertices) {
+std::vector<ConeAngle> cone_angles(const Target& orbifold, const std::vector<int>& marked_vertices) {
   const std::vector<double> angles = metric_angles(orbifold.marks);
   std::vector<ConeAngle> cones;
   for (std::size_t k = 0; k < angles.size(); ++k)
@@ -48,7 +37,7 @@ Pairs opposite_vertices(const EmbedRequest& request) {
 }
 
 // Every arc between opposite points is as short as any other, so that an edge between them has no place.
-void require_no_edge(const Connectivity& connectivity, const Pairs& opposite, const Orbifold& orbifold) {
+void require_no_edge(const Connectivity& connectivity, const Pairs& opposite, const Target& orbifold) {
   for (const auto& [v, w] : opposite) {
     const std::array<int, 2> edge = {std::min(v, w), std::max(v, w)};
     if (!std::binary_search(connectivity.edges.begin(), connectivity.edges.end(), edge)) continue;
@@ -59,79 +48,79 @@ void require_no_edge(const Connectivity& connectivity, const Pairs& opposite, co
   }
 }
 
-Pairs boundary_edges(const Faces& F, const Connectivity& connectivity) {
+// The boundary of a disk, edge by edge.
+Pairs boundary_edges(const Surface& disk) {
   Pairs edges;
-  for (int h = 0; h < static_cast<int>(F.size()); ++h)
-    if (connectivity.opposite[h] < 0) edges.push_back({origin(F, h), target(F, h)});
+  for (int h = 0; h < static_cast<int>(disk.connectivity.opposite.size()); ++h)
+    if (disk.connectivity.opposite[h] < 0)
+      edges.push_back({origin(disk.triangles, h), target(disk.triangles, h)});
   return edges;
 }
 
-int smallest_vertex(const Pairs& edges) {
-  const auto first = std::min_element(edges.begin(), edges.end(), [](const auto& a, const auto& b) {
-    return std::min(a[0], a[1]) < std::min(b[0], b[1]);
-  });
-  return std::min((*first)[0], (*first)[1]);
-}
+// The smallest of the first ends.
+int smallest_vertex(const Pairs& edges) { return (*std::min_element(edges.begin(), edges.end()))[0]; }
 
 }  // namespace
 
-Mesh prepare(const PolygonMesh& mesh, const EmbedOptions& options, Preparation& prepared) {
-  require_weights_of_polygons(options);
-  DividedMesh divided = divide(mesh);
-  prepared.surface = std::move(divided.surface);
-  prepared.polygons = std::move(divided.triangulation);
-  for (const WeakPlace& place : find_weak_places(mesh))
+PreparedSurface prepare(const Surface& surface, const EmbedOptions& options) {
+  if (options.weights_file.empty()) weight_kind(surface, options.weights.kind);
+  PreparedSurface prepared = {surface, warnings_of_orientation(surface)};
+  if (!surface.has_polygons()) return prepared;
+  for (const WeakPlace& place : find_weak_places(surface.vertex_count(), surface.faces()))
     if (place.kind == WeakPlaceKind::degree_two || place.kind == WeakPlaceKind::double_contact)
       prepared.warnings.push_back("the mesh is not 3-connected: " + place.message);
-  return std::move(divided.triangles);
+  return prepared;
 }
 
-void require_topology(const Mesh& mesh, const SoundSurface& surface, const Orbifold& orbifold) {
+void require_topology(const Surface& surface, const Target& orbifold) {
   if (surface.topology == orbifold.topology) return;
-  const auto boundary = boundary_edges(mesh.F, surface.connectivity);
-  const bool is_open = surface.topology == Topology::disk && orbifold.topology == Topology::sphere;
-  const std::string filled = is_open ? fmt::format("fill its hole of {} edges through vertex {}, or ",
-                                                   boundary.size(), smallest_vertex(boundary))
-                                     : "";
+  if (surface.topology == Topology::disk && orbifold.topology == Topology::sphere) {
+    const Pairs hole = boundary_edges(surface);
+    throw MeshError(fmt::format(
+        "the mesh has a hole of {} edges, through vertex {}, which makes it a disk, but {} needs a sphere; "
+        "fill the hole, or choose an orbifold for a disk, such as *{}{}",
+        hole.size(), smallest_vertex(hole), orbifold.signature, orbifold.signature,
+        in_brackets(welding_advice(find_coincidence(surface.V, hole)))));
+  }
   throw MeshError(fmt::format(
-      "the mesh is a {}, but {} needs a {}; {}choose an orbifold for it (see 'orbitutte types'){}",
-      name(surface.topology), orbifold.signature, name(orbifold.topology), filled,
-      is_open ? in_brackets(welding_advice(find_coincidence(mesh.V, boundary))) : ""));
+      "the mesh is a {}, but {} needs a {}; choose an orbifold for a {} (see 'orbitutte types')",
+      name(surface.topology), orbifold.signature, name(orbifold.topology), name(surface.topology)));
 }
 
-void find_surface(const EmbedRequest& request, Preparation& prepared) {
-  if (!prepared.surface) prepared.surface = require_surface(request.mesh);
-  require_topology(request.mesh, *prepared.surface, request.orbifold);
-  require_no_edge(prepared.surface->connectivity, opposite_vertices(request), request.orbifold);
+void require_fit(const EmbedRequest& request) {
+  const Target& orbifold = request.orbifold;
+  if (request.marked_vertices.size() != orbifold.marks.size())
+    throw MeshError(fmt::format("{} needs {} marked vertices, not {}", orbifold.signature,
+                                orbifold.marks.size(), request.marked_vertices.size()));
+  require_topology(request.prepared.surface, orbifold);
+  require_no_edge(request.prepared.surface.connectivity, opposite_vertices(request), orbifold);
 }
 
-EdgeWeights find_weights(const EmbedRequest& request, Preparation& prepared) {
-  const auto& [mesh, orbifold, marked_vertices, options] = request;
-  const Connectivity& connectivity = prepared.surface->connectivity;
-  if (!prepared.weights || prepared.kept_faces != options.weights.kept_faces)
-    prepared.weights = options.weights_file.empty() ? edge_weights(mesh, connectivity, options.weights)
-                                                    : read_weights(options.weights_file, connectivity);
-  prepared.kept_faces = options.weights.kept_faces;
-  const Pairs apart = opposite_vertices(request);
-  return sharpened_at_cones(kept_apart(*prepared.weights, apart, mesh, connectivity, options.weights),
-                            cone_angles(orbifold, marked_vertices), apart);
+EdgeWeights find_weights(const EmbedRequest& request, const std::vector<int>& kept_faces,
+                         KnownWeights& known) {
+  const Surface& surface = request.prepared.surface;
+  const EmbedOptions& options = request.options;
+  if (!known.weights || known.kept_faces != kept_faces)
+    known.weights = options.weights_file.empty() ? edge_weights(surface, options.weights, {kept_faces})
+                                                 : read_weights(options.weights_file, surface.connectivity);
+  known.kept_faces = kept_faces;
+  const UnflippedEdges unflipped = {kept_faces, opposite_vertices(request)};
+  return sharpened_at_cones(kept_apart(*known.weights, surface, options.weights, unflipped),
+                            cone_angles(request.orbifold, request.marked_vertices), unflipped.kept_apart);
 }
 
-void find_cut(const EmbedRequest& request, const EdgeWeights& weights, Preparation& prepared) {
-  const auto& [mesh, orbifold, marked_vertices, options] = request;
-  const Connectivity& connectivity = prepared.surface->connectivity;
-  const std::pair through(marked_vertices, orbifold.inner_marks);
-  const bool is_cut = prepared.cut_through == through;
-  prepared.cut_through.reset();
+void find_cut(const EmbedRequest& request, const EdgeWeights& weights, EmbeddingCache& cache) {
+  const Surface& surface = request.prepared.surface;
+  const std::pair through(request.marked_vertices, request.orbifold.inner_marks);
+  const bool is_cut = cache.cut.through == through;
+  cache.cut.through.reset();
   parallel_for(2, [&](int task) {
     if (task == 0 && !is_cut)
-      prepared.cut = cut_to_disk(request.mesh, connectivity, request.marked_vertices,
-                                 request.orbifold.inner_marks, request.options.cut);
-    if (task == 1)
-      order_ahead(*prepared.laplacians, weighted_edges(weights, connectivity),
-                  static_cast<int>(request.mesh.V.rows()));
+      cache.cut.cut =
+          cut_to_disk(surface, request.marked_vertices, request.orbifold.inner_marks, request.options.cut);
+    if (task == 1) order_ahead(*cache.laplacians, weighted_edges(weights, surface), surface.vertex_count());
   });
-  prepared.cut_through = through;
+  cache.cut.through = through;
 }
 
 }  // namespace orbitutte

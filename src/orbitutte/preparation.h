@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What embed computes before it knows the tile, and keeps from one embedding of a mesh to the next.
+// What embed computes before it knows the tile, and what a solver keeps from one embedding to the next.
 #pragma once
 
 #include <memory>
@@ -8,65 +8,71 @@
 #include <utility>
 #include <vector>
 
-#include "orbitutte/embed.h"
-#include "orbitutte/inspect/recognition.h"
+#include "orbitutte/cut/cut.h"
+#include "orbitutte/embed_types.h"
+#include "orbitutte/orbifold/signature.h"
+#include "orbitutte/solve/laplacian_solver.h"
 
 namespace orbitutte {
 
+/// A surface, and what is known of it before its cones are.
+struct PreparedSurface {
+  const Surface& surface;
+  /// About its polygons, one sentence each.
+  std::vector<std::string> warnings;
+};
+
 /// What embed is asked for.
 struct EmbedRequest {
-  const Mesh& mesh;
-  const Orbifold& orbifold;
+  const PreparedSurface& prepared;
+  const Target& orbifold;
   const std::vector<int>& marked_vertices;
   const EmbedOptions& options;
 };
 
-/// What is known of a mesh before its cones are, and its last cut.
-struct Preparation {
-  std::optional<Triangulation> polygons;  ///< that the triangles make up; none where all faces are triangles
-  std::vector<std::string> warnings;      ///< about the polygons
-  std::optional<SoundSurface> surface;
+/// The weights before they were sharpened at cones.
+struct KnownWeights {
   std::optional<EdgeWeights> weights;
-  std::vector<int> kept_faces;  ///< with which these were computed
-  /// The marked vertices of `cut`, and how many lie inside.
-  std::optional<std::pair<std::vector<int>, int>> cut_through;
+  /// The kept faces with which these were computed.
+  std::vector<int> kept_faces;
+};
+
+/// The last cut.
+struct KnownCut {
+  /// The marked vertices of `cut`, and how many lie inside; none if no cut was completed.
+  std::optional<std::pair<std::vector<int>, int>> through;
   CutMesh cut;
-  std::shared_ptr<LaplacianReuse> laplacians = reusable_laplacians(Kept::order);
 };
 
-/// The triangles that stand for polygons; what is known of the polygons goes into `prepared`. Throws
-/// MeshError, and ArgumentError where the options ask for weights that polygons do not have.
-Mesh prepare(const PolygonMesh& mesh, const EmbedOptions& options, Preparation& prepared);
+/// What one embedding of a surface leaves behind for the next; each stage knows its own part alone. Results
+/// do not depend on it.
+struct EmbeddingCache {
+  explicit EmbeddingCache(Kept kept) : laplacians(reusable_laplacians(kept)) {}
 
-/// Throws MeshError if the mesh does not have the topology that the orbifold needs.
-void require_topology(const Mesh& mesh, const SoundSurface& surface, const Orbifold& orbifold);
-
-/// Recognises the surface; throws MeshError if it is not the one that the orbifold needs, or an edge joins
-/// marked vertices that have to lie at opposite points.
-void find_surface(const EmbedRequest& request, Preparation& prepared);
-
-/// The weights (section 4), those of a metric that is flat at the cones.
-EdgeWeights find_weights(const EmbedRequest& request, Preparation& prepared);
-
-/// Cuts the mesh through its marked vertices (section 4.1), and finds the elimination order of its Laplacian
-/// at the same time.
-void find_cut(const EmbedRequest& request, const EdgeWeights& weights, Preparation& prepared);
-
-/// Faces on vertices of the mesh or of its cut: the triangles, or the polygons that they make up.
-class InputFaces {
- public:
-  InputFaces(const Preparation& prepared, const Faces& triangles, const std::vector<char>& turned = {})
-      : polygons_(prepared.polygons ? prepared.polygons->polygons(triangles, turned) : Polygons()),
-        view_(prepared.polygons ? FaceView(polygons_) : FaceView(triangles)) {}
-  InputFaces(const InputFaces&) = delete;
-  InputFaces& operator=(const InputFaces&) = delete;
-
-  const Polygons& polygons() const { return polygons_; }
-  const FaceView& view() const { return view_; }
-
- private:
-  Polygons polygons_;
-  FaceView view_;
+  KnownWeights weights;
+  KnownCut cut;
+  std::shared_ptr<LaplacianReuse> laplacians;
 };
+
+/// Looks for what the user of the surface should be warned of. Throws ArgumentError if the options ask
+/// for weights that its polygons do not have. The surface must outlive the result.
+PreparedSurface prepare(const Surface& surface, const EmbedOptions& options);
+
+/// Throws MeshError if the surface has not the topology that the orbifold needs, if there are not as many
+/// marked vertices as it has marks, or if an edge joins two that have to lie at opposite points.
+void require_fit(const EmbedRequest& request);
+
+/// Throws MeshError unless the surface has the topology that the orbifold needs. The message about a hole
+/// names it and both remedies.
+void require_topology(const Surface& surface, const Target& orbifold);
+
+/// The weights (section 4), those of a metric that is flat at the cones. No edge of the kept faces, triangles
+/// of the surface, is flipped.
+EdgeWeights find_weights(const EmbedRequest& request, const std::vector<int>& kept_faces,
+                         KnownWeights& known);
+
+/// Cuts the surface through its marked vertices (section 4.1), and finds the elimination order of its
+/// Laplacian, whose edges have the weights, at the same time.
+void find_cut(const EmbedRequest& request, const EdgeWeights& weights, EmbeddingCache& cache);
 
 }  // namespace orbitutte

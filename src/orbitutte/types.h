@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-// The plain values that every module exchanges, and the exceptions that it throws.
+// The plain values that every module exchanges.
 #pragma once
 
 #include <Eigen/Core>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "orbitutte/errors.h"
 
 // Matrices pass between the library and programs, and Eigen allocates them by the vector instructions that
 // each is compiled for. An installed library says what it has.
@@ -47,10 +48,14 @@ class FaceView {
 
   int count() const { return count_; }
 
+  /// How many corners the faces before f have.
+  int start(int f) const { return start_ ? start_[f] : 3 * f; }
+
+  int degree(int f) const { return start(f + 1) - start(f); }
+
   /// The vertices of face f.
   std::span<const int> operator[](int f) const {
-    const int begin = start_ ? start_[f] : 3 * f, end = start_ ? start_[f + 1] : begin + 3;
-    return {corners_ + begin, static_cast<std::size_t>(end - begin)};
+    return {corners_ + start(f), static_cast<std::size_t>(degree(f))};
   }
 
  private:
@@ -77,35 +82,5 @@ enum class Topology { sphere, disk, projective_plane, other };
 
 /// "sphere", "disk", "projective-plane" or "other".
 std::string name(Topology topology);
-
-/// The family of all exceptions that the library throws on purpose. what() is one sentence for the user.
-class Error : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-/// A file could not be opened, read or written.
-class FileError : public Error {
- public:
-  using Error::Error;
-};
-
-/// An argument has no meaning: a signature that is no spherical orbifold, an option out of its range.
-class ArgumentError : public Error {
- public:
-  using Error::Error;
-};
-
-/// The mesh, or the vertices marked on it, cannot be embedded as asked; names the vertex, edge or face.
-class MeshError : public Error {
- public:
-  using Error::Error;
-};
-
-/// A progress callback asked to stop.
-class Cancelled : public Error {
- public:
-  Cancelled() : Error("cancelled") {}
-};
 
 }  // namespace orbitutte

@@ -9,7 +9,7 @@
 int main() {
   using namespace orbitutte;
   const Mesh mesh = sample_mesh({SampleShape::figure, 2000});
-  const Orbifold orbifold = parse_orbifold("432");
+  const Target orbifold = parse_orbifold("432");
   EmbedResult result = embed(mesh, orbifold, choose_marked_vertices(mesh, orbifold));
   result.embedding.positions.resize(0, 3);  // frees here what the library allocated
   try {

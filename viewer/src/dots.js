@@ -2,7 +2,7 @@
 // Small balls that keep their size on the screen: cones, marked vertices, the point under the pointer.
 import {BackSide, Color, FrontSide, InstancedMesh, Matrix4, MeshBasicMaterial, SphereGeometry, Vector3} from 'three';
 
-// As a share of the panel's height; the same for all sizes.
+// As a share of the panel's height; the same for dots of all sizes.
 const LIFT = 0.016;
 
 const ball = new SphereGeometry(1, 20, 14);
@@ -19,7 +19,7 @@ export class Dots {
     this.set([]);
   }
 
-  /** Shows dots at positions, each with a colour and, if it is to differ, a scale. */
+  /** Shows dots at positions, each with a colour and, optionally, a scale. */
   set(dots) {
     this.dots = dots.slice(0, this.mesh.instanceMatrix.count);
     this.mesh.count = this.dots.length;
@@ -27,7 +27,7 @@ export class Dots {
     if (this.mesh.instanceColor) this.mesh.instanceColor.needsUpdate = true;
   }
 
-  /** Called before every picture. The dots stand before the surface, by their radius, so that it does not cut them. */
+  /** Called before every picture. Moves the dots in front of the surface by their radius, so that it does not cut them. */
   fit(camera) {
     const matrix = new Matrix4(), scale = new Vector3(), toEye = new Vector3();
     const unit = (2 * this.size * Math.tan((camera.fov * Math.PI) / 360)) / camera.zoom;

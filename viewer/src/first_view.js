@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From where the source is seen at first.
+// The direction from which the source is first seen.
 import {Quaternion, Vector3} from 'three';
 
 const DIRECTIONS = 16, ELEVATION = 0.2, SAMPLES = 4000;
@@ -11,7 +11,10 @@ const orientation = (azimuth) =>
 
 const normalAt = ({normal}, vertex) => new Vector3().fromArray(normal, 3 * vertex).normalize();
 
-/** The camera's orientation, y upwards, that faces most of the surface and the cones; preferably from +z, where many have their front. */
+/**
+ * The camera's orientation, y upwards, that faces most of the surface and the cones. It prefers +z, where many meshes have
+ * their front.
+ */
 export function firstView(scene) {
   const count = scene.normal.length / 3, stride = Math.max(1, Math.floor(count / SAMPLES));
   const cones = scene.cones.flatMap(({drawn}) => drawn.slice(0, 1)).map((vertex) => normalAt(scene, vertex));

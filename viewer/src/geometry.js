@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The scene's numbers as what three.js draws: surfaces, edges and thick lines.
+// Makes what three.js draws from the scene's numbers: surfaces, edges and thick lines.
 import {BufferAttribute, BufferGeometry, Color, Vector3} from 'three';
 import {LineMaterial} from 'three/examples/jsm/lines/LineMaterial.js';
 import {LineSegments2} from 'three/examples/jsm/lines/LineSegments2.js';
 import {LineSegmentsGeometry} from 'three/examples/jsm/lines/LineSegmentsGeometry.js';
 
-/** What all surfaces share, by the names that the shader has for it; 'source' and 'image' are places. */
+/** The attributes that all surfaces share, under the shader's names. 'source' and 'image' are places. */
 export function attributes(scene) {
   const shared = {
     source: new BufferAttribute(scene.source, 3),
@@ -18,7 +18,7 @@ export function attributes(scene) {
   return shared;
 }
 
-/** Triangles in the place 'source' or 'image'. */
+/** Triangles in one of the places 'source' and 'image'. */
 export function surfaceGeometry(shared, place, indices) {
   const {source, ...others} = shared, result = new BufferGeometry();
   result.setAttribute('position', shared[place]);
@@ -27,7 +27,7 @@ export function surfaceGeometry(shared, place, indices) {
   return result;
 }
 
-/** The edges of triangles: each once, but for those of the outline, which are drawn anyway. */
+/** The edges of triangles, each once. About half of the outline's edges are missing, since the outline is drawn anyway. */
 export function edgeIndices(triangles) {
   const ends = new Uint32Array(2 * triangles.length);
   let count = 0;
@@ -42,7 +42,7 @@ export function edgeIndices(triangles) {
   return ends.slice(0, count);
 }
 
-/** The mean length of edges between positions, from a sample of them. */
+/** The mean length of the edges, from a sample of them. */
 export function meanLength(positions, edges) {
   const stride = 2 * Math.max(1, Math.floor(edges.length / 20000)), [from, to] = [new Vector3(), new Vector3()];
   let sum = 0, count = 0;
@@ -51,7 +51,7 @@ export function meanLength(positions, edges) {
   return sum / Math.max(count, 1);
 }
 
-// The two neighbours of every vertex of closed chains of edges; null where the edges are no such chains.
+// The two neighbours of every vertex on closed chains of edges; null if the edges do not form such chains.
 function chainNeighbours(ends) {
   const neighbours = new Map();
   const link = (from, to) => neighbours.set(from, [...(neighbours.get(from) ?? []), to]);
@@ -62,14 +62,14 @@ function chainNeighbours(ends) {
   return [...neighbours.values()].every(({length}) => length === 2) ? neighbours : null;
 }
 
-// The vertices of a chain behind `start`, which comes last.
+// The vertices of a chain after `start`; `start` comes last.
 function* chainFrom(start, neighbours) {
   let previous = start, [at] = neighbours.get(start);
   for (; at !== start; [previous, at] = [at, neighbours.get(at).find((other) => other !== previous)]) yield at;
   yield start;
 }
 
-/** Closed chains of fewer edges: vertices nearer than `least` to the last one that stays are left out. */
+/** Closed chains with fewer edges: leaves out a vertex if it is nearer than `least` to the last one kept. */
 export function thinnedChains(positions, ends, least) {
   const neighbours = chainNeighbours(ends), kept = [];
   if (!neighbours) return ends;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Brings the page's view to life: reads the scene, and connects controls, legend and readout with the view.
-import {angleMap, areaMap} from './colour_maps.js';
+// Starts the page's view: reads the scene, and connects controls, legend and readout with the view.
+import {gradient} from './colour_maps.js';
 import {Marks} from './marks.js';
 import {readScene} from './scene_data.js';
 import {View} from './view.js';
@@ -11,21 +11,19 @@ const grouped = (count) => count.toLocaleString('en');
 // A ratio, to about three digits: 0.52, 1.07, 312.
 const ratio = (log2) => Number((2 ** log2).toPrecision(3)).toString();
 
-// A power of two as a ratio of small numbers: 1/16, 16.
-const power = (log2) => (log2 < 0 ? `1/${ratio(-log2)}` : ratio(log2));
-
+// The scale's bar of colours with its numbers, as in pictures.
 function showLegend(view, colouring) {
-  const legends = {
-    area: {css: areaMap.css, low: power(-view.bounds.area), high: power(view.bounds.area), title: 'share of the tile over share of the source, mean around a vertex'},
-    angle: {css: angleMap.css, low: '1', high: ratio(view.bounds.angle), title: 'ratio of singular values, mean around a vertex'},
-  };
-  const legend = legends[colouring];
-  element('legend').hidden = !legend;
-  if (!legend) return;
-  element('legend-low').textContent = legend.low;
-  element('legend-high').textContent = legend.high;
-  element('legend-title').textContent = legend.title;
-  element('legend-bar').style.backgroundImage = legend.css;
+  const scale = view.scene.scales[colouring];
+  element('legend').hidden = !scale;
+  if (!scale) return;
+  element('legend-bar').style.backgroundImage = gradient(scale.colours);
+  element('legend-ticks').replaceChildren(...scale.ticks.map(({at, text}) => {
+    const tick = document.createElement('span');
+    tick.textContent = text;
+    tick.style.left = `${100 * at}%`;
+    return tick;
+  }));
+  element('legend-title').textContent = `${scale.title}; at a vertex, the mean of the faces around`;
 }
 
 function showReadout(view, point) {
@@ -61,7 +59,7 @@ function connectControls(view) {
   element('reset').addEventListener('click', () => view.reset());
 }
 
-// What is not drawn is said.
+// Tells the user which part of the mesh is not drawn.
 function sayHowMuchIsDrawn({faces, shownFaces, copyFaces}) {
   const sentences = [];
   if (shownFaces < faces) sentences.push(`Source and tile are drawn with ${grouped(shownFaces)} of ${grouped(faces)} triangles; their vertices are exact, and only these can be marked by clicking.`);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// A point of the mesh: a drawn face and barycentric coordinates, the same in the source and on the sphere.
+// A point of the mesh is a drawn face and barycentric coordinates, the same in the source and on the sphere.
 import {BufferAttribute, BufferGeometry, DoubleSide, Ray, Sphere, Triangle, Vector3} from 'three';
 import {MeshBVH} from 'three-mesh-bvh';
 
 const unitSphere = new Sphere(new Vector3(), 1);
-const OUTLINE_SLACK = 0.02;  // radians, nearly
+const OUTLINE_SLACK = 0.02;  // radians, approximately
 
 const corners = [new Vector3(), new Vector3(), new Vector3()];
 
@@ -12,7 +12,7 @@ function loadCorners(indices, positions, face) {
   for (let k = 0; k < 3; ++k) corners[k].fromArray(positions, 3 * indices[3 * face + k]);
 }
 
-/** Finds the points of the mesh under rays, in the source and on the tile; both share the faces. */
+/** Finds the points of the mesh under rays, in the source and on the tile; both have the same faces. */
 export class MapPoints {
   constructor(scene) {
     this.scene = scene;
@@ -20,7 +20,7 @@ export class MapPoints {
     this.trees = {};
   }
 
-  // Searched for the first time, a tree is built: a tenth of a second per 100,000 faces.
+  // Builds a tree when it is first needed, which takes a tenth of a second per 100,000 faces.
   tree(name) {
     if (!this.trees[name]) {
       const geometry = new BufferGeometry();
@@ -36,7 +36,7 @@ export class MapPoints {
     return hit && this.pointOf(name, hit);
   }
 
-  // A point of the tree's surface in barycentric coordinates.
+  // The point that a ray hit, in barycentric coordinates.
   pointOf(name, {faceIndex, point, distance}) {
     loadCorners(this.scene.fine.indices, this.scene[name], faceIndex);
     const weights = Triangle.getBarycoord(point, ...corners, new Vector3());
@@ -47,7 +47,7 @@ export class MapPoints {
     return this.firstHit('source', ray);
   }
 
-  /** Within the tile alone, or so close to it that its outline was meant. */
+  /** The point within the tile alone, or on its outline if the ray meets the sphere close to it. */
   onTile(ray) {
     const at = ray.intersectSphere(unitSphere, new Vector3());
     if (!at) return null;
@@ -55,7 +55,7 @@ export class MapPoints {
     return hit ?? this.nearest(at, OUTLINE_SLACK);
   }
 
-  /** In whichever copy covers the sphere where the ray meets it. */
+  /** The point in the copy that covers the sphere where the ray meets it. */
   onSphere(ray) {
     const at = ray.intersectSphere(unitSphere, new Vector3());
     if (!at) return null;
@@ -68,7 +68,7 @@ export class MapPoints {
     return this.onSeam(at);
   }
 
-  // Exactly on a seam, rounding can leave a place to no copy: then the nearest has it.
+  // Rounding can leave a place exactly on a seam to no copy. It then belongs to the nearest.
   onSeam(at) {
     const candidates = this.inverses.map((inverse, copy) => ({...this.nearest(at.clone().applyMatrix4(inverse), Infinity), copy}));
     return candidates.reduce((best, other) => (other.distance < best.distance ? other : best));
@@ -79,7 +79,7 @@ export class MapPoints {
     return hit && this.pointOf('image', hit);
   }
 
-  /** Where a point lies, in 'source' or 'image'. */
+  /** The position of a point in 'source' or 'image'. */
   position(name, {face, weights}) {
     loadCorners(this.scene.fine.indices, this.scene[name], face);
     const at = new Vector3();
@@ -87,14 +87,14 @@ export class MapPoints {
     return name === 'image' ? at.normalize() : at;
   }
 
-  /** The mean of a quantity of the vertices at a point. */
+  /** The value at a point of a quantity given at the vertices. */
   value(quantity, {face, weights}) {
     let sum = 0;
     for (let k = 0; k < 3; ++k) sum += weights.getComponent(k) * quantity[this.scene.fine.indices[3 * face + k]];
     return sum;
   }
 
-  /** The drawn vertex nearest to a point, in its face. */
+  /** The drawn vertex of a point's face that is nearest to the point. */
   nearestVertex({face, weights}) {
     const largest = [0, 1, 2].reduce((best, k) => (weights.getComponent(k) > weights.getComponent(best) ? k : best), 0);
     return this.scene.fine.indices[3 * face + largest];

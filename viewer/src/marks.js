@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The vertices that the user marks, and the --cones option that names them.
 
-/** A list of input vertices, each of which is known by one drawn vertex. */
+/** A list of input vertices, each represented by one drawn vertex. */
 export class Marks {
   /** `onChange(drawn vertices)` is called after every change. */
   constructor(scene, elements, onChange) {
@@ -18,7 +18,7 @@ export class Marks {
     return this.drawn.map((vertex) => this.scene.sourceVertex[vertex]);
   }
 
-  /** Marks a vertex, or takes its mark away. */
+  /** Marks a vertex, or removes its mark. */
   toggle(drawn) {
     const vertex = this.scene.sourceVertex[drawn];
     const rest = this.drawn.filter((other) => this.scene.sourceVertex[other] !== vertex);
@@ -50,7 +50,7 @@ export class Marks {
     try {
       await navigator.clipboard.writeText(line.textContent);
     } catch {
-      document.execCommand('copy');  // where pages from disk may not write to the clipboard
+      document.execCommand('copy');  // for browsers where pages from disk may not write to the clipboard
     }
     message.textContent = 'Copied.';
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The outline of the tile in many copies: bands that are as wide on the screen at any zoom and slant. The thick lines of
+// The outline of the tile in many copies, as bands of the same width on the screen at any zoom and slant. The thick lines of
 // three.js take ten times as long to draw.
 import {BufferAttribute, BufferGeometry, Color, DoubleSide, InstancedMesh, ShaderMaterial, Vector2, Vector3} from 'three';
 
@@ -23,7 +23,7 @@ void main() {
   gl_FragColor = vec4(colour, 1.0);
 }`;
 
-// A rectangle for every edge, longer by its half-width at both ends, so that there is no gap where edges meet.
+// A rectangle for every edge, longer by its half-width at both ends, so that no gap is left where edges meet.
 function bands(positions, ends) {
   const count = ends.length / 2, places = new Float32Array(12 * count), directions = new Float32Array(12 * count);
   const corners = new Float32Array(8 * count), indices = new Uint32Array(6 * count);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Draws the panels into one canvas that lies behind them; only those that have changed, since without a graphics card a large
-// mesh takes its time.
+// Draws the panels into one canvas that lies behind them. It draws only the panels that have changed, since a large mesh takes
+// long without a graphics card.
 import {LinearSRGBColorSpace, Vector2, WebGLRenderer} from 'three';
 
 const pixelRatio = () => Math.min(window.devicePixelRatio || 1, 2);
@@ -12,7 +12,7 @@ export class Painter {
     this.panels = panels;
     this.afterPanel = afterPanel;
     this.stale = new Set();
-    // What is not drawn again has to stay.
+    // Panels that are not drawn again must keep their picture.
     this.renderer = new WebGLRenderer({canvas, antialias: true, alpha: true, preserveDrawingBuffer: true});
     this.renderer.outputColorSpace = LinearSRGBColorSpace;
     this.renderer.autoClear = false;
@@ -21,7 +21,7 @@ export class Painter {
     new ResizeObserver(() => this.resized()).observe(canvas.parentElement);
   }
 
-  /** Draws some panels, or all, before the next repaint. */
+  /** Draws these panels, or all, before the next repaint. */
   draw(panels = this.panels) {
     for (const panel of panels) this.stale.add(panel);
     if (this.waiting) return;
@@ -39,7 +39,7 @@ export class Painter {
     this.stale.clear();
   }
 
-  // The observer reports at once, too, when nothing has been resized yet.
+  // The observer also reports once at the start, when nothing has been resized.
   resized() {
     if (!this.fits(this.canvas.parentElement.getBoundingClientRect())) this.draw();
   }
@@ -49,7 +49,7 @@ export class Painter {
     return size.x === width && size.y === height && this.renderer.getPixelRatio() === pixelRatio();
   }
 
-  // A canvas that gets another size is empty; says whether it does.
+  // Fits the canvas to its box. Returns true if its size has changed; the canvas is then empty.
   fitCanvas(box) {
     if (this.fits(box)) return false;
     this.renderer.setPixelRatio(pixelRatio());

@@ -7,7 +7,7 @@ const FIELD_OF_VIEW = 24;
 
 const distanceFor = (radius) => radius / Math.sin((FIELD_OF_VIEW * Math.PI) / 360);
 
-/** `capacity` of its dots; `frame`: the ball, by its middle and radius, that the camera shows at first. */
+/** `capacity` is that of its dots. `frame` is the ball, given by centre and radius, that the camera shows at first. */
 export class Panel {
   constructor(name, stage, {capacity, frame}) {
     this.name = name;
@@ -37,7 +37,7 @@ export class Panel {
     for (const dots of this.dots()) dots.fit(this.camera);
   }
 
-  // What fits a square fits the shorter side of the panel.
+  // Makes what fits a square fit the shorter side of the panel.
   fitCamera(aspect) {
     const half = Math.tan((FIELD_OF_VIEW * Math.PI) / 360) / Math.min(aspect, 1);
     this.camera.fov = (2 * Math.atan(half) * 180) / Math.PI;
@@ -52,13 +52,13 @@ export class Panel {
     return caster.ray;
   }
 
-  /** Where a position appears, in CSS pixels within the panel. */
+  /** The place of a position on the panel, in CSS pixels. */
   project(at) {
     const ndc = at.clone().project(this.camera);
     return {x: ((ndc.x + 1) / 2) * this.stage.clientWidth, y: ((1 - ndc.y) / 2) * this.stage.clientHeight};
   }
 
-  /** How many pixels a length takes in the middle of the panel. */
+  /** The length in pixels of a length in the middle of the panel. */
   pixels(length) {
     const {fov, zoom, position} = this.camera;
     const seen = (2 * Math.tan((fov * Math.PI) / 360) * position.distanceTo(this.frame.target)) / zoom;
@@ -76,7 +76,7 @@ export class Panel {
     });
   }
 
-  /** Moves the labels to where their dots are, as far as the panel reaches; `isHidden(at)` says which are not seen. */
+  /** Moves the labels to their dots, but not beyond the panel's edge. `isHidden(at)` says which of them are not seen. */
   placeLabels(isHidden) {
     const {clientWidth, clientHeight} = this.stage;
     for (const {at, element, width} of this.labels) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Decodes what src/orbitutte/page/page_scene.h describes into typed arrays.
+// Decodes the scene that src/orbitutte/page/page_scene.h describes into typed arrays.
 import {Matrix4, Vector3} from 'three';
 
 function bytesOf(base64) {
@@ -12,7 +12,7 @@ function bytesOf(base64) {
 
 const numbers = (Type, base64) => new Type(bytesOf(base64).buffer);
 
-// Numbers of 16 bits between two bounds.
+// Numbers of 16 bits, scaled to lie between two bounds.
 function between(low, high, base64) {
   const values = Float32Array.from(numbers(Uint16Array, base64));
   const step = (high - low) / 65535;
@@ -20,7 +20,7 @@ function between(low, high, base64) {
   return values;
 }
 
-// The source, scaled and moved such that its box's longest edge is 2 and its middle is 0.
+// The source, scaled and moved so that the longest edge of its box is 2 and its middle is 0.
 function centred(quantised) {
   const values = Float32Array.from(numbers(Uint16Array, quantised));
   const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
@@ -37,10 +37,13 @@ const level = ({indices, outline}) => ({
   outline: numbers(Uint32Array, outline),
 });
 
-// A transform, given row by row.
+// A transform given row by row.
 const matrixOf = ([a, b, c, d, e, f, g, h, i]) => new Matrix4().set(a, b, c, 0, d, e, f, 0, g, h, i, 0, 0, 0, 0, 1);
 
-/** The scene as typed arrays: three numbers a vertex for source, image, normal and colour (null where there is none), one for the others. */
+/**
+ * The scene as typed arrays: three numbers per vertex for source, image, normal and colour (null if there is none), one for
+ * the others.
+ */
 export function readScene(json) {
   return {
     faces: json.faces,
@@ -57,15 +60,18 @@ export function readScene(json) {
     coarse: level(json.coarse),
     copies: json.copies.map(({transform, colour}) => ({matrix: matrixOf(transform), colour})),
     cones: json.cones,
+    scales: json.scales,
+    tile: json.tile,
+    ink: json.ink,
   };
 }
 
-/** The drawn vertex's position in 'source' or 'image'. */
+/** The position of a drawn vertex in 'source' or 'image'. */
 export const vertexPosition = (scene, name, vertex) => new Vector3().fromArray(scene[name], 3 * vertex);
 
 /**
- * The tile's frame: its middle (from its vector area, which cancels for no tile up to a hemisphere), two directions
- * across, and how far its vertices lie from the middle of their chord.
+ * The tile's frame: its middle, two directions across, and how far its vertices lie from the middle of their chord. The
+ * middle comes from the tile's vector area, which does not cancel for a tile up to a hemisphere.
  */
 export function tileFrame({image, coarse: {indices}}) {
   const sum = new Vector3(), [a, b, c] = [new Vector3(), new Vector3(), new Vector3()];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The material of all surfaces: one shader, whose colouring the user chooses.
-import {DoubleSide, ShaderMaterial} from 'three';
+// The material of all surfaces: one shader with a colouring that the user chooses.
+import {DoubleSide, ShaderMaterial, Vector2} from 'three';
 
 export const COLOURINGS = {tile: 0, checkerboard: 1, area: 2, angle: 3, normal: 4, vertex: 5};
 
@@ -42,7 +42,8 @@ varying vec3 vView, vNormal, vImage, vSourceNormal, vSourceColour, vTint;
 varying float vArea, vAngle;
 uniform int colouring;
 uniform bool onSphere;
-uniform float squares, areaBound, angleBound, opacity, relief;
+uniform float squares, opacity, relief;
+uniform vec2 areaEnds, angleEnds;    // the values at both ends of the scales
 uniform sampler2D areaMap, angleMap;
 uniform vec3 centre, east, north;   // the tile's frame: its middle, and two directions across
 uniform vec3 sourceLight;
@@ -56,10 +57,17 @@ float checker(vec3 p) {
   return 0.5 + 0.5 * ramp.x * ramp.y * fade;
 }
 
+// The middles of the outermost texels are the ends of the scale.
+vec3 onScale(sampler2D map, vec2 ends, float value) {
+  float texels = float(textureSize(map, 0).x);
+  float share = clamp((value - ends.x) / (ends.y - ends.x), 0.0, 1.0);
+  return texture2D(map, vec2((0.5 + share * (texels - 1.0)) / texels, 0.5)).rgb;
+}
+
 vec3 colour() {
   if (colouring == 1) return mix(vTint * 0.45, mix(vTint, vec3(1.0), 0.72), checker(normalize(vImage)));
-  if (colouring == 2) return texture2D(areaMap, vec2(0.5 + 0.5 * vArea / areaBound, 0.5)).rgb;
-  if (colouring == 3) return texture2D(angleMap, vec2(vAngle / angleBound, 0.5)).rgb;
+  if (colouring == 2) return onScale(areaMap, areaEnds, vArea);
+  if (colouring == 3) return onScale(angleMap, angleEnds, exp2(vAngle));
   if (colouring == 4) return 0.64 + 0.34 * normalize(vSourceNormal);
   if (colouring == 5) return vSourceColour;
   return vTint;
@@ -79,14 +87,14 @@ void main() {
   gl_FragColor = vec4(min(colour() * light * 1.04, 1.0), opacity);
 }`;
 
-/** Uniforms that all surfaces share, so that one assignment changes all. */
-export function sharedUniforms(frame, maps, bounds) {
+/** Uniforms that all surfaces share, so that one assignment changes all of them. */
+export function sharedUniforms(frame, maps, scales) {
   return {
     colouring: {value: COLOURINGS.tile},
     squares: {value: 14},
     relief: {value: 1},
-    areaBound: {value: bounds.area},
-    angleBound: {value: bounds.angle},
+    areaEnds: {value: new Vector2(scales.area.low, scales.area.high)},
+    angleEnds: {value: new Vector2(scales.angle.low, scales.angle.high)},
     areaMap: {value: maps.area},
     angleMap: {value: maps.angle},
     centre: {value: frame.centre},
@@ -96,7 +104,7 @@ export function sharedUniforms(frame, maps, bounds) {
   };
 }
 
-/** A material on shared uniforms, with its own opacity and colour. */
+/** A material with shared uniforms, and with an opacity and colour of its own. */
 export function surfaceMaterial(shared, {onSphere, tint}) {
   return new ShaderMaterial({
     vertexShader,

@@ -5,13 +5,13 @@ import {Quaternion, Vector3} from 'three';
 const TURN_PER_KEY = Math.PI / 18;
 const ZOOM_PER_KEY = 1.12;
 const NEAREST = 0.15, FARTHEST = 4;
-const CLICK_SLACK = 6;  // pixels that a pointer may move and still click
+const CLICK_SLACK = 6;  // pixels that a pointer may move in a click
 
 const X = new Vector3(1, 0, 0), Y = new Vector3(0, 1, 0);
 
 /**
- * Places cameras: one orientation, and one zoom, for all of them. Each `{camera, target, distance}` looks at its
- * target from its distance; the zoom narrows what it sees.
+ * Places cameras, all with the same orientation and zoom. Each `{camera, target, distance}` looks at its target from its
+ * distance; the zoom narrows its field of view.
  */
 export class Turntable {
   constructor(places, orientation = new Quaternion()) {
@@ -27,7 +27,7 @@ export class Turntable {
     this.apply();
   }
 
-  /** Turns what is seen by angles about the screen's vertical and horizontal axes. */
+  /** Turns the objects by angles about the screen's vertical and horizontal axes. */
   turn(horizontal, vertical) {
     this.orientation.multiply(new Quaternion().setFromAxisAngle(Y, -horizontal));
     this.orientation.multiply(new Quaternion().setFromAxisAngle(X, -vertical)).normalize();
@@ -44,7 +44,7 @@ export class Turntable {
       camera.quaternion.copy(this.orientation);
       camera.position.set(0, 0, distance).applyQuaternion(this.orientation).add(target);
       camera.updateMatrixWorld();
-      camera.zoom = 1 / this.zoom;  // a nearer camera would end up within the surface
+      camera.zoom = 1 / this.zoom;  // a nearer camera would be inside the surface
       camera.updateProjectionMatrix();
     }
     this.onChange();
@@ -62,7 +62,7 @@ const KEYS = {
   Home: (table) => table.reset(),
 };
 
-/** Lets an element turn a table. `hover` and `click` are told where, in CSS pixels within the element. */
+/** Lets the user turn a table through an element. `hover` and `click` receive the place, in CSS pixels within the element. */
 export class StageInput {
   constructor(element, table, {hover, leave, click}) {
     this.element = element;
@@ -122,7 +122,8 @@ export class StageInput {
     this.pointers.delete(event.pointerId);
   }
 
-  // The wheel scrolls the page, unless the panel was chosen or Ctrl is held (so browsers report a pinch on a touchpad).
+  // The wheel scrolls the page, unless the panel has the focus or Ctrl is held. (Browsers report a pinch on a touchpad as Ctrl
+  // and wheel.)
   wheel(event) {
     if (!event.ctrlKey && document.activeElement !== this.element) return;
     event.preventDefault();

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The three panels: what they show, and what the user does to them.
+// The three panels: what they show, and how they respond to the user.
 import {
   BufferAttribute, BufferGeometry, Color, ColorManagement, InstancedMesh, LineBasicMaterial, LineSegments, Matrix4, Mesh,
   MeshBasicMaterial, Quaternion, Ray, SphereGeometry, Vector3,
 } from 'three';
-import {angleMap, areaMap, robustBound} from './colour_maps.js';
+import {texture} from './colour_maps.js';
 import {firstView} from './first_view.js';
 import {attributes, edgeIndices, meanLength, surfaceGeometry, thickLines, thinnedChains} from './geometry.js';
 import {MapPoints} from './map_point.js';
@@ -15,14 +15,13 @@ import {tileFrame, vertexPosition} from './scene_data.js';
 import {COLOURINGS, sharedUniforms, surfaceMaterial} from './surface.js';
 import {StageInput, Turntable} from './turntable.js';
 
-const INK = '#20262d', MARK = '#d6006c', POINT = '#ffffff', FAINT = '#9aa4af';
-const CONE_COLOURS = {2: '#0072b2', 3: '#d55e00', 4: '#009e73', 5: '#7b2d8b'};
-const OUTLINE_STEP = 0.004;  // of the sphere's radius: below a pixel
-const coneColour = (order) => CONE_COLOURS[order] ?? '#5b4636';
+// Only the view has marks and points; all other colours come with the scene.
+const MARK = '#d6006c', POINT = '#ffffff', FAINT = '#9aa4af';
+const OUTLINE_STEP = 0.004;  // in units of the sphere's radius; below a pixel
 
 ColorManagement.enabled = false;
 
-/** Shows a scene in the stages `{source, tile, tiling}`. Tells `onHover(point or null)` and `onPick(drawn vertex)`. */
+/** Shows a scene in the stages `{source, tile, tiling}`. Calls `onHover(point or null)` and `onPick(drawn vertex)`. */
 export class View {
   constructor(scene, {canvas, stages, onHover, onPick}) {
     this.scene = scene;
@@ -30,12 +29,8 @@ export class View {
     this.points = new MapPoints(scene);
     this.front = firstView(scene);
     this.frame = {...tileFrame(scene), sourceLight: new Vector3(-0.35, 0.55, 0.8).normalize().applyQuaternion(this.front)};
-    this.bounds = {
-      area: robustBound(scene.area, {share: 0.1, among: [1, 2, 3, 4, 5, 6, 8]}),
-      angle: robustBound(scene.angle, {share: 0.02, among: [1.2, 1.5, 2, 3, 4, 6, 8].map(Math.log2)}),
-    };
-    const maps = {area: areaMap.texture(), angle: angleMap.texture()};
-    this.uniforms = sharedUniforms(this.frame, maps, this.bounds);
+    const maps = {area: texture(scene.scales.area.colours), angle: texture(scene.scales.angle.colours)};
+    this.uniforms = sharedUniforms(this.frame, maps, scene.scales);
     this.makePanels(stages);
     this.painter = new Painter(canvas, Object.values(this.panels), (panel) => panel.placeLabels((at) => this.isHidden(panel, at)));
     this.makeTables();
@@ -60,7 +55,7 @@ export class View {
       [name, new Panel(name, stage, {capacity: name === 'tiling' ? many : few, frame: frames[name]})]));
   }
 
-  // The source turns by itself; tile and tiled sphere turn together, at first with the tile in front.
+  // The source turns by itself. Tile and tiled sphere turn together; at first they show the tile in front.
   makeTables() {
     const {source, tile, tiling} = this.panels;
     const front = new Quaternion().setFromRotationMatrix(
@@ -73,11 +68,11 @@ export class View {
 
   fillPanels() {
     const {scene, uniforms} = this, shared = attributes(scene);
-    const tint = new Color(scene.copies[0].colour);
+    const tint = new Color(scene.tile);
     const surface = (panel, position, level) => {
       const material = surfaceMaterial(uniforms, {onSphere: position === 'image', tint});
       panel.scene.add(new Mesh(surfaceGeometry(shared, position, level.indices), material));
-      panel.scene.add(thickLines(scene[position], level.outline, {width: panel.name === 'tiling' ? 3 : 2, colour: INK}));
+      panel.scene.add(thickLines(scene[position], level.outline, {width: panel.name === 'tiling' ? 3 : 2, colour: scene.ink}));
     };
     surface(this.panels.source, 'source', scene.fine);
     surface(this.panels.tile, 'image', scene.fine);
@@ -88,13 +83,13 @@ export class View {
     this.addNeighbours();
   }
 
-  // Those of all copies but the tile itself.
+  // The outlines of all copies except the tile itself.
   outlines(panel, colour) {
     const matrices = this.scene.copies.slice(1).map(({matrix}) => matrix);
     return outlineCopies(panel, {positions: this.scene.image, ends: this.copyOutline, matrices, width: 1.4, colour});
   }
 
-  // Around the tile, the outlines of the other copies; a ball without colour hides those behind it.
+  // Adds the outlines of the other copies around the tile, and a ball without colour that hides those behind it.
   addNeighbours() {
     const lines = this.outlines(this.panels.tile, FAINT);
     lines.scale.setScalar(0.998);  // behind the tile's own outline
@@ -113,14 +108,13 @@ export class View {
       copies.setColorAt(i, new Color(colour));
     });
     copies.frustumCulled = false;
-    this.copyLines = this.outlines(this.panels.tiling, INK);
+    this.copyLines = this.outlines(this.panels.tiling, this.scene.ink);
     this.panels.tiling.scene.add(copies, this.copyLines);
   }
 
   showCones() {
     const dots = {source: [], tile: []};
-    for (const {order, drawn} of this.scene.cones) {
-      const colour = coneColour(order);
+    for (const {order, colour, drawn} of this.scene.cones) {
       if (drawn.length > 0) dots.source.push({at: vertexPosition(this.scene, 'source', drawn[0]), colour, label: order});
       for (const vertex of drawn) dots.tile.push({at: vertexPosition(this.scene, 'image', vertex), colour, label: order});
     }
@@ -131,7 +125,7 @@ export class View {
     this.panels.tile.addLabels(dots.tile);
   }
 
-  /** Every dot in all copies of the tile. */
+  /** Copies every dot to all copies of the tile. */
   copied(dots) {
     return this.scene.copies.flatMap(({matrix}, copy) =>
       dots.map((dot) => ({...dot, at: dot.at.clone().applyMatrix4(matrix), copy})));
@@ -153,7 +147,7 @@ export class View {
     return name === 'tile' ? this.points.onTile(ray) : this.points.onSphere(ray);
   }
 
-  // At most once a frame, however fast the pointer moves.
+  // Runs at most once a frame, however fast the pointer moves.
   hover(name, x, y) {
     const waiting = this.hovered !== undefined;
     this.hovered = {name, x, y};
@@ -171,14 +165,14 @@ export class View {
     if (point) this.events.onPick(this.points.nearestVertex(point));
   }
 
-  /** Shows a point in all panels; brighter in the copy that was pointed at. */
+  /** Shows a point in all panels, brighter in the copy that was pointed at. */
   showPoint(point) {
     const on = (dots, colour) => dots.map((dot) => ({...dot, colour}));
     const source = point ? [{at: this.points.position('source', point)}] : [];
     const tile = point ? [{at: this.points.position('image', point)}] : [];
     const all = this.copied(tile).map((dot) => ({...dot, scale: dot.copy === point.copy ? 1 : 0.5}));
     for (const [panel, dots] of [[this.panels.source, source], [this.panels.tile, tile], [this.panels.tiling, all]]) {
-      panel.rim.set(on(dots, INK));
+      panel.rim.set(on(dots, this.scene.ink));
       panel.point.set(on(dots, POINT));
     }
     this.point = point;
@@ -186,7 +180,7 @@ export class View {
     this.draw();
   }
 
-  /** Shows marked vertices, given as drawn ones. */
+  /** Shows marked vertices, given by their drawn vertices. */
   showMarks(vertices) {
     const dots = (name) => vertices.map((vertex) => ({at: vertexPosition(this.scene, name, vertex), colour: MARK}));
     this.panels.source.marks.set(dots('source'));
@@ -210,7 +204,7 @@ export class View {
     this.draw();
   }
 
-  /** How opaque the copies are, besides the tile itself. */
+  /** Sets the opacity of the copies, except the tile itself. */
   setOpacity(opacity) {
     if (!this.copyMaterial) return;
     this.copyMaterial.uniforms.opacity.value = opacity;
@@ -232,9 +226,9 @@ export class View {
       const lines = new BufferGeometry();
       lines.setAttribute('position', this.shared[position]);
       lines.setIndex(index);
-      const segments = new LineSegments(lines, new LineBasicMaterial({color: new Color(INK), transparent: true}));
+      const segments = new LineSegments(lines, new LineBasicMaterial({color: new Color(this.scene.ink), transparent: true}));
       const length = meanLength(this.scene[position], index.array);
-      // Where they are dense they would hide all colours.
+      // Fades the edges where they are dense, since they would hide all colours.
       segments.onBeforeRender = () => {
         segments.material.opacity = 0.35 * Math.min(Math.max(this.panels[panel].pixels(length) / 5, 0.1), 1);
       };
@@ -251,7 +245,7 @@ export class View {
     this.painter.draw(panels);
   }
 
-  // On the sphere, behind the horizon; in the source, behind another part of it.
+  // On the sphere, a place is hidden behind the horizon; on the source, behind another part of it.
   isHidden(panel, at) {
     const toEye = panel.camera.position.clone().sub(at);
     if (panel.name !== 'source') return toEye.dot(at) < 0;

@@ -16,12 +16,14 @@ struct Places {
   std::vector<int> inside, on_boundary;
 };
 
-Places places(const Faces& F, const Connectivity& connectivity, int vertex_count) {
+Places places(const Surface& surface) {
+  const Faces& F = surface.triangles;
+  const int vertex_count = surface.vertex_count();
   Places result;
   std::vector<char> used(vertex_count, 0), outer(vertex_count, 0);
   for (int h = 0; h < static_cast<int>(F.size()); ++h) {
     used[origin(F, h)] = 1;
-    if (connectivity.opposite[h] < 0) outer[origin(F, h)] = 1;
+    if (surface.connectivity.opposite[h] < 0) outer[origin(F, h)] = 1;
   }
   for (int v = 0; v < vertex_count; ++v)
     if (used[v]) (outer[v] ? result.on_boundary : result.inside).push_back(v);
@@ -78,14 +80,13 @@ class Separation {
 
 }  // namespace
 
-std::vector<int> extremities(const Mesh& mesh, const Connectivity& connectivity,
-                             const WantedExtremities& wanted) {
-  const Places place = places(mesh.F, connectivity, static_cast<int>(mesh.V.rows()));
+std::vector<int> extremities(const Surface& surface, const WantedExtremities& wanted) {
+  const Places place = places(surface);
   if (wanted.inner > 0 && place.inside.empty())
-    throw MeshError("no vertex lies inside the surface, where one has to be marked");
+    throw MeshError("one vertex has to be marked inside the surface, but all are on its boundary");
   require_enough(wanted.inner, place.inside);
   require_enough(wanted.outer, place.on_boundary);
-  const EdgeGraph graph = edge_length_graph(mesh, connectivity);
+  const EdgeGraph graph = edge_length_graph(surface);
   std::vector<int> result;
   const auto add = [&](const std::vector<int>& among, const std::vector<int>& first_from) {
     const std::vector<double> distance = distances(graph, result.empty() ? first_from : result);

@@ -4,21 +4,23 @@
 
 #include <vector>
 
-#include "orbitutte/mesh/connectivity.h"
+#include "orbitutte/mesh/surface.h"
 
 namespace orbitutte {
 
 /// Which vertices are to be marked.
 struct WantedExtremities {
-  int inner = 0;               ///< so many inside the surface,
-  int outer = 0;               ///< and so many on its boundary
-  bool no_neighbours = false;  ///< no edge joins two of them, if the mesh has such vertices
+  /// So many inside the surface,
+  int inner = 0;
+  /// and so many on its boundary.
+  int outer = 0;
+  /// No edge joins two of them, if the mesh has such vertices.
+  bool no_neighbours = false;
 };
 
 /// The inner vertices, then the outer ones: each the farthest from those before, along the edges; the first,
 /// from the boundary where it lies inside of one, otherwise from a vertex anywhere. O((inner + outer) n log
 /// n). Throws MeshError if the mesh has fewer such vertices.
-std::vector<int> extremities(const Mesh& mesh, const Connectivity& connectivity,
-                             const WantedExtremities& wanted);
+std::vector<int> extremities(const Surface& surface, const WantedExtremities& wanted);
 
 }  // namespace orbitutte

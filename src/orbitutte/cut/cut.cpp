@@ -12,8 +12,8 @@
 namespace orbitutte {
 namespace {
 
-// A random number in [0, 1) for an edge and a seed (the mixing function of SplitMix64): the same on every
-// machine.
+// A random number in [0, 1) for an edge and a seed, the same on every machine (the mixing function of
+// SplitMix64).
 double random_unit(std::uint64_t seed, std::uint64_t edge) {
   std::uint64_t z = seed * 0x9e3779b97f4a7c15ULL + edge * 0xbf58476d1ce4e5b9ULL + 0x94d049bb133111ebULL;
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
@@ -26,15 +26,17 @@ void perturb_lengths(EdgeGraph& graph, std::uint64_t seed) {
   for (std::size_t e = 0; e < graph.length.size(); ++e) graph.length[e] *= 1 + 2 * random_unit(seed, e);
 }
 
-double straight_distance(const Mesh& mesh, int i, int j) { return (mesh.V.row(i) - mesh.V.row(j)).norm(); }
+double straight_distance(const Surface& surface, int i, int j) {
+  return (surface.V.row(i) - surface.V.row(j)).norm();
+}
 
-// Which of three marks the cut passes through: the one nearest to the two others in space, or any, by the
-// seed.
-int middle_mark(const Mesh& mesh, const std::vector<int>& marks, std::uint64_t seed) {
+// Chooses which of three marks the cut passes through: the one nearest to the other two in space, or one that
+// the seed decides.
+int middle_mark(const Surface& surface, const std::vector<int>& marks, std::uint64_t seed) {
   if (seed != 0) return static_cast<int>(3 * random_unit(seed, 0));
   const auto detour = [&](int k) {
-    return straight_distance(mesh, marks[k], marks[(k + 1) % 3]) +
-           straight_distance(mesh, marks[k], marks[(k + 2) % 3]);
+    return straight_distance(surface, marks[k], marks[(k + 1) % 3]) +
+           straight_distance(surface, marks[k], marks[(k + 2) % 3]);
   };
   int best = 0;
   for (const int k : {1, 2})
@@ -52,9 +54,9 @@ Path path_through_two(const EdgeGraph& graph, const std::vector<int>& marks) {
   return path;
 }
 
-Path path_through_three(const Mesh& mesh, const EdgeGraph& graph, const std::vector<int>& marks,
+Path path_through_three(const Surface& surface, const EdgeGraph& graph, const std::vector<int>& marks,
                         std::uint64_t seed) {
-  const int middle = middle_mark(mesh, marks, seed);
+  const int middle = middle_mark(surface, marks, seed);
   const int first = marks[(middle + 2) % 3], last = marks[(middle + 1) % 3];
   auto [back, forth] = disjoint_paths(graph, marks[middle], {first, last});
   if (back.empty()) throw no_path(marks[middle], first);
@@ -63,8 +65,8 @@ Path path_through_three(const Mesh& mesh, const EdgeGraph& graph, const std::vec
   return back;
 }
 
-// The graph with a path drawn together to one vertex, the last, that is joined to its ends; inside it is
-// gone.
+// Contracts a path of the graph to one new vertex, the last, which is joined to the path's ends. Vertices
+// inside the path lose their edges.
 EdgeGraph contracted(const EdgeGraph& graph, const Path& path) {
   const int n = graph.vertex_count();
   std::vector<char> inside(n, 0);
@@ -87,7 +89,7 @@ EdgeGraph contracted(const EdgeGraph& graph, const Path& path) {
   return result;
 }
 
-// From one mark to another by a shortest path, and from its ends, by disjoint paths, to the others.
+// A shortest path from one mark to another, extended from its ends by disjoint paths to the other two.
 Path path_through_four(const EdgeGraph& graph, const std::vector<int>& marks, int first, int second) {
   std::vector<int> others;
   EdgeGraph inner = graph;
@@ -103,26 +105,28 @@ Path path_through_four(const EdgeGraph& graph, const std::vector<int>& marks, in
       disjoint_paths(contracted(graph, middle), graph.vertex_count(), {others[0], others[1]});
   if (back.empty()) return {};
   if (back[1] != middle.front()) std::swap(back, forth);
-  Path path(back.rbegin(), back.rend() - 2);  // without the vertex that stands for the path, and its end
+  // without the new vertex, and without the end of the middle path
+  Path path(back.rbegin(), back.rend() - 2);
   path.insert(path.end(), middle.begin(), middle.end());
   path.insert(path.end(), forth.begin() + 2, forth.end());
   return path;
 }
 
-double straight_length(const Mesh& mesh, const Path& path) {
+double straight_length(const Surface& surface, const Path& path) {
   double length = 0;
-  for (std::size_t k = 1; k < path.size(); ++k) length += straight_distance(mesh, path[k - 1], path[k]);
+  for (std::size_t k = 1; k < path.size(); ++k) length += straight_distance(surface, path[k - 1], path[k]);
   return length;
 }
 
-// The shortest over the choices of the two marks in the middle; two that lie on the surface such that one way
-// is barred can be joined in another.
-Path shortest_path_through_four(const Mesh& mesh, const EdgeGraph& graph, const std::vector<int>& marks) {
+// The shortest path over all choices of the two marks in the middle. If one choice has no path, another may
+// have one.
+Path shortest_path_through_four(const Surface& surface, const EdgeGraph& graph,
+                                const std::vector<int>& marks) {
   Path best;
   for (int first = 0; first < 4; ++first) {
     for (int second = first + 1; second < 4; ++second) {
       const Path path = path_through_four(graph, marks, first, second);
-      if (!path.empty() && (best.empty() || straight_length(mesh, path) < straight_length(mesh, best)))
+      if (!path.empty() && (best.empty() || straight_length(surface, path) < straight_length(surface, best)))
         best = path;
     }
   }
@@ -130,15 +134,14 @@ Path shortest_path_through_four(const Mesh& mesh, const EdgeGraph& graph, const 
   return best;
 }
 
-Path path_through(const Mesh& mesh, const EdgeGraph& graph, const std::vector<int>& marks,
+Path path_through(const Surface& surface, const EdgeGraph& graph, const std::vector<int>& marks,
                   std::uint64_t seed) {
   if (marks.size() == 2) return path_through_two(graph, marks);
-  if (marks.size() == 3) return path_through_three(mesh, graph, marks, seed);
-  return shortest_path_through_four(mesh, graph, marks);
+  if (marks.size() == 3) return path_through_three(surface, graph, marks, seed);
+  return shortest_path_through_four(surface, graph, marks);
 }
 
-// A half-edge that leaves each vertex (-1 where no face uses it); at boundary vertices the one on the
-// boundary.
+// A half-edge that leaves each vertex (-1 if no face uses it). At a boundary vertex it lies on the boundary.
 std::vector<int> outgoing_halfedges(const Faces& F, const std::vector<int>& opposite, int vertex_count) {
   std::vector<int> result(vertex_count, -1);
   for (int h = 0; h < static_cast<int>(F.size()); ++h) {
@@ -187,8 +190,8 @@ void check_number_of_marks(const std::vector<int>& marks, bool one_sided) {
                                 one_sided ? "projective plane; mark one" : "sphere; mark two to four"));
 }
 
-// From the mark inside a disk to the nearest vertex of the boundary that is not marked; a path that met the
-// boundary before its end would cut the disk into two.
+// The path from the mark inside a disk to the nearest unmarked vertex of the boundary. It meets the boundary
+// only at its end, since it would otherwise cut the disk in two.
 Path path_to_boundary(EdgeGraph graph, const std::vector<int>& marks, const std::vector<char>& on_boundary) {
   std::vector<int> to;
   for (int v = 0; v < graph.vertex_count(); ++v)
@@ -213,28 +216,29 @@ CutPath with_edges(Path path, const EdgeGraph& graph) {
   return result;
 }
 
-// Half-edge h of a face whose second and third vertex have been exchanged.
+// The new index of half-edge h once the second and third vertex of its face have been exchanged.
 int turned_halfedge(int h) { return h - h % 3 + (2 - h % 3); }
 
-// The input mesh, its faces turned over where they would not agree on the disk, and its half-edges opened
-// along the cut's edges.
+// The input mesh with its half-edges opened along the cut. Faces are turned over if the surface has no
+// orientation.
 struct OpenedMesh {
   CutMesh cut;
   std::vector<int> opposite;  // -1 on the boundary and at the cut
 };
 
-CutMesh uncut(const Mesh& mesh, const Connectivity& connectivity) {
+CutMesh uncut(const Surface& surface) {
   CutMesh cut;
-  cut.F = mesh.F;
-  cut.edge_of = connectivity.edge_of;
-  cut.source_vertex.resize(mesh.V.rows());
+  cut.F = surface.triangles;
+  cut.edge_of = surface.connectivity.edge_of;
+  cut.source_vertex.resize(surface.V.rows());
   for (int v = 0; v < cut.vertex_count(); ++v) cut.source_vertex[v] = v;
   return cut;
 }
 
-OpenedMesh opened_along(const CutPath& path, const Mesh& mesh, const Connectivity& connectivity) {
-  OpenedMesh result = {uncut(mesh, connectivity), connectivity.opposite};
+OpenedMesh opened_along(const CutPath& path, const Surface& surface) {
+  OpenedMesh result = {uncut(surface), surface.connectivity.opposite};
   if (path.edges.empty()) return result;
+  const Connectivity& connectivity = surface.connectivity;
   std::vector<char> is_cut(connectivity.edges.size(), 0);
   for (const int e : path.edges) is_cut[e] = 1;
   parallel_ranges(static_cast<int>(result.opposite.size()), [&](int begin, int end) {
@@ -244,8 +248,7 @@ OpenedMesh opened_along(const CutPath& path, const Mesh& mesh, const Connectivit
   return result;
 }
 
-// Turns faces over so that all agree, where the surface has no orientation that they could have had from the
-// first.
+// Turns faces of a surface without orientation over so that all agree once it is cut.
 void turn_faces(OpenedMesh& mesh) {
   const Faces F = mesh.cut.F;
   mesh.cut.F = agreeing_faces(F, mesh.opposite);
@@ -258,21 +261,21 @@ void turn_faces(OpenedMesh& mesh) {
   }
 }
 
-// The first half-edge on the boundary of the opened mesh that leaves a vertex.
+// The first half-edge on the boundary of the opened mesh that leaves vertex v.
 int boundary_halfedge(int v, const OpenedMesh& mesh) {
   int h = 0;
   while (mesh.opposite[h] >= 0 || origin(mesh.cut.F, h) != v) ++h;
   return h;
 }
 
-// Gives the faces between the boundary half-edge `begin` and the one that arrives at its origin another
-// vertex there.
+// Gives the vertex another index in the faces of one sector: those from the boundary half-edge `begin` to the
+// one that arrives at its origin.
 void renumber_sector(int begin, int vertex, const std::vector<int>& opposite, Faces& F) {
   for (int h = begin; h >= 0; h = opposite[previous_halfedge(h)]) F.data()[h] = vertex;
 }
 
-// Follows the boundary of the opened mesh from a vertex. Where it passes a vertex for the first time, the
-// faces there keep its index; at every further time they get a copy of it.
+// Follows the boundary of the opened mesh from a vertex. The first time it passes a vertex, the faces there
+// keep its index; every further time they get a new copy.
 CutMesh split_along_boundary(int from, OpenedMesh mesh) {
   CutMesh& cut = mesh.cut;
   const int start = boundary_halfedge(from, mesh);
@@ -310,41 +313,40 @@ std::vector<int> order_met(const std::vector<int>& boundary, const std::vector<i
 
 }  // namespace
 
-EdgeGraph edge_length_graph(const Mesh& mesh, const Connectivity& connectivity) {
-  EdgeGraph graph = {neighbors(connectivity.edges, static_cast<int>(mesh.V.rows())),
-                     std::vector<double>(connectivity.edges.size()),
-                     {}};
+EdgeGraph edge_length_graph(const Surface& surface) {
+  const std::vector<std::array<int, 2>>& edges = surface.connectivity.edges;
+  EdgeGraph graph = {neighbors(edges, surface.vertex_count()), std::vector<double>(edges.size()), {}};
   const double total = parallel_sum(static_cast<int>(graph.length.size()), [&](int e) {
-    const auto [i, j] = connectivity.edges[e];
-    return graph.length[e] = straight_distance(mesh, i, j);
+    const auto [i, j] = edges[e];
+    return graph.length[e] = straight_distance(surface, i, j);
   });
   const double tiny = total > 0 ? 1e-6 * total / static_cast<double>(graph.length.size()) : 1.0;
   for (double& length : graph.length) length += tiny;
   return graph;
 }
 
-CutMesh cut_to_disk(const Mesh& mesh, const Connectivity& connectivity, const std::vector<int>& marks,
-                    int inner_marks, const CutOptions& options) {
-  const std::vector<int>& opposite = connectivity.opposite;
-  const std::vector<int> outgoing = outgoing_halfedges(mesh.F, opposite, static_cast<int>(mesh.V.rows()));
+CutMesh cut_to_disk(const Surface& surface, const std::vector<int>& marks, int inner_marks,
+                    const CutOptions& options) {
+  const std::vector<int>& opposite = surface.connectivity.opposite;
+  const std::vector<int> outgoing = outgoing_halfedges(surface.triangles, opposite, surface.vertex_count());
   check_marks(marks, outgoing);
   std::vector<char> on_boundary(outgoing.size(), 0);
   for (std::size_t v = 0; v < outgoing.size(); ++v)
     on_boundary[v] = outgoing[v] >= 0 && opposite[outgoing[v]] < 0;
   const bool closed = std::find(on_boundary.begin(), on_boundary.end(), 1) == on_boundary.end();
-  const bool one_sided = closed && has_turned_faces(mesh.F, opposite);
+  const bool one_sided = closed && has_turned_faces(surface.triangles, opposite);
   if (closed) check_number_of_marks(marks, one_sided);
   if (!closed) check_marks_of_disk(marks, inner_marks, on_boundary);
-  CutPath path = {{marks[0]}, {}};  // of a disk that is not cut
+  CutPath path = {{marks[0]}, {}};  // for a disk that is not cut
   if (closed || inner_marks > 0) {
-    EdgeGraph graph = edge_length_graph(mesh, connectivity);
+    EdgeGraph graph = edge_length_graph(surface);
     perturb_lengths(graph, options.seed);
-    path = with_edges(one_sided ? one_sided_loop(graph, mesh.F, connectivity, marks[0])
-                      : closed  ? path_through(mesh, graph, marks, options.seed)
+    path = with_edges(one_sided ? one_sided_loop(graph, surface, marks[0])
+                      : closed  ? path_through(surface, graph, marks, options.seed)
                                 : path_to_boundary(graph, marks, on_boundary),
                       graph);
   }
-  OpenedMesh opened = opened_along(path, mesh, connectivity);
+  OpenedMesh opened = opened_along(path, surface);
   if (one_sided) turn_faces(opened);
   CutMesh cut = split_along_boundary(path.vertices.front(), std::move(opened));
   cut.marks = marks;

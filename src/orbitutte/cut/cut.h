@@ -2,49 +2,53 @@
 // Cutting a sphere, disk or projective plane along edge paths through the marked vertices (section 4.1).
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "orbitutte/cut/paths.h"
-#include "orbitutte/mesh/connectivity.h"
+#include "orbitutte/mesh/surface.h"
+#include "orbitutte/options.h"
 
 namespace orbitutte {
 
-/// A mesh cut open into a disk. Cut vertex v < n is the input vertex v; the copies that the cut adds follow.
+/// A mesh cut open into a disk. Cut vertices 0 .. n - 1 are the input vertices; the copies that the cut adds
+/// follow.
 struct CutMesh {
-  Faces F;                   ///< m x 3, the input triangles in their order, on cut vertices; where the input
-                             ///< has no orientation, some are turned over: f(0), f(2), f(1)
-  std::vector<int> edge_of;  ///< 3 m: the edge of the uncut mesh of every half-edge of F; -1 for a diagonal
-  std::vector<char> turned;  ///< m: is the triangle turned over? empty where none is
-  std::vector<int> source_vertex;  ///< n_cut: the input vertex
-  std::vector<int>
-      boundary;  ///< cut vertices along the boundary's half-edges: counterclockwise, interior on the left
-  std::vector<int> marks;        ///< input vertices: the given ones, then the end of a disk's cut
-  std::vector<int> arrangement;  ///< indices into marks, in the order in which the boundary first meets them;
-                                 ///< it begins with the first
+  /// m x 3: the input triangles in their order, on cut vertices. If the input has no orientation, some are
+  /// turned over: f(0), f(2), f(1).
+  Faces F;
+  /// 3 m: the edge of the uncut mesh of every half-edge of F; -1 for a diagonal.
+  std::vector<int> edge_of;
+  /// m: is the triangle turned over? Empty if none is.
+  std::vector<char> turned;
+  /// n_cut: the input vertex of every cut vertex.
+  std::vector<int> source_vertex;
+  /// Cut vertices along the boundary's half-edges: counterclockwise, with the interior on the left.
+  std::vector<int> boundary;
+  /// Input vertices: the given marks, then the vertex where the cut of a disk ends.
+  std::vector<int> marks;
+  /// Indices into marks, in the order in which the boundary first meets them, beginning with mark 0.
+  std::vector<int> arrangement;
 
   int vertex_count() const { return static_cast<int>(source_vertex.size()); }
 };
 
-/// Which of all cuts through the same marked vertices.
-struct CutOptions {
-  std::uint64_t seed = 0;  ///< another seed takes another cut through the same marks; 0 takes the shortest
-};
+/// Cuts the surface so that every marked vertex lies on the boundary of a disk. The first `inner_marks` marks
+/// lie inside the surface, the others on its boundary.
+///
+/// A sphere with two marks is cut along the shortest edge path between them; with three marks, along two
+/// disjoint paths from one of them to the other two; with four, along a path between two of them that
+/// disjoint paths extend to the other two. A disk whose marks are on its boundary is left as it is. A disk
+/// with a mark inside is cut along the shortest edge path from it to an unmarked vertex of the boundary; the
+/// path meets the boundary only at its end. A projective plane with one mark is cut along a one-sided loop
+/// through the mark, and its faces are turned so that those of the disk agree (see one_sided_loop).
+///
+/// Throws MeshError if a mark is not a vertex of a face, is given twice or lies in the wrong place, or if
+/// there are too few or too many marks.
+CutMesh cut_to_disk(const Surface& surface, const std::vector<int>& marks, int inner_marks,
+                    const CutOptions& options = {});
 
-/// Cuts so that every marked vertex lies on the boundary of a disk. The first `inner_marks` of the marks lie
-/// inside the surface, the others on its boundary.
-/// A sphere with two marks is cut along the shortest edge path between them; with three, along two disjoint
-/// paths from one of them to the other two; with four, along a path between two of them that disjoint paths
-/// extend to the others. A disk whose marks are on its boundary is left as it is; one with a mark inside is
-/// cut along the shortest edge path from it to a vertex of the boundary that is not marked, and meets the
-/// boundary nowhere else. A projective plane with one mark is cut along a one-sided loop through it, and its
-/// faces are turned so that those of the disk agree (see one_sided_loop). Throws MeshError for marks that are
-/// not vertices of a face, repeated, too few or too many, or not where they have to be.
-CutMesh cut_to_disk(const Mesh& mesh, const Connectivity& connectivity, const std::vector<int>& marks,
-                    int inner_marks, const CutOptions& options = {});
-
-/// The edges with their lengths in space. Edges of length zero get a tiny length, so that paths stay short in
-/// edges too. Every path may pass through every vertex: no vertex is a dead end.
-EdgeGraph edge_length_graph(const Mesh& mesh, const Connectivity& connectivity);
+/// The edges with their lengths in space. Every length is increased by a tiny one, so that paths have few
+/// edges even if edges have length zero. Paths may pass through any vertex: no vertex is a dead end.
+EdgeGraph edge_length_graph(const Surface& surface);
 
 }  // namespace orbitutte

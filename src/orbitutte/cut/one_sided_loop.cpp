@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One-sided loops are the paths of the orientable double cover from a vertex to its other lift.
+// A one-sided loop through a vertex is a path in the orientable double cover from one lift of the vertex to
+// the other.
 #include "orbitutte/cut/one_sided_loop.h"
 
 #include <algorithm>
@@ -14,11 +15,11 @@ namespace {
 
 bool same_direction(const Faces& F, int h, int other) { return origin(F, h) == origin(F, other); }
 
-// The corner of the same face and the sheet of the double cover, 0 or 1, as one number.
+// Numbers the corners of the double cover: corner h of a face on sheet 0 or 1.
 int lift(int h, int sheet) { return 2 * h + sheet; }
 
-// Corners of the double cover that are one vertex there: sheet 0 holds every face as it is, sheet 1 turned
-// over, and where faces run along an edge in the same direction, crossing it changes the sheet.
+// Unites the corners of the double cover that are one vertex there. Sheet 0 holds every face as it is, sheet
+// 1 turned over. Crossing an edge changes the sheet if both faces run along it in the same direction.
 DisjointSets vertices_of_double_cover(const Faces& F, const std::vector<int>& opposite) {
   DisjointSets vertices(2 * static_cast<int>(F.size()));
   for (int h = 0; h < static_cast<int>(F.size()); ++h) {
@@ -34,10 +35,13 @@ DisjointSets vertices_of_double_cover(const Faces& F, const std::vector<int>& op
   return vertices;
 }
 
-// Per edge: does it join different lifts of its ends? The lift 0 of a vertex is that of its first corner.
-std::vector<char> lift_changes(const Faces& F, const Connectivity& connectivity, int vertex_count) {
+// Per edge: does it join different lifts of its ends? Lift 0 of a vertex is that of its first corner on sheet
+// 0.
+std::vector<char> lift_changes(const Surface& surface) {
+  const Faces& F = surface.triangles;
+  const Connectivity& connectivity = surface.connectivity;
   DisjointSets vertices = vertices_of_double_cover(F, connectivity.opposite);
-  std::vector<int> first(vertex_count, -1);
+  std::vector<int> first(surface.vertex_count(), -1);
   for (int h = 0; h < static_cast<int>(F.size()); ++h)
     if (first[origin(F, h)] < 0) first[origin(F, h)] = vertices.find(lift(h, 0));
   const auto lift_of = [&](int h) { return vertices.find(lift(h, 0)) != first[origin(F, h)]; };
@@ -55,7 +59,7 @@ std::vector<std::array<int, 2>> edges_of(const EdgeGraph& graph) {
   return edges;
 }
 
-// Vertex v has the lifts v and n + v.
+// The lifts of vertex v are v and n + v.
 EdgeGraph double_cover(const EdgeGraph& graph, const std::vector<char>& changes) {
   const int n = graph.vertex_count();
   std::vector<std::array<int, 2>> edges;
@@ -71,7 +75,7 @@ EdgeGraph double_cover(const EdgeGraph& graph, const std::vector<char>& changes)
   return cover;
 }
 
-// The shortest closed part of a path between its first and last vertex: no vertex comes twice in it.
+// The shortest closed part of a path. It passes no vertex twice.
 Path innermost_loop(const Path& path) {
   std::unordered_map<int, std::size_t> last;
   std::size_t begin = 0, end = path.size() - 1;
@@ -84,8 +88,8 @@ Path innermost_loop(const Path& path) {
           path.begin() + static_cast<std::ptrdiff_t>(end) + 1};
 }
 
-// Two paths from a vertex to different vertices of a loop that share nothing but that vertex: the loop's
-// vertices are joined to two further ones, by edges of no length.
+// Two paths from a vertex to different vertices of a loop that share no other vertex. To find them, every
+// vertex of the loop is joined to two new vertices by edges of length zero.
 std::array<Path, 2> paths_to_loop(const EdgeGraph& graph, int vertex, const Path& loop) {
   const int n = graph.vertex_count();
   std::vector<std::array<int, 2>> edges = edges_of(graph);
@@ -115,7 +119,8 @@ Path concatenated(Path first, const Path& second) {
   return first;
 }
 
-// Around a loop from the end of one path to the end of the other, and back to where they come from.
+// The closed path along the first path, around a part of the loop to the end of the second path, and back
+// along it.
 Path closed_along(const std::array<Path, 2>& paths, Path loop) {
   loop.pop_back();
   std::rotate(loop.begin(), std::find(loop.begin(), loop.end(), paths[0].back()), loop.end());
@@ -132,16 +137,16 @@ bool has_turned_faces(const Faces& F, const std::vector<int>& opposite) {
          }) > 0;
 }
 
-Path one_sided_loop(const EdgeGraph& graph, const Faces& F, const Connectivity& connectivity, int vertex) {
+Path one_sided_loop(const EdgeGraph& graph, const Surface& surface, int vertex) {
   const int n = graph.vertex_count();
-  const std::vector<char> changes = lift_changes(F, connectivity, n);
+  const std::vector<char> changes = lift_changes(surface);
   Path path = shortest_path(double_cover(graph, changes), vertex, {n + vertex});
   if (path.empty()) throw std::logic_error("the surface has an orientation");
   for (int& v : path) v %= n;
   const Path loop = innermost_loop(path);
   if (loop.size() == path.size()) return path;
   const std::array<Path, 2> paths = paths_to_loop(graph, vertex, loop);
-  // Of the two ways around the loop, which differ by the whole of it, one turns the orientation over.
+  // The two ways around the loop differ by the whole loop, so one of them reverses orientation.
   const Path one_way = closed_along(paths, loop);
   return turns_over(one_way, graph, changes) ? one_way
                                              : closed_along(paths, Path(loop.rbegin(), loop.rend()));

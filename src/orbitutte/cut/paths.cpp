@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// J. W. Suurballe, "Disjoint paths in a network", Networks 4 (1974), with the vertices split into an entry
-// and an exit.
+// J. W. Suurballe, "Disjoint paths in a network", Networks 4 (1974), with each vertex split into an entry and
+// an exit.
 #include "orbitutte/cut/paths.h"
 
 #include <algorithm>
@@ -14,9 +14,9 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// A priority queue of nodes for distances that never exceed the least one by more than the length of an arc:
-// buckets of equal width, used again from the first on (E. Denardo, B. Fox, "Shortest-route methods: 1",
-// Operations Research 27 (1979)), the first of them a heap.
+// A priority queue of nodes. No distance in it may exceed the least one by more than the length of an arc.
+// Buckets of equal width are reused in a circle (E. Denardo, B. Fox, "Shortest-route methods: 1", Operations
+// Research 27 (1979)); the first of them is a heap.
 class Queue {
  public:
   using Entry = std::pair<double, int>;  // distance, node
@@ -57,12 +57,12 @@ class Queue {
 // Dijkstra's algorithm over nodes 0 .. count - 1.
 struct Search {
   std::vector<double> distance;
-  std::vector<int> previous;  // -1 at sources and where nothing leads
+  std::vector<int> previous;  // -1 at sources and at nodes that are not reached
 
   explicit Search(int count) : distance(count, infinity), previous(count, -1) {}
 
-  // for_each_arc(node, visit) calls visit(next node, length >= 0); the search ends when done(node) says so of
-  // a settled node, which is returned, or -1.
+  // for_each_arc(node, visit) calls visit(next node, length >= 0). The search ends when done(node) is true
+  // for a settled node, and returns that node; otherwise it returns -1.
   template <typename ForEachArc, typename Done>
   int run(const std::vector<int>& sources, Queue queue, const ForEachArc& for_each_arc, const Done& done) {
     for (const int source : sources) {
@@ -100,7 +100,7 @@ auto arcs_of(const EdgeGraph& graph) {
   };
 }
 
-// A queue for arcs up to `factor` times as long as the graph's edges.
+// A queue for arcs that are up to `factor` times as long as the graph's edges.
 Queue queue_for(const EdgeGraph& graph, double factor = 1) {
   const double total = std::accumulate(graph.length.begin(), graph.length.end(), 0.0);
   if (!(total > 0)) return {1, 0};
@@ -109,9 +109,9 @@ Queue queue_for(const EdgeGraph& graph, double factor = 1) {
   return {std::max(mean / 2, longest / 10000), longest};
 }
 
-// The residual graph after one unit has gone along `first`. Its vertices have an entry and an exit, nodes v
-// and, for the k-th, n + k; all others are one node, v. Lengths are reduced by the potentials, so none is
-// negative.
+// The residual graph after one unit has gone along `first`. The k-th vertex v of that path has an entry, node
+// v, and an exit, node n + k; any other vertex v is one node, v. The potentials reduce the lengths so that
+// none is negative.
 class Residual {
  public:
   Residual(const EdgeGraph& graph, const Path& first, const std::vector<double>& potential)
@@ -127,13 +127,13 @@ class Residual {
   void operator()(int node, const Visit& visit) const {
     if (node >= exit(0)) {
       const int k = node - exit(0);
-      if (k > 0) visit(first_[k], 0.0);  // takes back the passage through the vertex
+      if (k > 0) visit(first_[k], 0.0);  // cancels the passage through the vertex
       const bool last = k + 1 == static_cast<int>(first_.size());
       visit_edges(first_[k], last ? -1 : first_[k + 1], visit);
     } else if (const int k = place_[node]; k < 0) {
       visit_edges(node, -1, visit);
     } else {
-      visit(exit(k - 1), 0.0);  // takes back the edge of the first path, whose reduced length is zero
+      visit(exit(k - 1), 0.0);  // cancels the edge of the first path, whose reduced length is zero
     }
   }
 
@@ -151,10 +151,11 @@ class Residual {
   const EdgeGraph& graph_;
   const Path& first_;
   const std::vector<double>& potential_;
-  std::vector<int> place_;  // of every vertex on the first path, -1 elsewhere
+  std::vector<int> place_;  // the index on the first path of every vertex; -1 elsewhere
 };
 
-// The edges of both paths, those that one takes and the other takes back left out, followed from the source.
+// Follows the edges of both paths from the source, without the edges that one path takes forwards and the
+// other backwards.
 std::array<Path, 2> untangle(const Path& first, const Path& second, const std::array<int, 2>& to) {
   std::unordered_map<int, std::vector<int>> next;
   for (std::size_t k = 1; k < first.size(); ++k) next[first[k - 1]].push_back(first[k]);

@@ -14,28 +14,30 @@ namespace orbitutte {
 /// A graph of vertices and edges of nonnegative length.
 struct EdgeGraph {
   Neighbors neighbors;
-  std::vector<double> length;  ///< per edge
-  std::vector<char>
-      dead_end;  ///< per vertex: 1 where a path may end but not go on; empty where there are none
+  /// Per edge.
+  std::vector<double> length;
+  /// Per vertex: 1 if a path may end there but not go on. Empty if there are no such vertices.
+  std::vector<char> dead_end;
 
   int vertex_count() const { return static_cast<int>(neighbors.start.size()) - 1; }
 };
 
-using Path = std::vector<int>;  ///< vertices, each the neighbour of the one before
+/// Vertices, each a neighbour of the one before.
+using Path = std::vector<int>;
 
 /// The edge that joins two neighbours.
 int edge_between(const EdgeGraph& graph, int v, int w);
 
-/// Distances from the sources along the edges; infinity where none leads. Dijkstra, O(n log n).
+/// Distances from the sources along the edges; infinity if no path leads to a vertex. Dijkstra, O(n log n).
 std::vector<double> distances(const EdgeGraph& graph, const std::vector<int>& sources);
 
-/// The shortest path from a vertex to the nearest of others, O(n log n). Empty where there is none.
+/// The shortest path from a vertex to the nearest vertex of `to`, O(n log n). Empty if there is none.
 Path shortest_path(const EdgeGraph& graph, int from, const std::vector<int>& to);
 
-/// Two paths from one vertex to two others that share no vertex but the first, of least total length: a flow
-/// of two units through vertices of capacity one (Suurballe 1974), two Dijkstra sweeps. On a triangulated
-/// sphere they always exist, so no first path can block the second. The paths are in the order of `to`; both
-/// empty where there are none.
+/// Two paths from one vertex to two others that share only that vertex, of least total length. They are a
+/// flow of two units through vertices of capacity one (Suurballe 1974), found by two Dijkstra sweeps. On a
+/// triangulated sphere they always exist: no first path can block the second. The paths are in the order of
+/// `to`; both are empty if there are none.
 std::array<Path, 2> disjoint_paths(const EdgeGraph& graph, int from, const std::array<int, 2>& to);
 
 }  // namespace orbitutte

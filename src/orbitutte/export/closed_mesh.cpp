@@ -27,9 +27,7 @@ void require_closed_sphere(const Inspection& found) {
 }  // namespace
 
 void require_closed_sphere(const Mesh& mesh) {
-  const std::optional<SoundSurface> known = recognize(mesh);  // in a fraction of the time
-  if (known && known->topology == Topology::sphere && known->unreferenced_vertices == 0) return;
-  require_closed_sphere(inspect(mesh));
+  if (!is_sound_sphere(mesh)) require_closed_sphere(inspect(mesh));
 }
 
 void require_closed_sphere(const Points& V, const Polygons& polygons) {

@@ -5,26 +5,27 @@
 
 namespace orbitutte {
 
-bool is_turned(const PolygonMesh& mesh, const Embedding& embedding, int f) {
-  return embedding.source_vertex[embedding.input_faces()[f][1]] != mesh.corners[mesh.face_start[f] + 1];
+bool is_turned(const Surface& surface, const Embedding& embedding, int f) {
+  return embedding.source_vertex[embedding.input_faces()[f][1]] != surface.faces()[f][1];
 }
 
-int cut_corner(const PolygonMesh& mesh, const Embedding& embedding, int f, int k) {
-  const int degree = mesh.face_degree(f);
-  return is_turned(mesh, embedding, f) ? (degree - k) % degree : k;
+int cut_corner(const Surface& surface, const Embedding& embedding, int f, int k) {
+  const int degree = surface.faces().degree(f);
+  return is_turned(surface, embedding, f) ? (degree - k) % degree : k;
 }
 
-Faces cut_triangles(const PolygonMesh& mesh, const Triangulation& triangulation, const Embedding& embedding) {
-  Faces triangles(triangulation.corners.rows(), 3);
-  const FaceView cut_faces = embedding.input_faces();
+Faces cut_triangles(const Surface& surface, const Embedding& embedding) {
+  if (!surface.has_polygons()) return embedding.faces;
+  Faces triangles(surface.triangle_count(), 3);
+  const FaceView faces = surface.faces(), cut_faces = embedding.input_faces();
   int row = 0;
-  for (int f = 0; f < mesh.face_count(); ++f) {
-    for (int t = 2; t < mesh.face_degree(f); ++t, ++row) {
+  for (int f = 0; f < faces.count(); ++f) {
+    for (int t = 2; t < faces.degree(f); ++t, ++row) {
       for (int k = 0; k < 3; ++k) {
-        const int corner = triangulation.corners(row, k) - mesh.face_start[f];
-        triangles(row, k) = cut_faces[f][cut_corner(mesh, embedding, f, corner)];
+        const int corner = surface.division(row, k) - faces.start(f);
+        triangles(row, k) = cut_faces[f][cut_corner(surface, embedding, f, corner)];
       }
-      if (is_turned(mesh, embedding, f)) std::swap(triangles(row, 1), triangles(row, 2));
+      if (is_turned(surface, embedding, f)) std::swap(triangles(row, 1), triangles(row, 2));
     }
   }
   return triangles;

@@ -2,19 +2,20 @@
 // The triangles of a polygonal mesh's embedding.
 #pragma once
 
-#include "orbitutte/mesh/triangulation.h"
+#include "orbitutte/mesh/surface.h"
 #include "orbitutte/orbifold/embedding.h"
 
 namespace orbitutte {
 
-/// Does the cut mesh have face f of the input the other way round, from the same corner on? So it has some of
-/// a projective plane. The embedding is one of the mesh.
-bool is_turned(const PolygonMesh& mesh, const Embedding& embedding, int f);
+/// Does the cut mesh have face f of the input turned over, from the same corner on? Some faces of a
+/// projective plane are. The embedding must be one of the surface.
+bool is_turned(const Surface& surface, const Embedding& embedding, int f);
 
-/// Which corner of the cut mesh's face f is the input's k-th.
-int cut_corner(const PolygonMesh& mesh, const Embedding& embedding, int f, int k);
+/// The corner of the cut mesh's face f that is the input's k-th.
+int cut_corner(const Surface& surface, const Embedding& embedding, int f, int k);
 
-/// The embedding's polygons, divided as those of the mesh were, T x 3. The embedding is one of the mesh.
-Faces cut_triangles(const PolygonMesh& mesh, const Triangulation& triangulation, const Embedding& embedding);
+/// The embedding's faces divided in the same way as the surface's, T x 3. The embedding must be one of the
+/// surface.
+Faces cut_triangles(const Surface& surface, const Embedding& embedding);
 
 }  // namespace orbitutte

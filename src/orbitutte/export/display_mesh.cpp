@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Edge collapses follow M. Garland and P. Heckbert, Surface simplification using quadric error metrics
-// (1997), as meshoptimizer has them.
+// Edge collapses by meshoptimizer, after M. Garland and P. Heckbert, Surface simplification using quadric
+// error metrics (1997).
 #include "orbitutte/export/display_mesh.h"
 
 #include <meshoptimizer.h>
@@ -14,18 +14,18 @@ namespace {
 
 using FloatPoints = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
-/// No collapse is too coarse: only the number of triangles counts.
+/// No collapse is too coarse: only the number of triangles matters.
 constexpr float any_error = std::numeric_limits<float>::max();
 
-/// Where the collapses measure their error: the source in a unit box, plus half the image. Of the source
-/// alone flat parts would collapse that are round on the sphere; of the image alone, limbs that are tiny
-/// there.
-FloatPoints source_and_image(const Mesh& mesh, const Embedding& embedding) {
-  const Eigen::RowVector3d low = mesh.V.colwise().minCoeff();
-  const double size = std::max((mesh.V.colwise().maxCoeff() - low).maxCoeff(), 1e-300);
+/// The points at which collapses measure their error: the source in a unit box, plus half the image. With the
+/// source alone, flat parts that are round on the sphere would collapse; with the image alone, limbs that are
+/// tiny there would.
+FloatPoints source_and_image(const Surface& surface, const Embedding& embedding) {
+  const Eigen::RowVector3d low = surface.V.colwise().minCoeff();
+  const double size = std::max((surface.V.colwise().maxCoeff() - low).maxCoeff(), 1e-300);
   FloatPoints points(embedding.positions.rows(), 3);
   for (Eigen::Index v = 0; v < points.rows(); ++v) {
-    const Eigen::RowVector3d source = (mesh.V.row(embedding.source_vertex[v]) - low) / size;
+    const Eigen::RowVector3d source = (surface.V.row(embedding.source_vertex[v]) - low) / size;
     points.row(v) = (source + 0.5 * embedding.positions.row(v)).cast<float>();
   }
   return points;
@@ -43,7 +43,7 @@ std::size_t simplify(std::vector<unsigned>& indices, const FloatPoints& points, 
 #endif
 }
 
-/// Fewer triangles on the same vertices, as near to `limit` as the fixed outline allows.
+/// Fewer triangles on the same vertices, as close to `limit` as the fixed outline permits.
 Faces coarsened(const Faces& faces, const FloatPoints& points, int limit) {
   if (faces.rows() <= limit) return faces;
   std::vector<unsigned> indices(faces.data(), faces.data() + faces.size());
@@ -53,7 +53,7 @@ Faces coarsened(const Faces& faces, const FloatPoints& points, int limit) {
   return result;
 }
 
-/// The edges that lie in one face only.
+/// The edges that lie in only one face.
 std::vector<std::array<int, 2>> outline(const Faces& faces) {
   std::vector<std::uint64_t> edges;
   edges.reserve(static_cast<std::size_t>(faces.size()));
@@ -93,15 +93,15 @@ FloatPoints image(const Embedding& embedding, const std::vector<int>& cut_vertex
 
 }  // namespace
 
-DisplayMesh display_mesh(const Mesh& mesh, const Embedding& embedding, const DisplayLimits& limits) {
+DisplayMesh display_mesh(const Surface& surface, const Embedding& embedding, const DisplayLimits& limits) {
   DisplayMesh result;
   result.fine.faces = embedding.faces;
   if (embedding.faces.rows() > limits.faces)
-    result.fine.faces = coarsened(embedding.faces, source_and_image(mesh, embedding), limits.faces);
+    result.fine.faces = coarsened(embedding.faces, source_and_image(surface, embedding), limits.faces);
   result.cut_vertex = compact(result.fine.faces, static_cast<int>(embedding.positions.rows()));
   result.fine.outline = outline(result.fine.faces);
 
-  const int share = limits.tiling_faces / std::max(embedding.group_order, 1);
+  const int share = limits.tiling_faces / std::max(embedding.target.group_order, 1);
   result.coarse.faces = coarsened(result.fine.faces, image(embedding, result.cut_vertex), share);
   result.coarse.outline = outline(result.coarse.faces);
   return result;

@@ -1,36 +1,44 @@
 // SPDX-License-Identifier: MIT
-// What of a large embedding is drawn: a selection of its vertices, and fewer triangles between them.
+// The part of a large embedding that is drawn: a selection of its vertices, with fewer triangles between
+// them.
 #pragma once
 
 #include <array>
 #include <vector>
 
+#include "orbitutte/mesh/surface.h"
 #include "orbitutte/orbifold/embedding.h"
 
 namespace orbitutte {
 
-/// Triangles on display vertices, and the edges that lie in only one of them: the tile's outline.
+/// Triangles on display vertices, and the tile's outline: the edges that lie in only one of them.
 struct DisplayLevel {
   Faces faces;
   std::vector<std::array<int, 2>> outline;
 };
 
-/// A mesh to be drawn, coarsened where it is large.
+/// A mesh to be drawn, coarsened if it is large.
 struct DisplayMesh {
-  std::vector<int> cut_vertex;  ///< of every display vertex, ascending; the positions are exactly its own
-  DisplayLevel fine;            ///< for the source and the tile
-  DisplayLevel coarse;          ///< for the copies of the tile, which are small
+  /// The cut vertex of every display vertex, ascending; both have exactly the same position.
+  std::vector<int> cut_vertex;
+  /// For the source and the tile.
+  DisplayLevel fine;
+  /// For the copies of the tile, which are small.
+  DisplayLevel coarse;
 };
 
-/// How much is drawn.
+/// How many faces are drawn.
 struct DisplayLimits {
-  int faces = 400000;         ///< of the fine level
-  int tiling_faces = 600000;  ///< of |G| copies of the coarse level
+  /// Of the fine level.
+  int faces = 400000;
+  /// Of all |G| copies of the coarse level together.
+  int tiling_faces = 600000;
 };
 
-/// A level is the whole cut mesh where that is within the limit, otherwise made by edge collapses (quadric
+/// A level is the whole cut mesh if that is within the limit; otherwise edge collapses make it (quadric
 /// error, meshoptimizer). The outline is never coarsened, so that copies still meet; therefore a level may
 /// exceed its limit. Vertices that no face uses are left out.
-DisplayMesh display_mesh(const Mesh& mesh, const Embedding& embedding, const DisplayLimits& limits = {});
+DisplayMesh display_mesh(const Surface& surface, const Embedding& embedding,
+                         const DisplayLimits& limits = {});
 
 }  // namespace orbitutte

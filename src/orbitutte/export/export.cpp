@@ -24,47 +24,46 @@
 namespace orbitutte {
 namespace {
 
-// Has face f of the cut mesh the corners of the input's, in either direction from the same one on?
-bool is_cut_face(const PolygonMesh& mesh, const Embedding& embedding, int f) {
-  const std::span<const int> cut = embedding.input_faces()[f];
-  const int first = mesh.face_start[f], degree = mesh.face_degree(f);
-  if (static_cast<int>(cut.size()) != degree) return false;
+// Does face f of the cut mesh have the corners of the input's face, in either direction from the same corner
+// on?
+bool is_cut_face(const Surface& surface, const Embedding& embedding, int f) {
+  const std::span<const int> face = surface.faces()[f], cut = embedding.input_faces()[f];
+  if (cut.size() != face.size()) return false;
   const int vertices = static_cast<int>(embedding.source_vertex.size());
   for (const int v : cut)
     if (v < 0 || v >= vertices) return false;
-  for (int k = 0; k < degree; ++k)
-    if (embedding.source_vertex[cut[cut_corner(mesh, embedding, f, k)]] != mesh.corners[first + k])
-      return false;
+  for (int k = 0; k < static_cast<int>(face.size()); ++k)
+    if (embedding.source_vertex[cut[cut_corner(surface, embedding, f, k)]] != face[k]) return false;
   return true;
 }
 
-bool is_cut_from(const PolygonMesh& mesh, const Embedding& embedding) {
+bool is_cut_from(const Surface& surface, const Embedding& embedding) {
   const auto vertices = static_cast<Eigen::Index>(embedding.source_vertex.size());
-  if (embedding.positions.rows() != vertices || vertices < mesh.V.rows()) return false;
-  if (embedding.input_faces().count() != mesh.face_count()) return false;
-  for (int f = 0; f < mesh.face_count(); ++f)
-    if (!is_cut_face(mesh, embedding, f)) return false;
+  if (embedding.positions.rows() != vertices || vertices < surface.V.rows()) return false;
+  const int faces = surface.faces().count();
+  if (embedding.input_faces().count() != faces) return false;
+  for (int f = 0; f < faces; ++f)
+    if (!is_cut_face(surface, embedding, f)) return false;
   return true;
 }
 
 // The row of texture coordinates of every corner of the input.
 std::vector<int> texture_rows(const ExportedModel& model) {
+  const FaceView faces = model.surface.faces();
   std::vector<int> rows;
-  rows.reserve(model.mesh.corners.size());
-  for (int f = 0; f < model.mesh.face_count(); ++f) {
-    const int first = model.mesh.face_start[f];
-    for (int k = 0; k < model.mesh.face_degree(f); ++k)
-      rows.push_back(model.texture.of_corner[first + cut_corner(model.mesh, model.embedding, f, k)]);
-  }
+  rows.reserve(faces.start(faces.count()));
+  for (int f = 0; f < faces.count(); ++f)
+    for (int k = 0; k < faces.degree(f); ++k)
+      rows.push_back(
+          model.texture.of_corner[faces.start(f) + cut_corner(model.surface, model.embedding, f, k)]);
   return rows;
 }
 
 // The mean of the normals of the triangles around every input vertex, weighted by their areas.
 Points vertex_normals(const ExportedModel& model) {
-  const Points& V = model.mesh.V;
+  const Points& V = model.surface.V;
   Points normals = Points::Zero(V.rows(), 3);
-  for (const auto& corners : model.triangles.rowwise()) {
-    const auto v = corners.unaryExpr([&](int corner) { return model.mesh.corners[corner]; }).eval();
+  for (const auto& v : model.surface.triangles.rowwise()) {
     const Vector3 a = V.row(v[0]), b = V.row(v[1]), c = V.row(v[2]);
     const Vector3 normal = (b - a).cross(c - a);
     for (int k = 0; k < 3; ++k) normals.row(v[k]) += normal.transpose();
@@ -76,29 +75,36 @@ Points vertex_normals(const ExportedModel& model) {
   return normals;
 }
 
+// The corner of the surface's faces at which a half-edge of its triangles begins.
+int corner_of(const Surface& surface, int h) {
+  return surface.has_polygons() ? surface.division.data()[h] : h;
+}
+
 // The source vertex of every row of texture coordinates.
 std::vector<int> source_of_texture_vertex(const ExportedModel& model, const std::vector<int>& rows) {
   std::vector<int> source = model.embedding.source_vertex;
   source.resize(model.texture.uv.rows(), 0);
-  for (std::size_t corner = 0; corner < rows.size(); ++corner)
-    source[rows[corner]] = model.mesh.corners[corner];
+  const FaceView faces = model.surface.faces();
+  for (int f = 0; f < faces.count(); ++f)
+    for (int k = 0; k < faces.degree(f); ++k) source[rows[faces.start(f) + k]] = faces[f][k];
   return source;
 }
 
-double triangle_area(const Mesh& mesh, Eigen::Index t) {
-  const Vector3 a = mesh.V.row(mesh.F(t, 0)), b = mesh.V.row(mesh.F(t, 1)), c = mesh.V.row(mesh.F(t, 2));
+double triangle_area(const Surface& surface, Eigen::Index t) {
+  const auto v = surface.triangles.row(t);
+  const Vector3 a = surface.V.row(v[0]), b = surface.V.row(v[1]), c = surface.V.row(v[2]);
   return (b - a).cross(c - a).norm() / 2;
 }
 
-// The means over a range of triangles, by their areas in the source. What was left out does
-// not count.
-FaceDistortion mean_distortion(const Mesh& mesh, const std::vector<FaceDistortion>& of_triangle,
+// The mean distortion of a range of triangles, weighted by their areas in the source. Triangles that were not
+// measured do not count.
+FaceDistortion mean_distortion(const Surface& surface, const std::vector<FaceDistortion>& of_triangle,
                                std::pair<Eigen::Index, Eigen::Index> range) {
   FaceDistortion mean;
   double area = 0;
   for (Eigen::Index t = range.first; t < range.second; ++t) {
     if (!(of_triangle[t].area > 0)) continue;
-    const double share = triangle_area(mesh, t);
+    const double share = triangle_area(surface, t);
     mean.area += share * of_triangle[t].area;
     mean.angle += share * of_triangle[t].angle;
     area += share;
@@ -107,20 +113,21 @@ FaceDistortion mean_distortion(const Mesh& mesh, const std::vector<FaceDistortio
   return mean;
 }
 
-std::vector<FaceDistortion> distortion_of_faces(const PolygonMesh& polygons, const Mesh& mesh,
+std::vector<FaceDistortion> distortion_of_faces(const Surface& surface,
                                                 const std::vector<FaceDistortion>& of_triangle) {
+  const FaceView faces = surface.faces();
   std::vector<FaceDistortion> result;
   Eigen::Index t = 0;
-  for (int f = 0; f < polygons.face_count(); ++f) {
-    const Eigen::Index end = t + polygons.face_degree(f) - 2;
-    result.push_back(end == t + 1 ? of_triangle[t] : mean_distortion(mesh, of_triangle, {t, end}));
+  for (int f = 0; f < faces.count(); ++f) {
+    const Eigen::Index end = t + faces.degree(f) - 2;
+    result.push_back(end == t + 1 ? of_triangle[t] : mean_distortion(surface, of_triangle, {t, end}));
     t = end;
   }
   return result;
 }
 
-// From blue (shrunk) by white to red (stretched), a factor of 8 at the ends: the diverging map of K. Moreland
-// (2009) in straight lines.
+// From blue (shrunk) through white to red (stretched), with a factor of 8 at the ends: the diverging map of
+// K. Moreland (2009), linear between its ends.
 Rgb distortion_colour(double log_area) {
   const double t = std::clamp(log_area / 3, -1.0, 1.0);
   const auto between = [&](double end) {
@@ -137,11 +144,12 @@ PlyProperty doubles(const std::string& name, const Eigen::VectorXd& values) {
   return {name, PlyType::float64, false, PlyType::uint8, {values.begin(), values.end()}, {}};
 }
 
-PlyProperty faces_of(const PolygonMesh& mesh) {
-  const PlyType count_type = corner_count_type(FaceView(mesh.corners, mesh.face_start));
-  PlyProperty property = {"vertex_indices", PlyType::int32, true, count_type, {}, {}};
-  property.values.assign(mesh.corners.begin(), mesh.corners.end());
-  property.list_start.assign(mesh.face_start.begin(), mesh.face_start.end());
+PlyProperty property_of(const FaceView& faces) {
+  PlyProperty property = {"vertex_indices", PlyType::int32, true, corner_count_type(faces), {}, {0}};
+  for (int f = 0; f < faces.count(); ++f) {
+    property.values.insert(property.values.end(), faces[f].begin(), faces[f].end());
+    property.list_start.push_back(property.values.size());
+  }
   return property;
 }
 
@@ -156,12 +164,12 @@ std::vector<double> face_quality(const ExportedModel& model) {
 
 std::vector<double> vertex_quality(const ExportedModel& model) {
   const std::vector<double> of_face = face_quality(model);
-  const PolygonMesh& mesh = model.mesh;
-  std::vector<double> sum(mesh.vertex_count(), 0.0), count(sum);
-  for (int f = 0; f < mesh.face_count(); ++f) {
-    for (int c = mesh.face_start[f]; c < mesh.face_start[f + 1]; ++c) {
-      sum[mesh.corners[c]] += of_face[f];
-      ++count[mesh.corners[c]];
+  const FaceView faces = model.surface.faces();
+  std::vector<double> sum(model.surface.vertex_count(), 0.0), count(sum);
+  for (int f = 0; f < faces.count(); ++f) {
+    for (const int v : faces[f]) {
+      sum[v] += of_face[f];
+      ++count[v];
     }
   }
   for (std::size_t v = 0; v < sum.size(); ++v)
@@ -170,17 +178,18 @@ std::vector<double> vertex_quality(const ExportedModel& model) {
 }
 
 std::string obj_text(const ExportedModel& model) {
-  std::string text = "# texture coordinates: orbitutte embedding " + model.embedding.signature + "\n";
+  std::string text = "# texture coordinates: orbitutte embedding " + model.embedding.target.signature + "\n";
   const auto out = std::back_inserter(text);
-  const PolygonMesh& mesh = model.mesh;
+  const Points& V = model.surface.V;
+  const FaceView faces = model.surface.faces();
   const std::vector<int> rows = texture_rows(model);
   // The shortest decimals that read back as the same doubles.
-  for (const auto& p : mesh.V.rowwise()) fmt::format_to(out, FMT_COMPILE("v {} {} {}\n"), p[0], p[1], p[2]);
+  for (const auto& p : V.rowwise()) fmt::format_to(out, FMT_COMPILE("v {} {} {}\n"), p[0], p[1], p[2]);
   for (const auto& p : model.texture.uv.rowwise()) fmt::format_to(out, FMT_COMPILE("vt {} {}\n"), p[0], p[1]);
-  for (int f = 0; f < mesh.face_count(); ++f) {
+  for (int f = 0; f < faces.count(); ++f) {
     text += "f";
-    for (int c = mesh.face_start[f]; c < mesh.face_start[f + 1]; ++c)
-      fmt::format_to(out, FMT_COMPILE(" {}/{}"), mesh.corners[c] + 1LL, rows[c] + 1LL);
+    for (int k = 0; k < faces.degree(f); ++k)
+      fmt::format_to(out, FMT_COMPILE(" {}/{}"), faces[f][k] + 1LL, rows[faces.start(f) + k] + 1LL);
     text += "\n";
   }
   return text;
@@ -188,20 +197,21 @@ std::string obj_text(const ExportedModel& model) {
 
 std::string glb_bytes(const ExportedModel& model) {
   const std::vector<int> rows = texture_rows(model), source = source_of_texture_vertex(model, rows);
-  check_glb_size(44 * source.size() + 12 * static_cast<std::size_t>(model.triangles.rows()), "the model");
+  check_glb_size(44 * source.size() + 12 * static_cast<std::size_t>(model.surface.triangles.rows()),
+                 "the model");
   const Points normals_of_input = vertex_normals(model);
   const std::vector<double> quality = vertex_quality(model);
   const auto count = static_cast<Eigen::Index>(source.size());
   Points positions(count, 3), normals(count, 3);
   std::vector<Rgb> colours;
   for (Eigen::Index v = 0; v < count; ++v) {
-    positions.row(v) = model.mesh.V.row(source[v]);
+    positions.row(v) = model.surface.V.row(source[v]);
     normals.row(v) = normals_of_input.row(source[v]);
     colours.push_back(distortion_colour(quality[source[v]]));
   }
   std::vector<std::uint32_t> indices;
-  for (const int corner : model.triangles.reshaped<Eigen::RowMajor>())
-    indices.push_back(static_cast<std::uint32_t>(rows[corner]));
+  for (int h = 0; h < static_cast<int>(model.surface.triangles.size()); ++h)
+    indices.push_back(static_cast<std::uint32_t>(rows[corner_of(model.surface, h)]));
   GltfModel gltf;
   const std::map<std::string, int> attributes = {
       {"POSITION", gltf.add_positions(positions)},
@@ -215,32 +225,27 @@ std::string glb_bytes(const ExportedModel& model) {
 }
 
 std::string ply_bytes(const ExportedModel& model) {
-  const PolygonMesh& mesh = model.mesh;
+  const Points& V = model.surface.V;
+  const FaceView faces = model.surface.faces();
   const PlyElement vertex = {"vertex",
-                             static_cast<std::size_t>(mesh.V.rows()),
-                             {doubles("x", mesh.V.col(0)), doubles("y", mesh.V.col(1)),
-                              doubles("z", mesh.V.col(2)), floats("quality", vertex_quality(model))}};
+                             static_cast<std::size_t>(V.rows()),
+                             {doubles("x", V.col(0)), doubles("y", V.col(1)), doubles("z", V.col(2)),
+                              floats("quality", vertex_quality(model))}};
   const PlyElement face = {"face",
-                           static_cast<std::size_t>(mesh.face_count()),
-                           {faces_of(mesh), floats("quality", face_quality(model))}};
-  return serialize_ply(
-      {{"quality: log2 of the area distortion of the orbitutte embedding " + model.embedding.signature},
-       {vertex, face}});
+                           static_cast<std::size_t>(faces.count()),
+                           {property_of(faces), floats("quality", face_quality(model))}};
+  return serialize_ply({{"quality: log2 of the area distortion of the orbitutte embedding " +
+                         model.embedding.target.signature},
+                        {vertex, face}});
 }
 
-ExportedModel exported_model(const PolygonMesh& mesh, const Embedding& embedding, TextureChart chart) {
-  if (!is_cut_from(mesh, embedding)) throw MeshError("the embedding is none of this mesh");
-  const Triangulation triangulation = triangulate(mesh);
-  ExportedModel model = {mesh, triangulation.corners, embedding, texture_coordinates(embedding, chart), {}};
-  model.embedding.faces = cut_triangles(mesh, triangulation, embedding);
-  const Mesh triangles = {mesh.V, on_vertices(triangulation, mesh.corners)};
-  const std::vector<FaceDistortion> of_triangle = measure_faces(triangles, model.embedding);
-  model.of_face = distortion_of_faces(mesh, triangles, of_triangle);
+ExportedModel exported_model(Surface surface, const Embedding& embedding, TextureChart chart) {
+  if (!is_cut_from(surface, embedding))
+    throw MeshError("the embedding does not belong to this mesh; give the mesh that was embedded");
+  ExportedModel model = {std::move(surface), embedding, texture_coordinates(embedding, chart), {}};
+  model.embedding.faces = cut_triangles(model.surface, embedding);
+  model.of_face = distortion_of_faces(model.surface, measure_faces(model.surface, model.embedding));
   return model;
-}
-
-ExportedModel exported_model(const Mesh& mesh, const Embedding& embedding, TextureChart chart) {
-  return exported_model(to_polygon_mesh(mesh), embedding, chart);
 }
 
 void write_model(const std::string& path, const ExportedModel& model) {

@@ -6,36 +6,38 @@
 #include <string>
 
 #include "orbitutte/export/texture_chart.h"
-#include "orbitutte/mesh/polygon_mesh.h"
+#include "orbitutte/mesh/surface.h"
 #include "orbitutte/verify/distortion.h"
 
 namespace orbitutte {
 
-/// A source mesh and all that is written of its embedding.
+/// A surface and everything about its embedding that is written.
 struct ExportedModel {
-  PolygonMesh mesh;                     ///< the input
-  Faces triangles;                      ///< T x 3: its faces divided, as indices into mesh.corners
-  Embedding embedding;                  ///< of it
-  TextureCoordinates texture;           ///< of the embedding
-  std::vector<FaceDistortion> of_face;  ///< m: of the input's faces, of polygons the means of their triangles
-                                        ///< by area, so that A is the polygon's own
+  /// The input.
+  Surface surface;
+  /// The embedding of the input.
+  Embedding embedding;
+  /// Texture coordinates of the embedding.
+  TextureCoordinates texture;
+  /// m: the distortion of the input's faces. A polygon's is the mean over its triangles, weighted by area, so
+  /// that A is the polygon's own.
+  std::vector<FaceDistortion> of_face;
 };
 
-/// The mesh has passed `inspect`. Throws MeshError where the embedding is none of the mesh.
-ExportedModel exported_model(const PolygonMesh& mesh, const Embedding& embedding, TextureChart chart);
-ExportedModel exported_model(const Mesh& mesh, const Embedding& embedding, TextureChart chart);
+/// Throws MeshError if the embedding is not one of the surface.
+ExportedModel exported_model(Surface surface, const Embedding& embedding, TextureChart chart);
 
 /// Writes the format that the path's ending names (any case):
-/// - OBJ: the input's vertices and faces, untouched; seams only in `vt`;
-/// - GLB: the faces in triangles, a vertex for every pair of position and texture coordinates, smooth
+/// - OBJ: the input's vertices and faces, untouched; only `vt` has seams;
+/// - GLB: the faces as triangles, a vertex for every pair of position and texture coordinates, smooth
 ///   normals, log area distortion as vertex colours, single precision;
 /// - PLY, binary: the input's vertices and faces with `quality`, the base-2 logarithm of the area distortion
-///   A, averaged over the faces around a vertex;
-/// - VTP (XML, base64): the cut mesh in space with its sphere positions, texture coordinates and source
+///   A; at a vertex it is the mean over the faces around it;
+/// - VTP (XML, base64): the cut mesh in space, with its sphere positions, texture coordinates and source
 ///   vertices as point arrays, and area and angle distortion as cell arrays.
 ///
 /// The file appears whole or not at all. Throws ArgumentError for another ending or a model too large for the
-/// format, FileError.
+/// format, and FileError.
 void write_model(const std::string& path, const ExportedModel& model);
 
 }  // namespace orbitutte

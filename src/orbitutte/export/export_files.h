@@ -14,10 +14,10 @@ std::string glb_bytes(const ExportedModel& model);
 std::string ply_bytes(const ExportedModel& model);
 std::string vtp_text(const ExportedModel& model);
 
-/// log2 A of every face (m); zero where the face was left out.
+/// log2 A of every face (m); zero if the face was not measured.
 std::vector<double> face_quality(const ExportedModel& model);
 
-/// Its mean over the faces around every input vertex (n).
+/// The mean quality of the faces around every input vertex (n).
 std::vector<double> vertex_quality(const ExportedModel& model);
 
 }  // namespace orbitutte

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Through tinygltf, whose implementation is compiled here alone.
+// Uses tinygltf; only this file compiles its implementation.
 #define TINYGLTF_IMPLEMENTATION
 #define TINYGLTF_NO_STB_IMAGE
 #define TINYGLTF_NO_STB_IMAGE_WRITE
@@ -24,7 +24,7 @@ struct GltfModel::State {
   tinygltf::Mesh mesh;
   std::string bytes;  // of the buffer
 
-  // A view of all bytes from `start` on. A stride of 0 stands for none.
+  // A view of all bytes from `start` on. A stride of 0 means none.
   int add_view(std::size_t start, std::size_t stride, int target) {
     tinygltf::BufferView view;
     view.buffer = 0;
@@ -61,7 +61,8 @@ GltfModel::~GltfModel() = default;
 int GltfModel::add_positions(const Points& V) {
   const int index = add_vectors(V);
   tinygltf::Accessor& accessor = state_->model.accessors[index];
-  for (int k = 0; k < 3; ++k) {  // rounding is monotone: the bounds of the rounded are the rounded bounds
+  // Rounding is monotone, so the bounds of the rounded numbers are the rounded bounds.
+  for (int k = 0; k < 3; ++k) {
     accessor.minValues.push_back(static_cast<float>(V.col(k).minCoeff()));
     accessor.maxValues.push_back(static_cast<float>(V.col(k).maxCoeff()));
   }
@@ -153,9 +154,9 @@ double linear_channel(std::uint8_t channel) {
 }
 
 void check_glb_size(std::size_t bytes, const std::string& what) {
-  // What is not mesh stays far below a mebibyte.
+  // Everything besides the mesh stays far below a mebibyte.
   if (bytes > std::numeric_limits<std::uint32_t>::max() - (std::size_t{1} << 20))
-    throw ArgumentError(fmt::format("{} is too large for GLB, which ends at 4 GiB: write PLY", what));
+    throw ArgumentError(fmt::format("{} is too large for GLB, which holds at most 4 GiB; write .ply", what));
 }
 
 }  // namespace orbitutte

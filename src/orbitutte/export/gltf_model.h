@@ -13,34 +13,34 @@
 
 namespace orbitutte {
 
-/// What add_... returns are numbers of accessors, to be named in primitives. Numbers are stored in single
+/// The add_... functions return accessor numbers for use in primitives. Numbers are stored in single
 /// precision.
 class GltfModel {
  public:
   GltfModel();
   ~GltfModel();
 
-  /// POSITION, with the bounds that glTF asks for. V: n x 3.
+  /// POSITION, with the bounds that glTF requires. V: n x 3.
   int add_positions(const Points& V);
 
   /// NORMAL and other vectors. N: n x 3.
   int add_vectors(const Points& N);
 
-  /// TEXCOORD_0, from the lower left corner as everywhere else here; glTF counts from the upper left.
-  /// coordinates: n x 2.
+  /// TEXCOORD_0, counted from the lower left corner as everywhere else here, although glTF counts from the
+  /// upper left. coordinates: n x 2.
   int add_texture_coordinates(const Eigen::MatrixX2d& coordinates);
 
-  /// COLOR_0, of sRGB colours.
+  /// COLOR_0, from sRGB colours.
   int add_colours(const std::vector<Rgb>& colours);
 
-  /// Indices, three a triangle.
+  /// Indices, three per triangle.
   int add_triangles(const std::vector<std::uint32_t>& indices);
 
-  /// The number of a matt material of an sRGB colour; double_sided of both orientations.
+  /// Returns the number of a matt material with an sRGB colour. Sides::both makes it visible from both sides.
   enum class Sides { front, both };
   int add_material(const std::string& name, const Rgb& colour, Sides sides);
 
-  /// Triangles of vertices with attributes such as {"POSITION", accessor}.
+  /// Triangles whose vertices have attributes such as {"POSITION", accessor}.
   void add_primitive(const std::map<std::string, int>& attributes, int indices, int material);
 
   /// The GLB file.
@@ -51,11 +51,11 @@ class GltfModel {
   std::unique_ptr<State> state_;
 };
 
-/// sRGB, 0 .. 255, to the linear scale 0 .. 1 that glTF's colours are on.
+/// Converts sRGB, 0 .. 255, to the linear scale 0 .. 1 of glTF's colours.
 double linear_channel(std::uint8_t channel);
 
-/// Throws ArgumentError where so many bytes of vertices and indices do not fit into a GLB, whose lengths are
-/// 32-bit numbers; `what` is named.
+/// Throws an ArgumentError that names `what` if so many bytes of vertices and indices do not fit into a GLB,
+/// whose lengths are 32-bit numbers.
 void check_glb_size(std::size_t bytes, const std::string& what);
 
 }  // namespace orbitutte

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "orbitutte/export/html_text.h"
 
-#include <fmt/format.h>
 #include <openssl/evp.h>
 
 #include <algorithm>
-
-#include "orbitutte/types.h"
 
 namespace orbitutte {
 
@@ -38,9 +35,9 @@ std::string escape_html(std::string_view text) {
 }
 
 std::string base64(std::string_view bytes) {
-  constexpr std::size_t piece =
-      3 << 20;  // a multiple of three bytes, so that no piece but the last is padded
-  std::string text(4 * ((bytes.size() + 2) / 3) + 1, '\0');  // the encoder closes with a zero byte
+  // A multiple of three bytes, so that only the last piece is padded.
+  constexpr std::size_t piece = 3 << 20;
+  std::string text(4 * ((bytes.size() + 2) / 3) + 1, '\0');  // the encoder ends with a zero byte
   std::size_t written = 0;
   for (std::size_t from = 0; from < bytes.size(); from += piece) {
     const std::size_t length = std::min(piece, bytes.size() - from);
@@ -50,21 +47,6 @@ std::string base64(std::string_view bytes) {
   }
   text.resize(written);
   return text;
-}
-
-std::string fill_slots(std::string_view text, const std::map<std::string, std::string>& contents) {
-  std::string filled;
-  while (true) {
-    const std::size_t open = text.find("{{");
-    const std::size_t close = text.find("}}", open);
-    if (open == std::string_view::npos || close == std::string_view::npos) return filled.append(text);
-    const std::string slot(text.substr(open + 2, close - open - 2));
-    const auto at = contents.find(slot);
-    if (at == contents.end())
-      throw ArgumentError(fmt::format("the template's slot '{}' has no content", slot));
-    filled.append(text.substr(0, open)).append(at->second);
-    text.remove_prefix(close + 2);
-  }
 }
 
 std::string grouped_digits(long long count) {

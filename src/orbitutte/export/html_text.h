@@ -1,22 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Text as HTML takes it.
+// Text in the form that HTML requires.
 #pragma once
 
-#include <map>
 #include <string>
 #include <string_view>
 
 namespace orbitutte {
 
-/// The text with & < > " ' as character references: safe between tags and within quoted attributes.
+/// Replaces & < > " ' by character references: the text is then safe between tags and within quoted
+/// attributes.
 std::string escape_html(std::string_view text);
 
 /// Base64 (RFC 4648, padded) of bytes.
 std::string base64(std::string_view bytes);
-
-/// A template's text with every {{slot}} replaced by its content. One pass: braces within a content stay as
-/// they are. Throws ArgumentError for a slot without a content.
-std::string fill_slots(std::string_view text, const std::map<std::string, std::string>& contents);
 
 /// A count with commas between groups of three digits.
 std::string grouped_digits(long long count);

@@ -13,7 +13,7 @@
 #include <numbers>
 #include <span>
 
-#include "orbitutte/geometry/spherical_triangle.h"
+#include "orbitutte/geometry/space.h"
 
 namespace orbitutte {
 namespace {
@@ -26,34 +26,28 @@ std::array<Vector3, 3> corners(const Embedding& embedding, Eigen::Index f) {
   return {embedding.positions.row(v[0]), embedding.positions.row(v[1]), embedding.positions.row(v[2])};
 }
 
-// The rows of a rotation that takes the middle of the tile to the z axis, and the direction in which it is
-// wider to the x axis.
-Matrix3 frame(const Embedding& embedding) {
+// Takes the middle of the tile to (0, 0, 1), and its wider direction to the x axis.
+Isometry frame(const Embedding& embedding) {
+  const Space space = embedding.space();
   Vector3 sum = Vector3::Zero();
-  Matrix3 spread = Matrix3::Zero();
   for (Eigen::Index f = 0; f < embedding.faces.rows(); ++f) {
     const auto [a, b, c] = corners(embedding, f);
-    const double area = std::abs(signed_area(a, b, c));
-    const Vector3 middle = (a + b + c) / 3;
-    sum += area * middle;
-    spread += area * middle * middle.transpose();
+    sum += std::abs(space.area(a, b, c)) * (a + b + c) / 3;
   }
-  const Vector3 z = sum.norm() > 0 ? Vector3(sum.normalized()) : Vector3(Vector3::UnitZ());
-  const Matrix3 across = Matrix3::Identity() - z * z.transpose();
-  const Eigen::SelfAdjointEigenSolver<Matrix3> axes(across * spread * across);
-  Vector3 x = across * axes.eigenvectors().col(2);
-  x = x.norm() > 0.5 ? x.normalized() : z.unitOrthogonal();
-  Eigen::Index largest = 0;
-  x.cwiseAbs().maxCoeff(&largest);
-  if (x[largest] < 0) x = -x;
-  Matrix3 rows;
-  rows << x.transpose(), z.cross(x).transpose(), z.transpose();
-  return rows;
+  const Isometry centred = space.to_origin(sum.norm() > 0 ? space.retract(sum) : Space::origin());
+  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
+  for (Eigen::Index f = 0; f < embedding.faces.rows(); ++f) {
+    const auto [a, b, c] = corners(embedding, f);
+    const Vector2d middle = space.flatten(centred * Vector3((a + b + c) / 3));
+    spread += std::abs(space.area(a, b, c)) * middle * middle.transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(spread);
+  Vector2d wide = axes.eigenvectors().col(1);
+  if (wide[std::abs(wide[0]) < std::abs(wide[1])] < 0) wide = -wide;
+  return space.rotation(Space::origin(), -std::atan2(wide.y(), wide.x())) * centred;
 }
 
-Vector2d stereographic(const Vector3& p) { return p.head<2>() / std::max(1 + p.z(), 1e-12); }
-
-// In turns: longitude from the date line, latitude from the south pole; the y axis is the poles'.
+// Longitude from the date line and latitude from the south pole, in turns. The poles lie on the y axis.
 Vector2d equirectangular(const Vector3& p) {
   return {0.5 + std::atan2(p.x(), p.z()) / (2 * pi), 0.5 + std::asin(std::clamp(p.y(), -1.0, 1.0)) / pi};
 }
@@ -67,7 +61,7 @@ Vector2d octahedral(const Vector3& p) {
   return (inner + Vector2d::Ones()) / 2;
 }
 
-// The least square that holds the corners of all faces, moved to the unit square.
+// Moves and scales the smallest square that holds the corners of all faces to the unit square.
 void fit_into_unit_square(const std::vector<int>& of_corner, Eigen::MatrixX2d& uv) {
   if (of_corner.empty()) return;
   Eigen::RowVector2d low = uv.row(of_corner[0]), high = low;
@@ -81,8 +75,8 @@ void fit_into_unit_square(const std::vector<int>& of_corner, Eigen::MatrixX2d& u
   uv.array() += 0.5;
 }
 
-// Corners more than half a turn to the left of their face's rightmost one get a pair of their own, a turn
-// further.
+// Gives a corner a pair of its own, a turn further to the right, if it lies more than half a turn to the left
+// of its face's rightmost corner.
 void reach_over_date_line(const Embedding& embedding, TextureCoordinates& result) {
   std::map<int, int> further;
   std::vector<Eigen::RowVector2d> added;
@@ -105,7 +99,7 @@ void reach_over_date_line(const Embedding& embedding, TextureCoordinates& result
     result.uv.row(vertices + static_cast<Eigen::Index>(k)) = added[k];
 }
 
-// Does the face cross one of the half planes behind the octahedron along which it was unfolded?
+// Does the face cross one of the half planes behind the octahedron along which the octahedron was unfolded?
 bool is_torn(const Points& seen, std::span<const int> face) {
   for (std::size_t k = 0; k < face.size(); ++k) {
     const Vector3 a = seen.row(face[k]), b = seen.row(face[(k + 1) % face.size()]);
@@ -119,8 +113,8 @@ double plane_area(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
   return (e.x() * g.y() - e.y() * g.x()) / 2;
 }
 
-// Both areas of a face are sums over the fan from its first corner, with signs: what lies outside of it
-// cancels.
+// Both areas of a face are sums over the fan from its first corner, with signs, so that parts outside of the
+// face cancel.
 struct FaceAreas {
   double flat = 0;  // in the square
   double round = 0;
@@ -133,7 +127,7 @@ FaceAreas face_areas(const Embedding& embedding, const Eigen::MatrixX2d& uv, std
   FaceAreas areas;
   for (std::size_t k = 2; k < face.size(); ++k) {
     areas.flat += plane_area(in_square(0), in_square(k - 1), in_square(k));
-    areas.round += signed_area(on_sphere(0), on_sphere(k - 1), on_sphere(k));
+    areas.round += embedding.space().area(on_sphere(0), on_sphere(k - 1), on_sphere(k));
   }
   areas.flat = std::abs(areas.flat);
   return areas;
@@ -158,7 +152,7 @@ double max_area_distortion(const Embedding& embedding, const TextureCoordinates&
   return worst;
 }
 
-// Of every corner the cut vertex itself.
+// The cut vertex of every corner.
 std::vector<int> corner_vertices(const FaceView& faces) {
   std::vector<int> vertices;
   for (int f = 0; f < faces.count(); ++f) vertices.insert(vertices.end(), faces[f].begin(), faces[f].end());
@@ -188,12 +182,17 @@ TextureChart parse_texture_chart(const std::string& text) {
 }
 
 TextureCoordinates texture_coordinates(const Embedding& embedding, TextureChart chart) {
-  const Points seen = embedding.positions * frame(embedding).transpose();
+  if (chart != TextureChart::stereographic && !embedding.space().is_closed())
+    throw ArgumentError(
+        fmt::format("the {} chart is one of the sphere, but {} is {}; take stereographic, which "
+                    "is the plane itself there",
+                    name(chart), embedding.target.signature, embedding.space().name()));
+  const Points seen = frame(embedding).on_rows(embedding.positions);
   TextureCoordinates result;
   result.uv.resize(seen.rows(), 2);
   for (Eigen::Index v = 0; v < seen.rows(); ++v) {
     const Vector3 p = seen.row(v);
-    result.uv.row(v) = chart == TextureChart::stereographic     ? stereographic(p)
+    result.uv.row(v) = chart == TextureChart::stereographic     ? Space::conformal(p)
                        : chart == TextureChart::equirectangular ? equirectangular(p)
                                                                 : octahedral(p);
   }

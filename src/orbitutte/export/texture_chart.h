@@ -9,30 +9,38 @@
 
 namespace orbitutte {
 
-/// Maps of the sphere, seen from the middle of the tile, into the unit square.
+/// Maps from the sphere into the unit square, centred at the middle of the tile.
 enum class TextureChart {
-  stereographic,    ///< from the point opposite to the middle of the tile: conformal
-  equirectangular,  ///< longitude and latitude, the poles to the sides of the tile where it is narrower
-  octahedral        ///< an octahedron unfolded: the half around the middle of the tile is the inner square
+  /// From the point opposite to the middle of the tile; conformal, and in the plane the plane itself.
+  stereographic,
+  /// Longitude and latitude. The poles lie beside the tile, in the direction in which it is narrower.
+  equirectangular,
+  /// An unfolded octahedron. The half around the middle of the tile is the inner square.
+  octahedral
 };
 
 /// "stereographic", "equirectangular" or "octahedral".
 std::string name(TextureChart chart);
 
-/// The chart that a name tells. Throws ArgumentError naming all.
+/// The chart with this name. Throws an ArgumentError that lists all names.
 TextureChart parse_texture_chart(const std::string& text);
 
 /// A point of the unit square for every corner of every face.
 struct TextureCoordinates {
-  Eigen::MatrixX2d uv;         ///< one pair for every cut vertex, then further ones where a face needs them
-  std::vector<int> of_corner;  ///< a row of uv for every corner of the embedding's input_faces()
-  double max_area_distortion = 1;  ///< of max(A, 1/A), A a face's share of the area in the square over its
-                                   ///< share on the sphere
-  int torn_faces = 0;  ///< faces across the outer edge of the octahedral chart, whose images are wrong there
+  /// One pair for every cut vertex, then further ones for faces that need them.
+  Eigen::MatrixX2d uv;
+  /// The row of uv of every corner of the embedding's input_faces().
+  std::vector<int> of_corner;
+  /// The largest max(A, 1/A), where A is a face's share of the area in the square over its share on the
+  /// sphere.
+  double max_area_distortion = 1;
+  /// Faces across the outer edge of the octahedral chart; their images there are wrong.
+  int torn_faces = 0;
 };
 
-/// Texture coordinates in the unit square; in the equirectangular chart faces across the date line reach over
-/// its right edge, where textures repeat.
+/// Texture coordinates in the unit square. In the equirectangular chart, faces across the date line reach
+/// beyond its right edge, where textures repeat. Throws ArgumentError for the charts of the sphere if the
+/// embedding lies in the plane.
 TextureCoordinates texture_coordinates(const Embedding& embedding, TextureChart chart);
 
 }  // namespace orbitutte

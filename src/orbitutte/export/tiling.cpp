@@ -19,10 +19,10 @@ namespace {
 void check_vertices(const std::vector<int>& vertices, int count) {
   for (const int v : vertices)
     if (v < 0 || v >= count)
-      throw ArgumentError(fmt::format("a seam names vertex {} of {} cut vertices", v, count));
+      throw ArgumentError(fmt::format("a seam names the cut vertex {}, but there are {}", v, count));
 }
 
-/// What an embedding that was read from files might get wrong.
+/// Checks for errors that an embedding read from files may have.
 void check_embedding(const Embedding& embedding) {
   const int vertices = static_cast<int>(embedding.positions.rows());
   if (!embedding.positions.allFinite())
@@ -34,41 +34,34 @@ void check_embedding(const Embedding& embedding) {
     throw ArgumentError("a face of the embedding names a vertex that does not exist");
   for (const Seam& seam : embedding.seams) {
     if (seam.left.size() != seam.right.size())
-      throw ArgumentError("the two banks of a seam differ in length");
+      throw ArgumentError("the two banks of a seam have different lengths");
     check_vertices(seam.left, vertices);
     check_vertices(seam.right, vertices);
   }
   if (embedding.seams.empty())
     throw ArgumentError(
-        "the embedding has no seams, as one into a fixed polygon has none: there are no symmetric copies "
-        "that would "
-        "tile the sphere");
+        "the embedding has no seams, so that no symmetric copies of it tile the sphere; embed the mesh into "
+        "an orbifold, not into a fixed polygon");
   const auto corners = static_cast<long long>(embedding.polygons.corners.size());
   const long long largest = std::max<long long>({vertices, embedding.faces.rows(), corners});
-  if (3 * largest * std::max(embedding.group_order, 1) > std::numeric_limits<int>::max())
-    throw ArgumentError(fmt::format("{} copies of {} faces have more corners than an int can count",
-                                    embedding.group_order, embedding.faces.rows()));
-}
-
-SymmetryGroup symmetry_group(const Embedding& embedding) {
-  std::vector<Matrix3> generators;
-  for (const Seam& seam : embedding.seams) generators.push_back(seam.transform);
-  SymmetryGroup group(generators, embedding.group_order);
-  if (group.order() != embedding.group_order)
+  if (3 * largest * std::max(embedding.target.group_order, 1) > std::numeric_limits<int>::max())
     throw ArgumentError(
-        fmt::format("the transforms of the seams generate {} symmetries, but the orbifold has {}",
-                    group.order(), embedding.group_order));
-  return group;
+        fmt::format("{} copies of {} faces have more than 2^31 - 1 corners; tile a coarser mesh",
+                    embedding.target.group_order, embedding.faces.rows()));
 }
 
-/// across[s][g]: the copy that meets the left bank of seam s of copy g, with its right bank.
+/// across[s][g]: the copy whose right bank of seam s meets the left bank of seam s of copy g.
 std::vector<std::vector<int>> copies_across_seams(const Embedding& embedding, const SymmetryGroup& group) {
   std::vector<std::vector<int>> across;
-  for (const Seam& seam : embedding.seams) across.push_back(group.right_products(seam.transform));
+  for (const Seam& seam : embedding.seams) {
+    across.push_back(group.right_products(seam.transform));
+    if (std::count(across.back().begin(), across.back().end(), -1) > 0)
+      throw ArgumentError("the transform of a seam does not belong to the group of the orbifold");
+  }
   return across;
 }
 
-/// For every copy a colour that no neighbour has: the first one free, copy by copy.
+/// Gives every copy the first colour that no neighbour has, copy by copy.
 std::vector<int> greedy_colours(const std::vector<std::vector<int>>& across, int tiles) {
   std::vector<std::vector<int>> neighbours(tiles);
   for (const std::vector<int>& copies : across) {
@@ -94,19 +87,24 @@ std::vector<TileCopy> tile_copies(const SymmetryGroup& group, const std::vector<
   const std::vector<int> colours = greedy_colours(across, group.order());
   std::vector<TileCopy> copies;
   copies.reserve(group.elements().size());
-  for (const Matrix3& g : group.elements())
-    copies.push_back({g, g.determinant() < 0, colours[copies.size()]});
+  for (const Isometry& g : group.elements())
+    copies.push_back({g, g.reverses_orientation(), colours[copies.size()]});
   return copies;
 }
 
-/// The vertices of the sphere. A vertex inside the tile has a copy in every tile; copies of vertices on seams
-/// coincide, and only these need sets. Vertices that no face uses have no copies at all.
+/// The vertices of the sphere. A vertex inside the tile has a copy in every tile. Copies of vertices on seams
+/// coincide, so only these need sets. Vertices that no face uses have no copies.
 struct Welding {
-  std::vector<int> copied;    ///< the cut vertices that faces use, ascending
-  std::vector<int> on_seam;   ///< n_cut: numbers those of copied that are on seams, -1 for all others
-  int seam_vertices = 0;      ///< how many have such a number
-  std::vector<int> smallest;  ///< |G| x seam_vertices, copy by copy: the smallest member of its set
-  int vertices = 0;           ///< of the sphere
+  /// The cut vertices that faces use, ascending.
+  std::vector<int> copied;
+  /// n_cut: a number for every copied vertex on a seam; -1 for all others.
+  std::vector<int> on_seam;
+  /// The number of vertices that have such a number.
+  int seam_vertices = 0;
+  /// |G| x seam_vertices, copy by copy: the smallest member of each member's set.
+  std::vector<int> smallest;
+  /// Of the sphere.
+  int vertices = 0;
 };
 
 /// Mirrors are told apart by their reflections, whose indices in the group are across[s][0].
@@ -161,12 +159,12 @@ Welding weld(const Embedding& embedding, const TiledFaces& tiled,
     if (in_face[v] && in_seam[v]) welding.on_seam[v] = welding.seam_vertices++;
   }
 
-  DisjointSets sets(embedding.group_order * welding.seam_vertices);
+  DisjointSets sets(embedding.target.group_order * welding.seam_vertices);
   for (std::size_t s = 0; s < across.size(); ++s) unite_banks(embedding.seams[s], across[s], welding, sets);
 
   const int inside = static_cast<int>(welding.copied.size()) - welding.seam_vertices;
-  welding.vertices = embedding.group_order * inside;
-  welding.smallest.resize(embedding.group_order * welding.seam_vertices);
+  welding.vertices = embedding.target.group_order * inside;
+  welding.smallest.resize(embedding.target.group_order * welding.seam_vertices);
   for (int i = 0; i < static_cast<int>(welding.smallest.size()); ++i) {
     welding.smallest[i] = sets.find(i);
     if (welding.smallest[i] == i) ++welding.vertices;
@@ -174,14 +172,14 @@ Welding weld(const Embedding& embedding, const TiledFaces& tiled,
   return welding;
 }
 
-/// A closed mesh of triangles has 3/2 as many edges as faces: Euler's V - E + F = 2 reads 2 V = F + 4.
+/// A closed mesh of triangles has 3/2 as many edges as faces, so Euler's V - E + F = 2 becomes 2 V = F + 4.
 void check_sphere(long long vertices, long long faces) {
   if (2 * vertices != faces + 4)
     throw ArgumentError(
         "the copies of the embedding do not close up into a sphere: its seams are not its whole boundary");
 }
 
-/// Appends the vertices of the tile's copies in turn, except those that an earlier copy has brought.
+/// Appends the vertices of the tile's copies in turn, except those that an earlier copy has added.
 class VertexSweep {
  public:
   VertexSweep(const Embedding& embedding, const Welding& welding, Tiling& tiling)
@@ -194,7 +192,7 @@ class VertexSweep {
     tiling_.source_vertex.resize(welding.vertices);
   }
 
-  /// The vertices of the sphere at the cut vertices of copy g. Call for g = 0, 1, 2, ... in turn.
+  /// The vertices of the sphere at the cut vertices of copy g. Call it for g = 0, 1, 2, ... in turn.
   const std::vector<int>& copy(int g) {
     for (const int v : welding_.copied) {
       const int k = welding_.on_seam[v];
@@ -213,7 +211,7 @@ class VertexSweep {
 
   int append(int g, int v) {
     const Vector3 position = tiling_.copies[g].transform * embedding_.positions.row(v).transpose();
-    tiling_.mesh.V.row(next_) = position.normalized().transpose();
+    tiling_.mesh.V.row(next_) = embedding_.space().retract(position);
     tiling_.source_vertex[next_] = embedding_.source_vertex[v];
     return next_++;
   }
@@ -221,12 +219,12 @@ class VertexSweep {
   const Embedding& embedding_;
   const Welding& welding_;
   Tiling& tiling_;
-  std::vector<int> vertex_of_;      // n_cut: of the present copy
-  std::vector<int> vertex_of_set_;  // |G| x seam vertices: at the smallest members
+  std::vector<int> vertex_of_;      // n_cut: of the current copy
+  std::vector<int> vertex_of_set_;  // |G| x seam vertices: set for the smallest members
   int next_ = 0;
 };
 
-/// Appends the polygons of copy g, from the same corners; mirrored copies are turned over.
+/// Appends the polygons of copy g, each from the same corner on; mirrored copies are turned over.
 void place_polygons(const TiledFaces& tiled, int g, const std::vector<int>& vertex_of, Tiling& tiling) {
   std::vector<int>& corners = tiling.polygons.corners;
   const FaceView polygons(tiled.polygons);
@@ -239,7 +237,7 @@ void place_polygons(const TiledFaces& tiled, int g, const std::vector<int>& vert
   }
 }
 
-/// Fills in the triangles of copy g; mirrored copies are turned over.
+/// Sets the triangles of copy g; mirrored copies are turned over.
 void place_triangles(const TiledFaces& tiled, int g, const std::vector<int>& vertex_of, Tiling& tiling) {
   const Eigen::Index faces = tiled.triangles.rows();
   const int second = tiling.copies[g].mirrored ? 2 : 1;
@@ -264,13 +262,13 @@ void require_closed(const Tiling& tiling) {
 
 std::vector<TileCopy> tile_copies(const Embedding& embedding) {
   check_embedding(embedding);
-  const SymmetryGroup group = symmetry_group(embedding);
+  const SymmetryGroup group = group_of(embedding);
   return tile_copies(group, copies_across_seams(embedding, group));
 }
 
 Tiling tile_sphere(const Embedding& embedding) {
   check_embedding(embedding);
-  const SymmetryGroup group = symmetry_group(embedding);
+  const SymmetryGroup group = group_of(embedding);
   const std::vector<std::vector<int>> across = copies_across_seams(embedding, group);
   const TiledFaces tiled = tiled_faces(embedding, mirrors_of_vertices(embedding, across));
   const Welding welding = weld(embedding, tiled, across);

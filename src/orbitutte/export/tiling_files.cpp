@@ -20,7 +20,8 @@
 namespace orbitutte {
 namespace {
 
-/// Blue in the lowest 5 bits, green, red, and the bit that says that there is a colour (VisCAM's convention).
+/// Blue in the lowest 5 bits, then green and red; the top bit says that there is a colour (VisCAM's
+/// convention).
 std::uint16_t stl_attribute(const Rgb& colour) {
   return static_cast<std::uint16_t>(0x8000 | (colour.red >> 3) << 10 | (colour.green >> 3) << 5 |
                                     colour.blue >> 3);
@@ -59,7 +60,7 @@ TileMaterials tile_materials(const Tiling& tiling) {
   return result;
 }
 
-// Not through PlyFile, which holds every number as a double: 2.8 GB more for 32 million faces.
+// Does not use PlyFile, which holds every number as a double: 2.8 GB more for 32 million faces.
 std::string ply_bytes(const Tiling& tiling) {
   const Mesh& mesh = tiling.mesh;
   const FaceView faces = tiling.faces();
@@ -149,7 +150,7 @@ std::string glb_bytes(const Tiling& tiling) {
                  "the tiling");
   const TileMaterials materials = tile_materials(tiling);
   GltfModel model;
-  // A point of the unit sphere is its own normal, so that both read the same bytes.
+  // A point of the unit sphere is its own normal, so positions and normals share the same bytes.
   const int positions = model.add_positions(tiling.mesh.V);
   for (int m = 0; m < static_cast<int>(materials.materials.size()); ++m) {
     std::vector<std::uint32_t> indices;

@@ -12,14 +12,16 @@ namespace orbitutte {
 
 /// A colour that occurs in a tiling.
 struct TileMaterial {
-  std::string name;  ///< "colour_2", or "colour_2_mirrored"
+  /// "colour_2", or "colour_2_mirrored".
+  std::string name;
   Rgb colour;
 };
 
-/// The colours in use, in the order in which the tiles first show them, and which of them each tile has.
+/// The colours in use, in the order in which the tiles first show them, and the colour of each tile.
 struct TileMaterials {
   std::vector<TileMaterial> materials;
-  std::vector<int> of_tile;  ///< |G|
+  /// |G|.
+  std::vector<int> of_tile;
 };
 
 TileMaterials tile_materials(const Tiling& tiling);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// VTK's XML format for polygonal data (VTK file formats, "XML file formats"), arrays as base64 behind their
-// length.
+// VTK's XML format for polygonal data (VTK file formats, "XML file formats"). Arrays are base64, preceded by
+// their length.
 #include <fmt/format.h>
 
 #include <cstdint>
@@ -46,15 +46,15 @@ std::string polygons(const FaceView& faces) {
 
 std::vector<double> flattened(const Points& points) { return {points.data(), points.data() + points.size()}; }
 
-// Every cut vertex in space.
+// The position in space of every cut vertex.
 std::vector<double> source_positions(const ExportedModel& model) {
   std::vector<double> result;
   for (const int v : model.embedding.source_vertex)
-    for (int k = 0; k < 3; ++k) result.push_back(model.mesh.V(v, k));
+    for (int k = 0; k < 3; ++k) result.push_back(model.surface.V(v, k));
   return result;
 }
 
-// Of the cut vertices only: a vertex of VTK has one pair.
+// The pairs of the cut vertices only, since a vertex of VTK has one pair.
 std::vector<double> texture_pairs(const ExportedModel& model) {
   std::vector<double> result;
   for (std::size_t v = 0; v < model.embedding.source_vertex.size(); ++v)
@@ -79,7 +79,7 @@ std::string vtp_text(const ExportedModel& model) {
              "<PolyData>\n<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" "
              "NumberOfStrips=\"0\" "
              "NumberOfPolys=\"{}\">\n",
-             points, model.mesh.face_count()) +
+             points, model.surface.faces().count()) +
          "<PointData TCoords=\"texture\">\n" +
          float_array("sphere", 3, flattened(model.embedding.positions)) +
          float_array("texture", 2, texture_pairs(model)) +

@@ -6,9 +6,11 @@
 #include <atomic>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "orbitutte/inspect/inspection.h"
 #include "orbitutte/mesh/disjoint_sets.h"
+#include "orbitutte/mesh/triangulation.h"
 #include "orbitutte/parallel.h"
 
 namespace orbitutte {
@@ -100,6 +102,15 @@ int count_boundary_curves(const Faces& F, const std::vector<int>& opposite) {
   return curves;
 }
 
+// What an inspection without defects tells of a surface that has no vertices and faces yet.
+Surface judged(const Inspection& inspection) {
+  Surface surface;
+  surface.topology = inspection.topology;
+  surface.unreferenced_vertices = inspection.unreferenced_vertices;
+  surface.zero_area_faces = inspection.zero_area_faces;
+  return surface;
+}
+
 }  // namespace
 
 bool is_degenerate(const Vector3& a, const Vector3& b, const Vector3& c) {
@@ -111,14 +122,18 @@ bool is_degenerate(const Vector3& a, const Vector3& b, const Vector3& c) {
   return !(ab.cross(bc).norm() > 8 * std::numeric_limits<double>::epsilon());
 }
 
-std::optional<SoundSurface> recognize(const Mesh& mesh) {
+namespace {
+
+// What a few linear sweeps tell of a sphere or disk without a defect, all but vertices and faces; nothing of
+// others.
+std::optional<Surface> judge_quickly(const Mesh& mesh) {
   const int n = static_cast<int>(mesh.V.rows()), m = static_cast<int>(mesh.F.rows());
   if (m == 0) return std::nullopt;
   if (!all_of(m, [&](int f) { return names_a_triangle(mesh, f); })) return std::nullopt;
   if (!all_of(n, [&](int v) { return is_in_range(mesh.V.row(v)); }) || size_of(mesh.V) < smallest_size)
     return std::nullopt;
 
-  SoundSurface result;
+  Surface result;
   result.connectivity = connect(mesh.F, n);
   const std::vector<int>& opposite = result.connectivity.opposite;
   if (!all_of(3 * m, [&](int h) { return is_manifold(mesh.F, result.connectivity, h); })) return std::nullopt;
@@ -142,25 +157,63 @@ std::optional<SoundSurface> recognize(const Mesh& mesh) {
   return result;
 }
 
-SoundSurface require_surface(const Mesh& mesh) {
-  if (std::optional<SoundSurface> surface = recognize(mesh)) return std::move(*surface);
+// The same of any surface; throws MeshError.
+Surface judge(const Mesh& mesh) {
+  if (std::optional<Surface> surface = judge_quickly(mesh)) return std::move(*surface);
   const Inspection inspection = inspect(mesh);
   require_embeddable(inspection);
   if (inspection.topology != Topology::projective_plane)
     throw std::logic_error("a mesh without defects was not recognised");
-  return {inspection.topology, connect(mesh.F, inspection.vertices), inspection.unreferenced_vertices,
-          inspection.zero_area_faces};
+  Surface surface = judged(inspection);
+  surface.connectivity = connect(mesh.F, inspection.vertices);
+  return surface;
 }
 
-DividedMesh divide(const PolygonMesh& mesh) {
+void take(Mesh&& mesh, Surface& surface) {
+  surface.V = std::move(mesh.V);
+  surface.triangles = std::move(mesh.F);
+}
+
+}  // namespace
+
+std::optional<Surface> recognize(Mesh&& mesh) {
+  std::optional<Surface> surface = judge_quickly(mesh);
+  if (surface) take(std::move(mesh), *surface);
+  return surface;
+}
+
+bool is_sound_sphere(const Mesh& mesh) {
+  const std::optional<Surface> surface = judge_quickly(mesh);
+  return surface && surface->topology == Topology::sphere && surface->unreferenced_vertices == 0;
+}
+
+Surface make_surface(Mesh&& mesh) {
+  Surface surface = judge(mesh);
+  take(std::move(mesh), surface);
+  return surface;
+}
+
+Surface make_surface(const Mesh& mesh) { return make_surface(Mesh(mesh)); }
+
+Surface make_surface(PolygonMesh&& mesh) {
+  if (is_triangle_mesh(mesh)) {
+    Points colours = std::move(mesh.colours);
+    Surface surface = make_surface(to_triangle_mesh(std::move(mesh)));
+    surface.colours = std::move(colours);
+    return surface;
+  }
   const Inspection inspection = inspect(mesh);
   require_embeddable(inspection);
-  DividedMesh result;
-  result.triangulation = triangulate(mesh);
-  result.triangles = {mesh.V, on_vertices(result.triangulation, mesh.corners)};
-  result.surface = {inspection.topology, connect(mesh, result.triangulation),
-                    inspection.unreferenced_vertices, inspection.zero_area_faces};
-  return result;
+  Surface surface = judged(inspection);
+  surface.division = triangulate(mesh);
+  surface.triangles = on_vertices(surface.division, mesh.corners);
+  surface.connectivity = connect(mesh, surface.division);
+  surface.polygons = {std::move(mesh.corners), std::move(mesh.face_start)};
+  surface.V = std::move(mesh.V);
+  surface.colours = std::move(mesh.colours);
+  return surface;
 }
+
+Surface make_surface(const PolygonMesh& mesh) { return make_surface(PolygonMesh(mesh)); }
 
 }  // namespace orbitutte

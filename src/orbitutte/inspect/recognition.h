@@ -4,7 +4,8 @@
 
 #include <optional>
 
-#include "orbitutte/mesh/triangulation.h"
+#include "orbitutte/mesh/polygon_mesh.h"
+#include "orbitutte/mesh/surface.h"
 
 namespace orbitutte {
 
@@ -12,31 +13,23 @@ namespace orbitutte {
 inline constexpr double largest_coordinate = 1e150;
 inline constexpr double smallest_size = 1e-150;
 
-/// A surface on which `inspect` finds no defect.
-struct SoundSurface {
-  Topology topology = Topology::sphere;
-  Connectivity connectivity;
-  int unreferenced_vertices = 0;
-  int zero_area_faces = 0;  ///< as Inspection counts them
-};
+/// The surface that a mesh is: a sphere, a disk or a projective plane. Throws MeshError with the first defect
+/// that `inspect` finds. If a mesh is moved in, its memory becomes the surface's; a mesh with a defect stays
+/// as it was.
+Surface make_surface(Mesh&& mesh);
+Surface make_surface(const Mesh& mesh);
 
-/// The mesh as a sphere or disk, in a few linear sweeps; nothing where it is another surface, or has a defect
-/// of any kind.
-std::optional<SoundSurface> recognize(const Mesh& mesh);
+/// The same of a mesh with faces of any number of corners, which are divided into triangles on the same
+/// vertices (triangulate). Positions that are moved in are not copied.
+Surface make_surface(PolygonMesh&& mesh);
+Surface make_surface(const PolygonMesh& mesh);
 
-/// The mesh as a sphere, disk or projective plane. Throws MeshError with the first defect that `inspect`
-/// finds.
-SoundSurface require_surface(const Mesh& mesh);
+/// The mesh as a sphere or disk, in a few linear sweeps. Nothing if it is another surface, or has a defect of
+/// any kind; then the mesh stays as it was.
+std::optional<Surface> recognize(Mesh&& mesh);
 
-/// A mesh of polygons as one of triangles, and how these make up the polygons.
-struct DividedMesh {
-  Mesh triangles;
-  Triangulation triangulation;
-  SoundSurface surface;
-};
-
-/// The polygons in triangles, on the same vertices. Throws as require_surface does.
-DividedMesh divide(const PolygonMesh& mesh);
+/// Is the mesh a sphere without a defect, and every vertex in some face? In a few linear sweeps.
+bool is_sound_sphere(const Mesh& mesh);
 
 /// Has the triangle no area but rounding errors, for the largest coordinate of its edges as the unit?
 bool is_degenerate(const Vector3& a, const Vector3& b, const Vector3& c);

@@ -8,7 +8,6 @@
 #include <set>
 
 #include "orbitutte/inspect/contacts.h"
-#include "orbitutte/mesh/triangulation.h"
 
 namespace orbitutte {
 namespace {
@@ -295,9 +294,9 @@ std::string name(WeakPlaceKind kind) {
   return {};
 }
 
-std::vector<WeakPlace> find_weak_places(const PolygonMesh& mesh) {
-  const PolygonTopology surface = topology_of(FaceView(mesh.corners, mesh.face_start));
-  const std::vector<char> on_boundary = boundary_vertices(surface, mesh.vertex_count());
+std::vector<WeakPlace> find_weak_places(int vertex_count, const FaceView& faces) {
+  const PolygonTopology surface = topology_of(faces);
+  const std::vector<char> on_boundary = boundary_vertices(surface, vertex_count);
   std::vector<WeakPlace> places;
   vertices_with_two_edges(surface, on_boundary)
       .append_to(places, "it comes to lie straight between them, unless it is marked");
@@ -306,11 +305,16 @@ std::vector<WeakPlace> find_weak_places(const PolygonMesh& mesh) {
       .append_to(places, "what it cuts off becomes an arc, unless a vertex there is marked");
   faces_on_the_boundary(surface, on_boundary)
       .append_to(places, "what it cuts off becomes an arc, unless a vertex there is marked");
-  const bool may_touch_twice = !is_triangle_mesh(mesh);  // two triangles share the edge between two vertices
+  // Two triangles share the edge between two vertices.
+  const bool may_touch_twice = surface.corner_count() != 3 * surface.face_count();
   if (may_touch_twice && !is_projective_plane(surface))
-    double_contact_places(surface, mesh.vertex_count())
+    double_contact_places(surface, vertex_count)
         .append_to(places, "what they enclose becomes an arc, unless a vertex there is marked");
   return places;
+}
+
+std::vector<WeakPlace> find_weak_places(const PolygonMesh& mesh) {
+  return find_weak_places(mesh.vertex_count(), FaceView(mesh.corners, mesh.face_start));
 }
 
 std::vector<int> collapsing_faces(const FaceView& faces, const std::vector<std::vector<int>>& mirrors,

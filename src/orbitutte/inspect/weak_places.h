@@ -30,6 +30,7 @@ struct WeakPlace {
 
 /// One of each kind that there is, in the order of the kinds; O(c log c) for c corners. The mesh is expected
 /// to have passed `inspect`.
+std::vector<WeakPlace> find_weak_places(int vertex_count, const FaceView& faces);
 std::vector<WeakPlace> find_weak_places(const PolygonMesh& mesh);
 
 /// The faces that must become arcs or points, ascending, whatever the solver does. `mirrors` are stretches of

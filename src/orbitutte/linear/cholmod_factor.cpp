@@ -19,8 +19,8 @@ namespace {
 
 static_assert(sizeof(SuiteSparse_long) == sizeof(SparseMatrix::StorageIndex));
 
-// CHOLMOD opens an OpenMP region of its own for every supernode, which costs more than it gains; while this
-// lives, such regions run on the calling thread alone. OpenMP is there only where CHOLMOD brought it along.
+// Keeps CHOLMOD's OpenMP regions on the calling thread for as long as it lives. CHOLMOD opens such a region
+// for every supernode, which costs more than it gains. OpenMP is present only if CHOLMOD brought it along.
 class SerialRegions {
  public:
   SerialRegions() {
@@ -44,7 +44,8 @@ cholmod_dense dense_view(const Eigen::MatrixXd& matrix) {
   view.nrow = view.d = static_cast<std::size_t>(matrix.rows());
   view.ncol = static_cast<std::size_t>(matrix.cols());
   view.nzmax = view.nrow * view.ncol;
-  view.x = const_cast<double*>(matrix.data());  // CHOLMOD's inputs are not const, but are not written to
+  // CHOLMOD takes inputs that are not const, but does not write to them.
+  view.x = const_cast<double*>(matrix.data());
   view.xtype = CHOLMOD_REAL;
   view.dtype = CHOLMOD_DOUBLE;
   return view;
@@ -138,10 +139,10 @@ class CholmodFactor : public SparseFactor {
   }
 
  private:
-  // Columns with the same rows below them.
+  // Consecutive columns with the same rows below them.
   struct Supernode {
-    long first;       // column
-    const long* row;  // of every row of L
+    long first;       // the first column
+    const long* row;  // the row of L in which each stored row lies
     DenseColumns L;
   };
 
@@ -155,15 +156,15 @@ class CholmodFactor : public SparseFactor {
             {static_cast<const double*>(factor_->x) + value_start[k], rows, super[k + 1] - super[k], rows}};
   }
 
-  // Where a supernode runs into the trailing columns, its part before them.
+  // The columns of a supernode that are not trailing.
   Supernode leading_part(std::size_t k) const {
     Supernode s = supernode(k);
     s.L.columns = std::clamp(static_cast<long>(factor_->n) - trailing_ - s.first, 0L, s.L.columns);
     return s;
   }
 
-  // The order of A's rows in the factor: a postorder of the leading part's elimination tree, which supernodes
-  // need, and the trailing rows as they are.
+  // The order of A's rows in the factor: a postorder of the leading part's elimination tree, as supernodes
+  // require; the trailing rows keep their order.
   std::vector<long> postorder(const SparseMatrix& lower) {
     const long leading = lower.rows() - trailing_;
     std::vector<long> order(lower.rows());

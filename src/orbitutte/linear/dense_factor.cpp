@@ -68,7 +68,7 @@ void for_each_pair(const std::vector<Range>& rows, const Visit& visit) {
 
 Eigen::MatrixXd zero_lower_triangle(Eigen::Index n) {
   Eigen::MatrixXd A(n, n);
-  // From the tile of the diagonal on: whole tiles are computed with.
+  // The computation takes whole tiles, so a tile on the diagonal is set to zero above it, too.
   for (Eigen::Index column = 0; column < n; ++column) A.col(column).tail(n - column / tile * tile).setZero();
   return A;
 }
@@ -99,7 +99,7 @@ void multiply_by_transpose(Eigen::MatrixXd& L) {
   Eigen::MatrixXd product(n, n);
   for_each_pair(tiles(0, n), [&](const Range& row, const Range& column) {
     const int terms =
-        column.begin + column.count;  // the columns in which the upper one of both tiles is not zero
+        column.begin + column.count;  // the columns in which the upper of the two tiles is not zero
     dgemm_("N", "T", &row.count, &column.count, &terms, &one, L.data() + row.begin, &n,
            L.data() + column.begin, &n, &zero,
            product.data() + row.begin + static_cast<Eigen::Index>(column.begin) * n, &n);

@@ -15,18 +15,18 @@
 namespace orbitutte {
 namespace {
 
-constexpr int leaf_size = 800;       // vertices of a set that is not bisected any further, about
-constexpr int smoothing_sweeps = 4;  // over the interfaces of the parts
+constexpr int leaf_size = 800;       // sets of at most about so many vertices are not bisected further
+constexpr int smoothing_sweeps = 4;  // over the interfaces between the parts
 
 int vertex_count(const Neighbors& graph) { return static_cast<int>(graph.start.size()) - 1; }
 
 struct Clusters {
-  std::vector<int> of;  // of every vertex
+  std::vector<int> of;  // the cluster of every vertex
   int count = 0;
 };
 
-// Vertices with their neighbours, wherever none of them has been taken; what is left over joins a cluster
-// beside it.
+// Makes a cluster of a vertex and its neighbours if none of them belongs to one yet. Vertices left over join
+// a neighbouring cluster.
 Clusters clustered(const Neighbors& graph) {
   const int n = vertex_count(graph);
   Clusters clusters = {std::vector<int>(n, -1)};
@@ -51,7 +51,7 @@ Clusters clustered(const Neighbors& graph) {
   return clusters;
 }
 
-// The graph of the clusters; its weights count vertices and edges.
+// The graph of the clusters. Its weights count the vertices of a cluster and the edges between two.
 struct ClusterGraph {
   std::vector<idx_t> start = {0}, neighbor, vertex_weight, edge_weight;
 };
@@ -65,7 +65,8 @@ ClusterGraph graph_of(const Clusters& clusters, const Neighbors& graph) {
   for (int v = 0; v < n; ++v) members[fill[clusters.of[v]]++] = v;
 
   ClusterGraph result;
-  std::vector<int> place(clusters.count, -1);  // in result.neighbor, where it is from this cluster's begin on
+  // The place of each cluster in result.neighbor; valid if it is not before the current cluster's begin.
+  std::vector<int> place(clusters.count, -1);
   for (int c = 0; c < clusters.count; ++c) {
     const int begin = static_cast<int>(result.neighbor.size());
     for (int m = first[c]; m < first[c + 1]; ++m) {
@@ -166,7 +167,8 @@ std::vector<int> bisected(ClusterGraph graph, int levels) {
   return part;
 }
 
-// Clusters leave the interfaces jagged: a vertex most of whose neighbours lie in one other part moves there.
+// Smooths the interfaces, which clusters leave jagged: moves a vertex to another part if most of its
+// neighbours lie there.
 void smooth_interfaces(const Neighbors& graph, std::vector<int>& part) {
   std::vector<int> moving, next;
   for (int v = 0; v < vertex_count(graph); ++v) {
@@ -194,8 +196,8 @@ void smooth_interfaces(const Neighbors& graph, std::vector<int>& part) {
   }
 }
 
-// The depth of every vertex in the tree: that of the first bisection at whose interface it was taken, or
-// `levels`.
+// The depth of every vertex in the tree: the depth of the bisection that makes it a separator, or `levels` if
+// none does.
 std::vector<int> depths_of_separation(const Neighbors& graph, const std::vector<int>& part, int levels) {
   const int n = vertex_count(graph);
   std::vector<int> depth(n, levels), near_interface;
@@ -207,7 +209,7 @@ std::vector<int> depths_of_separation(const Neighbors& graph, const std::vector<
     }
   }
   for (int d = 0; d < levels; ++d) {
-    const int shift = levels - 1 - d;  // part >> (shift + 1) names the node, the bit below its half
+    const int shift = levels - 1 - d;  // part >> (shift + 1) names the node, the next lower bit its half
     std::vector<int> candidates;
     std::vector<std::array<int, 2>> on_side(std::size_t{1} << d, {0, 0});
     for (const int v : near_interface) {
@@ -222,14 +224,15 @@ std::vector<int> depths_of_separation(const Neighbors& graph, const std::vector<
     }
     for (const int v : candidates) {
       const auto& count = on_side[part[v] >> (shift + 1)];
-      if ((part[v] >> shift & 1) == (count[1] < count[0])) depth[v] = d;  // the side with fewer vertices
+      // The separator comes from the side with fewer vertices.
+      if ((part[v] >> shift & 1) == (count[1] < count[0])) depth[v] = d;
     }
   }
   return depth;
 }
 
-// The complete binary tree of so many levels below its root, without vertices yet; `place` is where node
-// (depth, path) comes.
+// The complete binary tree with `levels` levels below its root, without vertices yet. `place` holds the index
+// of node (depth, path).
 struct Tree {
   std::vector<Dissection::Node> nodes;
   std::vector<std::vector<int>> place;  // [depth][path]
@@ -255,8 +258,8 @@ Tree complete_tree(int levels) {
   return tree;
 }
 
-// Orders one set of vertices, order[begin .. end - 1], by approximate minimum degree; `place` is where each
-// stands in `order`.
+// Orders one set of vertices, order[begin .. end - 1], by approximate minimum degree. `place` holds the
+// position of each vertex in `order`.
 void order_set(const Neighbors& graph, const std::vector<int>& place, const Dissection::Node& node,
                std::vector<int>& order) {
   const int count = node.end - node.begin;
@@ -269,7 +272,7 @@ void order_set(const Neighbors& graph, const std::vector<int>& place, const Diss
         row.push_back(at - node.begin);
     start.push_back(static_cast<int>(row.size()));
   }
-  row.push_back(0);  // never without a first element
+  row.push_back(0);  // AMD needs a first element
   if (amd_order(count, start.data(), row.data(), eliminated.data(), nullptr, nullptr) < AMD_OK)
     throw std::bad_alloc();
   for (int k = 0; k < count; ++k) order[node.begin + k] = set[eliminated[k]];

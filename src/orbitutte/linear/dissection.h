@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Nested dissection of a mesh's graph: the elimination order of its Laplacian, and a tree of separators along
-// which the work parts.
+// Nested dissection of a mesh's graph: an elimination order for its Laplacian, and a tree of separators that
+// divides the work.
 #pragma once
 
 #include <vector>
@@ -9,26 +9,31 @@
 
 namespace orbitutte {
 
-/// A binary tree of vertex sets, every one of which separates the sets of its two subtrees from each other: a
-/// vertex has neighbours in its own set, in the sets below it, and in those on the way to the root.
-/// Eliminating `order` from its beginning keeps the Cholesky factor sparse.
+/// A binary tree of vertex sets. Every set separates the sets of its two subtrees: a vertex has neighbours
+/// only in its own set, in the sets below, and in those on the way to the root. Eliminating the vertices in
+/// the order of `order` keeps the Cholesky factor sparse.
 struct Dissection {
   struct Node {
-    int parent = -1;  ///< an index into nodes, greater than the node's own; -1 at the root
-    int depth = 0;    ///< of the root: 0
-    int first = 0;    ///< the node's subtree holds order[first .. end - 1],
-    int begin = 0;    ///< and its own set order[begin .. end - 1]
+    /// An index into nodes, greater than the node's own; -1 at the root.
+    int parent = -1;
+    /// 0 at the root.
+    int depth = 0;
+    /// The node's subtree holds order[first .. end - 1], its own set is order[begin .. end - 1].
+    int first = 0;
+    int begin = 0;
     int end = 0;
   };
-  std::vector<int> order;   ///< n: the vertices; order[k] is eliminated k-th
-  std::vector<Node> nodes;  ///< children before their parents; the last is the root
+  /// n: the vertices; order[k] is eliminated k-th.
+  std::vector<int> order;
+  /// Children come before their parents; the last node is the root.
+  std::vector<Node> nodes;
 };
 
-/// Bisects the graph, coarsened once, by METIS (G. Karypis, V. Kumar, "A fast and high quality multilevel
-/// scheme for partitioning irregular graphs", SIAM J. Sci. Comput. 20 (1998)), takes the vertices on one side
-/// of every interface as its separator, and orders each set by approximate minimum degree (P. Amestoy, T.
-/// Davis, I. Duff, "Algorithm 837: AMD", ACM TOMS 30 (2004)). On meshes the factor is about as sparse as
-/// METIS's own nested dissection makes it, in a tenth of the time (docs/benchmarks.md).
+/// Bisects the graph, coarsened once, with METIS (G. Karypis, V. Kumar, "A fast and high quality multilevel
+/// scheme for partitioning irregular graphs", SIAM J. Sci. Comput. 20 (1998)). The vertices on one side of
+/// each interface become its separator. Each set is ordered by approximate minimum degree (P. Amestoy, T.
+/// Davis, I. Duff, "Algorithm 837: AMD", ACM TOMS 30 (2004)). On meshes the factor is about as sparse as with
+/// METIS's own nested dissection, in a tenth of the time (docs/benchmarks.md).
 Dissection dissect(const Neighbors& graph);
 
 }  // namespace orbitutte

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Laplacians of graphs as sparse matrices, in blocks of one to three unknowns a vertex. Private to linear/
+// Laplacians of graphs as sparse matrices, in blocks of one to three unknowns per vertex. Private to linear/
 // and solve/.
 #pragma once
 
@@ -16,9 +16,9 @@ using Block = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMa
 
 // The unknowns of all vertices, numbered in the order of elimination.
 struct Unknowns {
-  std::vector<int> order;   // vertices with at least one unknown
-  std::vector<long> first;  // of each vertex; -1 where there are none
-  std::vector<int> count;   // of each vertex: 0 to 3
+  std::vector<int> order;   // the vertices that have unknowns
+  std::vector<long> first;  // the first unknown of each vertex; -1 if it has none
+  std::vector<int> count;   // the number of unknowns of each vertex: 0 to 3
   long total = 0;
 };
 
@@ -28,15 +28,16 @@ Unknowns number_unknowns(const std::vector<int>& order, std::vector<int> count);
 /// The vertex to which an unknown belongs.
 int holder(const Unknowns& unknowns, long unknown);
 
-/// What is said of a Laplacian that is not positive definite at this vertex (-1: not known which).
+/// The error for a Laplacian that is not positive definite at this vertex (-1: the vertex is not known).
 MeshError not_tied(int vertex);
 
-/// factorize(), whose failure becomes a MeshError naming the vertex. Null where there are no unknowns.
+/// Calls factorize() and turns its failure into a MeshError that names the vertex. Null if there are no
+/// unknowns.
 std::unique_ptr<SparseFactor> factorize_laplacian(const SparseMatrix& A, const Unknowns& unknowns,
                                                   Backend backend);
 
-// The lower triangle of the Laplacian sum of w |x_i - g x_j|^2 over the edges, in blocks: `coupling(e, v)` is
-// the block that edge e puts into the rows of its other end and the columns of v, without the factor -w.
+// The lower triangle of the Laplacian of sum of w |x_i - g x_j|^2 over the edges, in blocks. `coupling(e, v)`
+// is the block of edge e in the rows of its other end and the columns of v, without the factor -w.
 template <typename Coupling>
 SparseMatrix assemble(const Unknowns& unknowns, const Neighbors& near, const Eigen::VectorXd& w,
                       const Coupling& coupling) {
@@ -55,7 +56,8 @@ SparseMatrix assemble(const Unknowns& unknowns, const Neighbors& near, const Eig
   A.outerIndexPtr()[unknowns.total] = nonzeros;
   A.resizeNonZeros(nonzeros);
 
-  std::vector<std::pair<long, int>> below;  // first unknown of each later neighbour, and its place in `near`
+  // The first unknown of each later neighbour, and its place in `near`.
+  std::vector<std::pair<long, int>> below;
   for (const int v : unknowns.order) {
     double diagonal = 0;
     below.clear();

@@ -8,24 +8,27 @@
 
 namespace orbitutte {
 
-// A block with the later unknowns that it is coupled to, directly or through what was eliminated below it:
-// its border.
+// A block and its border: the later unknowns to which it is coupled, directly or through eliminated unknowns
+// below it.
 struct Substructure::Piece {
   long begin = 0, end = 0;
-  std::vector<long> border;                    // ascending
-  std::vector<int> children;                   // pieces
-  SparseMatrix equations;                      // without children: what is factorised,
-  std::shared_ptr<const SparseFactor> sparse;  // and its factor
-  Eigen::MatrixXd front;   // with children: the block's columns of L, the border's rows below
-  Eigen::MatrixXd update;  // its last rows and columns are what its elimination adds to K on its border,
-                           // until the parent has taken it
+  std::vector<long> border;   // ascending
+  std::vector<int> children;  // indices of pieces
+  // Without children: the matrix that is factorised, and its factor.
+  SparseMatrix equations;
+  std::shared_ptr<const SparseFactor> sparse;
+  // With children: the block's columns of L, with the border's rows below.
+  Eigen::MatrixXd front;
+  // The last rows and columns are what the elimination adds to K on the border. Empty once the parent has
+  // taken them.
+  Eigen::MatrixXd update;
 
   long own() const { return end - begin; }
   long size() const { return own() + static_cast<long>(border.size()); }
 
   DenseColumns dense() const { return {front.data(), size(), own(), size()}; }
 
-  // Where an unknown of the block or its border stands in the piece.
+  // The index within the piece of an unknown of the block or its border.
   long place(long unknown) const {
     if (unknown < end) return unknown - begin;
     return own() + (std::lower_bound(border.begin(), border.end(), unknown) - border.begin());
@@ -41,7 +44,7 @@ void sort_uniquely(std::vector<long>& numbers) {
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
-// The unknowns behind `end` to which columns begin .. end - 1 are coupled.
+// The unknowns from `end` on to which columns begin .. end - 1 are coupled.
 std::vector<long> coupled_behind(const SparseMatrix& lower, long begin, long end) {
   std::vector<long> result;
   for (long column = begin; column < end; ++column)
@@ -76,8 +79,8 @@ SparseMatrix piece_matrix(const SparseMatrix& lower, const Piece& piece) {
   return A;
 }
 
-// Eliminates a block that has no children. K's own entries on the border are its parents'; in their place
-// stands a diagonal that keeps the matrix definite, twice the sum of what couples, and is taken off
+// Eliminates a block without children. K's own entries on the border belong to the parents. In their place
+// stands a diagonal that keeps the matrix definite, twice the sum of the couplings; it is subtracted
 // afterwards.
 template <typename Piece>
 void factorize_sparse(const SparseMatrix& lower, Backend backend, const Piece* earlier, Piece& piece) {
@@ -99,7 +102,7 @@ void factorize_sparse(const SparseMatrix& lower, Backend backend, const Piece* e
     piece.update(k, k) -= piece.equations.valuePtr()[piece.equations.outerIndexPtr()[piece.own() + k]];
 }
 
-// Adds the lower triangle of a piece's update to the matrix in which `place(unknown)` is an index.
+// Adds the lower triangle of a piece's update to A; `place(unknown)` is the unknown's index in A.
 template <typename Piece, typename Place>
 void add_update(const Piece& from, const Place& place, Eigen::MatrixXd& A) {
   std::vector<long> at;
@@ -191,7 +194,7 @@ Substructure::~Substructure() = default;
 Substructure::Substructure(Substructure&&) noexcept = default;
 
 void Substructure::forward(Points& y) const {
-  std::vector<Points> pull(pieces_.size());  // of every piece: what it adds to y on its border
+  std::vector<Points> pull(pieces_.size());  // what each piece adds to y on its border
   const auto take = [&](const Piece& piece, Points& local) {
     for (const int child : piece.children) {
       const std::vector<long>& border = pieces_[child].border;

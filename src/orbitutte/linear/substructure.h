@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// A sparse Cholesky factorisation along the upper part of a dissection tree: every subtree below it is
-// factorised on its own, at the same time as the others, and dense fronts join them (J. Przemieniecki's
-// substructures; I. Duff, J. Reid, "The multifrontal solution of indefinite sparse symmetric linear
-// equations", ACM TOMS 9 (1983)). Private to linear/ and solve/.
+// A sparse Cholesky factorisation along the upper part of a dissection tree. The subtrees below it are
+// factorised in parallel, each by itself, and dense fronts join them (J. Przemieniecki's substructures; I.
+// Duff, J. Reid, "The multifrontal solution of indefinite sparse symmetric linear equations", ACM TOMS 9
+// (1983)). Private to linear/ and solve/.
 #pragma once
 
 #include <memory>
@@ -12,45 +12,47 @@
 
 namespace orbitutte {
 
-/// Unknowns begin .. end - 1, eliminated together. Blocks without children are sparse, those with children,
-/// the separators, dense.
+/// Unknowns begin .. end - 1, which are eliminated together. Blocks without children are sparse; blocks with
+/// children, the separators, are dense.
 struct EliminationBlock {
-  int parent = -1;  ///< a later block, or -1 at the last
+  /// A later block; -1 for the last.
+  int parent = -1;
   long begin = 0, end = 0;
 };
 
-/// K = [K_II, K_BI'; K_BI, K_BB] with the unknowns I in the blocks and the rest B, K_II = L_II L_II', L_BI =
-/// K_BI L_II^-T.
+/// The factor of K = [K_II, K_BI'; K_BI, K_BB], where I are the unknowns in the blocks and B the rest: K_II =
+/// L_II L_II' and L_BI = K_BI L_II^-T.
 class Substructure {
  public:
-  /// The lower triangle of K, positive definite and with nonpositive entries off the diagonal; its unknowns
-  /// in the order of the blocks, B last. Entries between two unknowns lie within a block, between a block and
-  /// one on its way to the last, or in B. Sparse blocks of an earlier substructure with as many blocks are
-  /// taken from it where their equations are the same. Throws NotPositiveDefinite with the unknown.
+  /// Factorises K, given by its lower triangle, positive definite and with nonpositive entries off the
+  /// diagonal. Its unknowns are in the order of the blocks, with B last. An entry couples two unknowns of one
+  /// block, of a block and one on its way to the last, or of any block or B with B. Sparse blocks are taken
+  /// from `earlier` if it has as many blocks and the equations are the same. Throws NotPositiveDefinite with
+  /// the unknown.
   Substructure(const SparseMatrix& lower, const std::vector<EliminationBlock>& blocks, Backend backend,
                const Substructure* earlier = nullptr);
   ~Substructure();
   Substructure(Substructure&&) noexcept;
 
-  /// y_I <- L_II^-1 y_I (in an order of its own), y_B <- y_B - L_BI y_I.
+  /// y_I <- L_II^-1 y_I, left in an order of its own; y_B <- y_B - L_BI y_I.
   void forward(Points& y) const;
 
   /// y_I <- L_II^-T (y_I - L_BI' y_B), back in K's order.
   void backward(Points& y) const;
 
-  /// K_BB - L_BI L_BI', whole.
+  /// K_BB - L_BI L_BI', both triangles.
   const Eigen::MatrixXd& schur_complement() const { return schur_complement_; }
 
   /// The number of unknowns in B.
   long border() const { return border_; }
 
-  /// Frees what serves only later substructures, and the Schur complement.
+  /// Frees the Schur complement and what serves only later substructures.
   void release_what_solving_does_not_need();
 
  private:
   struct Piece;
   std::vector<Piece> pieces_;               // one for each block
-  std::vector<std::vector<int>> by_depth_;  // pieces, those of the last depth first
+  std::vector<std::vector<int>> by_depth_;  // pieces by depth, the deepest first
   long border_begin_ = 0, border_ = 0;
   Eigen::MatrixXd schur_complement_;
 };

@@ -14,8 +14,8 @@
 #include <cmath>
 #include <limits>
 
+#include "orbitutte/geometry/barycentric_coordinates.h"
 #include "orbitutte/geometry/orientation.h"
-#include "orbitutte/geometry/spherical_coordinates.h"
 #include "orbitutte/orbifold/symmetry_group.h"
 #include "orbitutte/parallel.h"
 
@@ -31,17 +31,6 @@ using Tree = bg::index::rtree<Entry, bg::index::rstar<16>>;
 constexpr double largest_gap = 1e-11;  // the certificate allows seams a residual of 1e-12
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-std::vector<Matrix3> copies_of(const Embedding& embedding) {
-  std::vector<Matrix3> generators;
-  for (const Seam& seam : embedding.seams) generators.push_back(seam.transform);
-  const SymmetryGroup group(generators, std::max(embedding.group_order, 1));
-  if (group.order() != embedding.group_order)
-    throw ArgumentError(
-        fmt::format("the transforms of the seams generate {} symmetries, but the orbifold has {}",
-                    group.order(), embedding.group_order));
-  return group.elements();
-}
-
 void require_sound(const Embedding& embedding) {
   if (!embedding.positions.allFinite())
     throw ArgumentError("the embedding has positions that are not finite");
@@ -50,41 +39,16 @@ void require_sound(const Embedding& embedding) {
     throw ArgumentError("a face of the embedding names a vertex that does not exist");
 }
 
-SphericalCorners corners_of(const Embedding& embedding, int f) {
-  const auto corner = [&](int k) -> Vector3 { return embedding.positions.row(embedding.faces(f, k)); };
-  return {corner(0), corner(1), corner(2)};
+TriangleCorners corners_of(const Points& positions, const Faces& faces, int f) {
+  return {positions.row(faces(f, 0)), positions.row(faces(f, 1)), positions.row(faces(f, 2))};
 }
 
-// How far the sphere rises over the triangle, at the most: with chords c_ij, the squared length of sum l_i
-// a_i is 1 - sum l_i l_j c_ij^2, at least 1 - c^2/3.
-double rise(const SphericalCorners& corners) {
-  double squared_chord = 0;
-  for (int k = 0; k < 3; ++k)
-    squared_chord = std::max(squared_chord, (corners[k] - corners[(k + 1) % 3]).squaredNorm());
-  return 1 - std::sqrt(std::max(0.0, 1 - squared_chord / 3));
-}
-
-// A box around the spherical triangle and all within largest_gap of it.
-Box box_around(const SphericalCorners& corners) {
+// A box around the triangle and all within largest_gap of it.
+Box box_around(Space space, const TriangleCorners& corners) {
   const auto& [a, b, c] = corners;
-  const Vector3 margin = Vector3::Constant(rise(corners) + 2 * largest_gap);
+  const Vector3 margin = Vector3::Constant(bulge(space, corners) + 2 * largest_gap);
   const Vector3 low = a.cwiseMin(b).cwiseMin(c) - margin, high = a.cwiseMax(b).cwiseMax(c) + margin;
   return {TreePoint(low.x(), low.y(), low.z()), TreePoint(high.x(), high.y(), high.z())};
-}
-
-Tree tree_of(const Embedding& embedding) {
-  const int faces = static_cast<int>(embedding.faces.rows());
-  std::vector<char> positive(faces);
-  parallel_ranges(faces, [&](int begin, int end) {
-    for (int f = begin; f < end; ++f) {
-      const auto [a, b, c] = corners_of(embedding, f);
-      positive[f] = orientation_sign(a, b, c) > 0;
-    }
-  });
-  std::vector<Entry> entries;
-  for (int f = 0; f < faces; ++f)
-    if (positive[f]) entries.emplace_back(box_around(corners_of(embedding, f)), f);
-  return Tree(entries);
 }
 
 struct Location {
@@ -96,9 +60,28 @@ struct Location {
 }  // namespace
 
 struct PointLocator::State {
-  Embedding embedding;  // positions and faces alone
-  std::vector<Matrix3> elements;
+  Space space;
+  Points positions;  // in the canonical frame
+  Faces faces;
+  std::vector<Isometry> elements;
   Tree tree;
+
+  TriangleCorners corners(int f) const { return corners_of(positions, faces, f); }
+
+  // The triangles that are positively oriented.
+  void grow_tree() {
+    std::vector<char> positive(faces.rows());
+    parallel_ranges(static_cast<int>(faces.rows()), [&](int begin, int end) {
+      for (int f = begin; f < end; ++f) {
+        const auto [a, b, c] = corners(f);
+        positive[f] = orientation_sign(a, b, c) > 0;
+      }
+    });
+    std::vector<Entry> entries;
+    for (int f = 0; f < static_cast<int>(faces.rows()); ++f)
+      if (positive[f]) entries.emplace_back(box_around(space, corners(f)), f);
+    tree = Tree(entries);
+  }
 
   // The triangles whose boxes hold the point.
   void find_near(const Vector3& point, std::vector<int>& found) const {
@@ -119,7 +102,7 @@ struct PointLocator::State {
   template <typename Visit>
   void visit_near(const Vector3& point, std::vector<int>& near, const Visit& visit) const {
     for (std::size_t g = 0; g < elements.size(); ++g) {
-      const Vector3 here = elements[g].transpose() * point;
+      const Vector3 here = elements[g].inverse_matrix() * point;
       if (!may_hold(here)) continue;
       find_near(here, near);
       for (const int f : near)
@@ -131,9 +114,8 @@ struct PointLocator::State {
   Location locate(const Vector3& point, std::vector<int>& near) const {
     Location found;
     visit_near(point, near, [&](int f, int g, const Vector3& here) {
-      const SphericalCorners corners = corners_of(embedding, f);
-      if (!contains(corners, here)) return false;
-      found = {f, g, spherical_coordinates(corners, here)};
+      if (!contains(corners(f), here)) return false;
+      found = {f, g, barycentric_coordinates(space, corners(f), here)};
       return true;
     });
     return found.face >= 0 ? found : nearest(point, near);
@@ -144,9 +126,8 @@ struct PointLocator::State {
     Location best;
     double least = largest_gap;
     visit_near(point, near, [&](int f, int g, const Vector3& here) {
-      const SphericalCorners corners = corners_of(embedding, f);
-      const Vector3 coordinates = nearest_on_edges(corners, here);
-      const double away = (spherical_point(corners, coordinates) - here).norm();
+      const Vector3 coordinates = nearest_on_edges(space, corners(f), here);
+      const double away = (barycentric_point(space, corners(f), coordinates) - here).norm();
       if (away < least) {
         least = away;
         best = {f, g, coordinates};
@@ -157,33 +138,34 @@ struct PointLocator::State {
   }
 };
 
-PointLocator::PointLocator(const Embedding& embedding) {
-  if (embedding.geometry != Geometry::spherical)
-    throw ArgumentError("points are located on the sphere only: this embedding is one into the plane");
+PointLocator::PointLocator(const Embedding& embedding, int copies) {
   require_sound(embedding);
-  Embedding map;
-  map.positions = embedding.positions;
-  map.faces = embedding.faces;
-  Tree tree = tree_of(map);
-  state_ = std::make_unique<State>(State{std::move(map), copies_of(embedding), std::move(tree)});
+  state_ = std::make_unique<State>(State{embedding.space(),
+                                         embedding.canonical_positions(),
+                                         embedding.faces,
+                                         group_of(embedding.target, copies).elements(),
+                                         {}});
+  state_->grow_tree();
 }
 
 PointLocator::~PointLocator() = default;
 PointLocator::PointLocator(PointLocator&&) noexcept = default;
 
-const std::vector<Matrix3>& PointLocator::elements() const { return state_->elements; }
+const std::vector<Isometry>& PointLocator::elements() const { return state_->elements; }
 
-SurfacePoints PointLocator::locate(const Points& directions) const {
-  const int count = static_cast<int>(directions.rows());
+SurfacePoints PointLocator::locate(const Points& points) const {
+  const int count = static_cast<int>(points.rows());
   SurfacePoints result = {std::vector<int>(count, -1), Points::Constant(count, 3, nan),
                           std::vector<int>(count, -1)};
   parallel_ranges(count, [&](int begin, int end) {
     std::vector<int> near;
     for (int k = begin; k < end; ++k) {
-      const Vector3 direction = directions.row(k);
+      const Vector3 direction = points.row(k);
       const double length = direction.stableNorm();
       if (!(length > 0) || !std::isfinite(length)) continue;
-      const Location found = state_->locate(direction / length, near);
+      const Vector3 point = state_->space.retract(direction / length);
+      if (!point.allFinite()) continue;
+      const Location found = state_->locate(point, near);
       result.face[k] = found.face;
       result.element[k] = found.element;
       result.barycentric.row(k) = found.barycentric.transpose();
@@ -222,8 +204,11 @@ void require_lengths(const SurfacePoints& points) {
 Points map_points(const Embedding& embedding, const SurfacePoints& points) {
   require_lengths(points);
   require_sound(embedding);
-  const std::vector<Matrix3> elements =
-      points.element.empty() ? std::vector{Matrix3(Matrix3::Identity())} : copies_of(embedding);
+  const int last =
+      points.element.empty() ? 0 : *std::max_element(points.element.begin(), points.element.end());
+  const std::vector<Isometry> elements =
+      last > 0 ? group_of(embedding.target, last + 1).elements() : std::vector<Isometry>(1);
+  const Points positions = embedding.canonical_positions();
   Points images = Points::Constant(points.count(), 3, nan);
   parallel_ranges(points.count(), [&](int begin, int end) {
     for (int k = begin; k < end; ++k) {
@@ -233,11 +218,8 @@ Points map_points(const Embedding& embedding, const SurfacePoints& points) {
       require_index(face, static_cast<std::size_t>(embedding.faces.rows()), "face", k);
       require_index(element, elements.size(), "copy", k);
       require_coordinates(coordinates, k);
-      const SphericalCorners corners = corners_of(embedding, face);
-      const Vector3 image = embedding.geometry == Geometry::spherical
-                                ? spherical_point(corners, coordinates)
-                                : Vector3(coordinates[0] * corners[0] + coordinates[1] * corners[1] +
-                                          coordinates[2] * corners[2]);
+      const Vector3 image =
+          barycentric_point(embedding.space(), corners_of(positions, embedding.faces, face), coordinates);
       images.row(k) = (elements[element] * image).transpose();
     }
   });

@@ -3,7 +3,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <queue>
 #include <tuple>
@@ -102,12 +101,12 @@ struct Side {
   auto key() const { return std::tuple(lower, upper, face, halfedge); }
 };
 
-std::vector<Side> sorted_sides(const PolygonMesh& mesh, const Triangulation& triangulation) {
+std::vector<Side> sorted_sides(const PolygonMesh& mesh, const Faces& division) {
   std::vector<Side> sides;
-  sides.reserve(triangulation.corners.size());
+  sides.reserve(division.size());
   int face = 0;
-  for (int h = 0; h < static_cast<int>(triangulation.corners.size()); ++h) {
-    const int from = origin(triangulation.corners, h), to = target(triangulation.corners, h);
+  for (int h = 0; h < static_cast<int>(division.size()); ++h) {
+    const int from = origin(division, h), to = target(division, h);
     while (from >= mesh.face_start[face + 1]) ++face;
     const int next = from + 1 < mesh.face_start[face + 1] ? from + 1 : mesh.face_start[face];
     const auto [lower, upper] = std::minmax(mesh.corners[from], mesh.corners[to]);
@@ -119,36 +118,17 @@ std::vector<Side> sorted_sides(const PolygonMesh& mesh, const Triangulation& tri
 
 }  // namespace
 
-Polygons Triangulation::polygons(const Faces& triangles, const std::vector<char>& turned) const {
-  Polygons result;
-  result.start = face_start;
-  result.corners.resize(face_start.back());
-  int triangle = 0;
-  for (int f = 0; f < result.count(); ++f) {
-    const bool is_turned = !turned.empty() && turned[triangle] != 0;
-    const std::array<int, 3> slot = is_turned ? std::array{0, 2, 1} : std::array{0, 1, 2};
-    for (int k = 2; k < result.start[f + 1] - result.start[f]; ++k, ++triangle)
-      for (int c = 0; c < 3; ++c) result.corners[corners(triangle, c)] = triangles(triangle, slot[c]);
-    if (is_turned)
-      std::reverse(result.corners.begin() + result.start[f] + 1,
-                   result.corners.begin() + result.start[f + 1]);
-  }
-  return result;
-}
-
 bool is_triangle_mesh(const PolygonMesh& mesh) {
   for (int f = 0; f < mesh.face_count(); ++f)
     if (mesh.face_degree(f) != 3) return false;
   return true;
 }
 
-Triangulation triangulate(const PolygonMesh& mesh) {
-  Triangulation result;
-  result.face_start = mesh.face_start;
-  result.corners.resize(static_cast<int>(mesh.corners.size()) - 2 * mesh.face_count(), 3);
+Faces triangulate(const PolygonMesh& mesh) {
+  Faces result(static_cast<int>(mesh.corners.size()) - 2 * mesh.face_count(), 3);
   int row = 0;
   for (int f = 0; f < mesh.face_count(); ++f) {
-    const auto add = [&](int i, int j, int k) { result.corners.row(row++) << i, j, k; };
+    const auto add = [&](int i, int j, int k) { result.row(row++) << i, j, k; };
     if (const int first = mesh.face_start[f]; mesh.face_degree(f) == 3) {
       add(first, first + 1, first + 2);
     } else {
@@ -158,24 +138,22 @@ Triangulation triangulate(const PolygonMesh& mesh) {
   return result;
 }
 
-Triangulation fan(const Polygons& polygons) {
-  Triangulation result;
-  result.face_start = polygons.start;
-  result.corners.resize(static_cast<int>(polygons.corners.size()) - 2 * polygons.count(), 3);
+Faces fan(const Polygons& polygons) {
+  Faces result(static_cast<int>(polygons.corners.size()) - 2 * polygons.count(), 3);
   int row = 0;
   for (int f = 0; f < polygons.count(); ++f)
     for (int c = polygons.start[f] + 2; c < polygons.start[f + 1]; ++c)
-      result.corners.row(row++) << polygons.start[f], c - 1, c;
+      result.row(row++) << polygons.start[f], c - 1, c;
   return result;
 }
 
-Faces on_vertices(const Triangulation& triangulation, const std::vector<int>& corners) {
-  return triangulation.corners.unaryExpr([&](int c) { return corners[c]; });
+Faces on_vertices(const Faces& division, const std::vector<int>& corners) {
+  return division.unaryExpr([&](int c) { return corners[c]; });
 }
 
-Connectivity connect(const PolygonMesh& mesh, const Triangulation& triangulation) {
-  if (is_triangle_mesh(mesh)) return connect(on_vertices(triangulation, mesh.corners), mesh.vertex_count());
-  const std::vector<Side> sides = sorted_sides(mesh, triangulation);
+Connectivity connect(const PolygonMesh& mesh, const Faces& division) {
+  if (is_triangle_mesh(mesh)) return connect(on_vertices(division, mesh.corners), mesh.vertex_count());
+  const std::vector<Side> sides = sorted_sides(mesh, division);
   Connectivity result;
   result.edge_of.resize(sides.size());
   result.opposite.assign(sides.size(), -1);

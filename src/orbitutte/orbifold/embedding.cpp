@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "orbitutte/orbifold/embedding.h"
 
-#include <Eigen/LU>
-
 namespace orbitutte {
 
 std::string name(SeamKind kind) {
@@ -18,20 +16,12 @@ std::string name(SeamKind kind) {
 }
 
 SeamKind Seam::kind() const {
-  if (left == right) return SeamKind::reflection;
-  return transform.determinant() > 0 ? SeamKind::rotation : SeamKind::rotoreflection;
+  if (is_mirror()) return SeamKind::reflection;
+  return transform.reverses_orientation() ? SeamKind::rotoreflection : SeamKind::rotation;
 }
 
-std::string name(ConeKind kind) {
-  switch (kind) {
-    case ConeKind::rotation:
-      return "rotation";
-    case ConeKind::corner:
-      return "corner";
-    case ConeKind::fixed:
-      return "fixed";
-  }
-  return {};
+Points Embedding::canonical_positions() const {
+  return placement.is_identity() ? positions : placement.inverse().on_rows(positions);
 }
 
 }  // namespace orbitutte

@@ -2,8 +2,8 @@
 // Tiles after Aigerman, Kovalsky, Lipman, appendix A, with the corrections listed in docs/deviations.md.
 #include "orbitutte/orbifold/families.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -12,210 +12,186 @@ namespace {
 
 using std::numbers::pi;
 
-Matrix3 rotation(const Vector3& axis, double angle) {
-  return Eigen::AngleAxisd(angle, axis).toRotationMatrix();
+using Arrangement = std::vector<int>;  // of the marks, as the boundary meets them
+
+// The order of every mark, and of the end of a cut, behind them.
+std::vector<int> orders_of(const Target& target) {
+  std::vector<int> orders;
+  for (const Mark& mark : target.marks) orders.push_back(mark.order());
+  orders.push_back(1);
+  return orders;
 }
 
-Matrix3 reflection(const Vector3& normal) { return Matrix3::Identity() - 2 * normal * normal.transpose(); }
-
-// The triangle with angles pi/n1, pi/n2, pi/n3 and what builds tiles of it, on the sphere and in the plane.
-struct Sphere {
-  // The side opposite to the angle a of a spherical triangle with angles a, b, c: the law of cosines for
-  // angles.
-  static double opposite_side(double a, double b, double c) {
-    return std::acos((std::cos(a) + std::cos(b) * std::cos(c)) / (std::sin(b) * std::sin(c)));
-  }
-
-  // The point at a distance and direction from the corner p1, the north pole.
-  static Vector3 at(double colatitude, double longitude) {
-    return {std::sin(colatitude) * std::cos(longitude), std::sin(colatitude) * std::sin(longitude),
-            std::cos(colatitude)};
-  }
-
-  static TileSide segment(const Vector3& from, const Vector3& to, int mark) {
-    return great_arc(from, to, mark);
-  }
-
-  static Matrix3 rotation_about(const Vector3& point, double angle) { return rotation(point, angle); }
-  static Matrix3 reflection_in(const TileSide& side) { return reflection(side.pole().normalized()); }
-};
-
-struct Plane {
-  // The law of sines, for a triangle whose circumscribed circle has diameter one.
-  static double opposite_side(double a, double, double) { return std::sin(a); }
-
-  static Vector3 at(double distance, double angle) {
-    return {distance * std::cos(angle), distance * std::sin(angle), 1};
-  }
-
-  static TileSide segment(const Vector3& from, const Vector3& to, int mark) {
-    TileSide side;
-    side.start = from;
-    side.direction = (to - from).normalized();
-    side.length = (to - from).norm();
-    side.mark = mark;
-    side.geometry = Geometry::euclidean;
-    return side;
-  }
-
-  static Matrix3 translation(const Vector3& shift) {
-    Matrix3 result = Matrix3::Identity();
-    result.col(2) += shift;
-    return result;
-  }
-
-  static Matrix3 rotation_about(const Vector3& point, double angle) {
-    Matrix3 result = rotation(Vector3::UnitZ(), angle);
-    result.col(2) = point - result.leftCols<2>() * point.head<2>();
-    return result;
-  }
-
-  static Matrix3 reflection_in(const TileSide& side) {
-    const Vector3 normal(-side.direction.y(), side.direction.x(), 0);
-    Matrix3 result = reflection(normal);
-    result.col(2) += 2 * normal.dot(side.start) * normal;
-    return result;
-  }
-};
-
-// The corners p1, p2, p3, counterclockwise from outside.
-template <typename Space>
-std::vector<Vector3> triangle_corners(const std::vector<int>& n) {
-  const double a1 = pi / n[0], a2 = pi / n[1], a3 = pi / n[2];
-  const double p1p2 = Space::opposite_side(a3, a1, a2), p1p3 = Space::opposite_side(a2, a3, a1);
-  return {Space::at(0, 0), Space::at(p1p2, 0), Space::at(p1p3, a1)};
+// The triangle with the angle pi/n[k] at corner k, counterclockwise from outside: corner 0 at (0, 0, 1),
+// corner 1 from there in the direction of x.
+std::array<Vector3, 3> canonical_triangle(Space space, const std::array<int, 3>& n) {
+  const double a = pi / n[0], b = pi / n[1], c = pi / n[2];
+  return {Space::origin(), space.polar(space.side_opposite(c, a, b), 0),
+          space.polar(space.side_opposite(b, c, a), a)};
 }
 
-// The half circle between the poles along a meridian.
-TileSide meridian(const Vector3& from, double longitude, int mark) {
-  TileSide side;
-  side.start = from;
-  side.direction = Vector3(std::cos(longitude), std::sin(longitude), 0);
-  side.length = pi;
-  side.mark = mark;
-  return side;
-}
+// Does the arrangement of three marks go around like 0, 1, 2?
+bool goes_around(const Arrangement& marks) { return (marks[1] - marks[0] + 3) % 3 == 1; }
 
-template <typename Space>
 void make_mirror(Tile& tile, int side) {
   tile.sides[side].partner = side;
-  tile.sides[side].transform = Space::reflection_in(tile.sides[side]);
+  tile.sides[side].transform = tile.space().reflection(tile.sides[side].line());
 }
 
-template <typename Space>
 void make_mirrors(Tile& tile) {
-  for (int k = 0; k < static_cast<int>(tile.sides.size()); ++k) make_mirror<Space>(tile, k);
+  for (int k = 0; k < static_cast<int>(tile.sides.size()); ++k) make_mirror(tile, k);
 }
 
-void glue_sides(Tile& tile, int left, int right, const Matrix3& transform) {
+void glue_sides(Tile& tile, int left, int right, const Isometry& transform) {
   tile.sides[left].partner = right;
   tile.sides[left].transform = transform;
   tile.sides[right].partner = left;
-  tile.sides[right].transform = inverse_isometry(transform);
+  tile.sides[right].transform = transform.inverse();
 }
 
 // The polygon with these corners, no side glued yet.
-template <typename Space>
-Tile polygon(const std::vector<Vector3>& corners, const std::vector<int>& marks) {
+Tile polygon(Space space, const std::vector<Vector3>& corners, const std::vector<int>& marks) {
   Tile tile;
   for (std::size_t k = 0; k < corners.size(); ++k)
-    tile.sides.push_back(Space::segment(corners[k], corners[(k + 1) % corners.size()], marks[k]));
+    tile.sides.push_back(geodesic(space, corners[k], corners[(k + 1) % corners.size()], marks[k]));
   return tile;
 }
 
-// *n1 n2 n3: the triangle with three mirrors.
-template <typename Space>
-Tile mirrored_triangle(const std::vector<int>& n, const std::vector<int>& marks) {
-  Tile tile = polygon<Space>(triangle_corners<Space>(n), marks);
-  make_mirrors<Space>(tile);
+// *n1 n2 n3: the triangle with three mirrors; its mirror image where the boundary meets the marks the other
+// way around.
+Tile mirrored_triangle(const Target& target, const Arrangement& marks) {
+  const std::vector<int> n = orders_of(target);
+  std::array<Vector3, 3> corners = canonical_triangle(target.space, {n[0], n[1], n[2]});
+  if (!goes_around(marks)) corners[2].y() = -corners[2].y();
+  Tile tile = polygon(target.space, {corners[marks[0]], corners[marks[1]], corners[marks[2]]}, marks);
+  make_mirrors(tile);
   return tile;
 }
 
-// The triangle and its mirror image across the side p1 p3: p1, p2, p3 and the image of p2, no side glued yet.
-template <typename Space>
-Tile kite(const std::vector<int>& n, const std::vector<int>& marks) {
-  const std::vector<Vector3> p = triangle_corners<Space>({n[0], n[2], n[1]});  // p1, p3, p2'
-  const Vector3 p2 = Space::reflection_in(Space::segment(p[0], p[1], -1)) * p[2];
-  return polygon<Space>({p[0], p2, p[1], p[2]}, {marks[0], marks[1], marks[2], marks[1]});
+// The canonical triangle, with corner k at mark k, and its mirror image across the side between the first
+// mark and the third, p1 and p3, as the boundary meets them: p1, p2, p3, p2', no side glued yet. Whichever
+// mark is the second, the tile is made of the same two triangles of the tiling.
+Tile kite(Space space, const std::array<Vector3, 3>& corners, const Arrangement& marks) {
+  const Vector3 &p1 = corners[marks[0]], &p3 = corners[marks[2]], &p2 = corners[marks[1]];
+  const Vector3 image = space.retract(space.reflection(Space::line(p1, p3)) * p2);
+  const bool is_first = goes_around(marks);
+  return polygon(space, {p1, is_first ? p2 : image, p3, is_first ? image : p2},
+                 {marks[0], marks[1], marks[2], marks[1]});
 }
 
 // n1 n2 n3: the kite, glued by rotations about p1 and p3.
-template <typename Space>
-Tile doubled_triangle(const std::vector<int>& n, const std::vector<int>& marks) {
-  Tile tile = kite<Space>(n, marks);
+Tile doubled_triangle(const Target& target, const Arrangement& marks) {
+  const std::vector<int> n = orders_of(target);
+  Tile tile = kite(target.space, canonical_triangle(target.space, {n[0], n[1], n[2]}), marks);
   const Vector3 p1 = tile.sides[0].start, p3 = tile.sides[2].start;
-  glue_sides(tile, 0, 3, Space::rotation_about(p1, -2 * pi / n[0]));
-  glue_sides(tile, 2, 1, Space::rotation_about(p3, -2 * pi / n[2]));
+  glue_sides(tile, 0, 3, target.space.rotation(p1, -2 * pi / n[marks[0]]));
+  glue_sides(tile, 2, 1, target.space.rotation(p3, -2 * pi / n[marks[2]]));
   return tile;
 }
 
-// *2222: the unit square with four mirrors. Its sides' ratio is a choice: harmonic maps onto it are not
-// conformal.
-Tile mirrored_square(const std::vector<int>&, const std::vector<int>& marks) {
-  Tile tile = polygon<Plane>({{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}, marks);
-  make_mirrors<Plane>(tile);
+// *2222: the unit square with four mirrors, to the left of the x axis or, where the boundary meets the marks
+// the other way around, to its right. Its sides' ratio is a choice: harmonic maps onto it are not conformal.
+Tile mirrored_square(const Target& target, const Arrangement& marks) {
+  const auto first = static_cast<std::size_t>(std::find(marks.begin(), marks.end(), 0) - marks.begin());
+  const bool goes_left = marks[(first + 1) % 4] < marks[(first + 3) % 4];
+  std::array<Vector3, 4> square = {Vector3(0, 0, 1), {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+  if (!goes_left) square = {Vector3(0, 0, 1), {0, -1, 1}, {1, -1, 1}, {1, 0, 1}};
+  std::vector<Vector3> corners(4);
+  for (std::size_t k = 0; k < 4; ++k) corners[(first + k) % 4] = square[k];
+  Tile tile = polygon(target.space, corners, marks);
+  make_mirrors(tile);
   return tile;
 }
 
-// 2222: two unit squares side by side, folded to a pillow by half turns about p1 and p4, the middles of the
-// outer sides, and a translation.
-Tile pillow(const std::vector<int>&, const std::vector<int>& marks) {
-  Tile tile = polygon<Plane>({{0, 0, 1}, {0, -1, 1}, {1, -1, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}},
-                             {marks[0], marks[1], marks[2], marks[3], marks[2], marks[1]});
-  glue_sides(tile, 0, 5, Plane::rotation_about(tile.sides[0].start, pi));
-  glue_sides(tile, 1, 4, Plane::translation({0, -2, 0}));
-  glue_sides(tile, 2, 3, Plane::rotation_about(tile.sides[3].start, pi));
+// 2222: the pillow of two unit squares, on which mark 0 is an image of (0, 0), mark 1 of (1, 0), mark 2 of
+// (1, 1) and mark 3 of (0, 1): the plane's points with whole coordinates, taken modulo two. It is cut open
+// along the segments from a to b = a + u, to c = b + v and to d = a + v, where a, b, c, d are the marks as
+// the boundary meets them, and unfolded around the parallelogram a, b, c, d by half turns about a and d.
+Tile pillow(const Target& target, const Arrangement& marks) {
+  static const std::array<std::array<int, 2>, 4> place = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+  const auto step = [&](int k) {
+    const auto &from = place[marks[0]], &to = place[marks[k]];
+    return Vector3((to[0] + from[0]) % 2, (to[1] + from[1]) % 2, 0);
+  };
+  Vector3 u = step(1);
+  const Vector3 v = step(3), a(place[marks[0]][0], place[marks[0]][1], 1);
+  if (u.cross(v).z() < 0) u = -u;  // det[u v] is 1: the parallelogram lies to the left of the cut
+  const Vector3 b = a + u, c = b + v, d = a + v;
+  Tile tile = polygon(target.space, {a, b, c, d, 2 * d - c, 2 * a - b},
+                      {marks[0], marks[1], marks[2], marks[3], marks[2], marks[1]});
+  Matrix3 translation = Matrix3::Identity();
+  translation.col(2) += 2 * u;
+  glue_sides(tile, 0, 5, target.space.rotation(a, pi));
+  glue_sides(tile, 1, 4, target.space.isometry(translation));
+  glue_sides(tile, 2, 3, target.space.rotation(d, pi));
   return tile;
 }
 
-// n*m: the kite, cut open from the cone p1 to any point p2 of the mirror, where its angles are right; from
-// there one mirror leads to the corner p3, and one from the corner to the image of p2.
-Tile mirrored_kite(const std::vector<int>& n, const std::vector<int>& marks) {
-  Tile tile = kite<Sphere>({n[0], 2, 2 * n[2]}, marks);
-  glue_sides(tile, 0, 3, rotation(tile.sides[0].start, -2 * pi / n[0]));
-  for (const int k : {1, 2}) make_mirror<Sphere>(tile, k);
+// n*m: the kite over the triangle of the cone, the corner and the end of the cut, any point p2 of the mirror,
+// where its angles are right. It is cut open from the cone p1 to p2; from there one mirror leads to the
+// corner p3, and one from the corner to the image of p2.
+Tile mirrored_kite(const Target& target, const Arrangement& marks) {
+  const std::vector<int> n = orders_of(target);
+  Tile tile = kite(target.space, canonical_triangle(target.space, {n[0], 2 * n[1], 2}), marks);
+  glue_sides(tile, 0, 3, target.space.rotation(tile.sides[0].start, -2 * pi / n[0]));
+  for (const int k : {1, 2}) make_mirror(tile, k);
   tile.sides[1].slides = tile.sides[3].slides = true;
   return tile;
 }
 
+// A side of the sphere that may be longer than a quarter of a great circle.
+TileSide arc(const Vector3& from, const Vector3& direction, double length, int mark) {
+  TileSide side;
+  side.start = from;
+  side.direction = direction;
+  side.length = length;
+  side.mark = mark;
+  return side;
+}
+
 // N*: a sector of the hemisphere, cut open from the pole to any point of the equator, the mirror. To hold
 // that point only chooses one of all rotations about the axis, which change nothing.
-Tile sector(const std::vector<int>& n, const std::vector<int>& marks) {
-  const double angle = 2 * pi / n[0];
-  const Vector3 pole = Vector3::UnitZ(), start = Vector3::UnitX(), end = rotation(pole, angle) * start;
-  TileSide equator = Sphere::segment(start, Vector3::UnitY(), marks[1]);
-  equator.length = angle;
+Tile sector(const Target& target, const Arrangement& marks) {
+  const double angle = target.marks[0].angle;
+  const Vector3 pole = Vector3::UnitZ(), start = Vector3::UnitX(), end = target.space.polar(pi / 2, angle);
   Tile tile;
-  tile.sides = {Sphere::segment(pole, start, marks[0]), equator, Sphere::segment(end, pole, marks[1])};
-  glue_sides(tile, 0, 2, rotation(pole, -angle));
-  make_mirror<Sphere>(tile, 1);
+  tile.sides = {geodesic(target.space, pole, start, marks[0]), arc(start, Vector3::UnitY(), angle, marks[1]),
+                geodesic(target.space, end, pole, marks[1])};
+  glue_sides(tile, 0, 2, target.space.rotation(pole, -angle));
+  make_mirror(tile, 1);
   return tile;
 }
 
 // The lune of the given angle: down the meridian of longitude 0, up that of longitude `angle`.
 Tile lune(double angle, const std::vector<int>& marks) {
+  const auto meridian = [](const Vector3& from, double longitude, int mark) {
+    return arc(from, {std::cos(longitude), std::sin(longitude), 0}, pi, mark);
+  };
   Tile tile;
   tile.sides = {meridian(Vector3::UnitZ(), 0, marks[0]), meridian(-Vector3::UnitZ(), angle, marks[1])};
   return tile;
 }
 
-Tile glued_lune(const std::vector<int>& n, const std::vector<int>& marks) {
-  Tile tile = lune(2 * pi / n[0], marks);
-  glue_sides(tile, 0, 1, rotation(Vector3::UnitZ(), -2 * pi / n[0]));
+Tile glued_lune(const Target& target, const Arrangement& marks) {
+  const double angle = target.marks[0].angle;
+  Tile tile = lune(angle, marks);
+  glue_sides(tile, 0, 1, target.space.rotation(Vector3::UnitZ(), -angle));
   return tile;
 }
 
-Tile mirrored_lune(const std::vector<int>& n, const std::vector<int>& marks) {
-  Tile tile = lune(pi / n[0], marks);
-  make_mirrors<Sphere>(tile);
+Tile mirrored_lune(const Target& target, const Arrangement& marks) {
+  Tile tile = lune(target.marks[0].angle, marks);
+  make_mirrors(tile);
   return tile;
 }
 
 // Nx: a lune, cut open along a loop from the cone to itself, which becomes two meridians from a pole to the
 // other; the rotary reflection takes one to the other and exchanges the poles.
-Tile crossed_lune(const std::vector<int>& n, const std::vector<int>& marks) {
-  Tile tile = lune(pi / n[0], {marks[0], marks[0]});
-  glue_sides(tile, 0, 1, reflection(Vector3::UnitZ()) * rotation(Vector3::UnitZ(), -pi / n[0]));
+Tile crossed_lune(const Target& target, const Arrangement& marks) {
+  const double angle = target.marks[0].angle / 2;
+  Tile tile = lune(angle, {marks[0], marks[0]});
+  const Isometry across = target.space.reflection(Vector3::UnitZ());
+  glue_sides(tile, 0, 1, across * target.space.rotation(Vector3::UnitZ(), -angle));
   return tile;
 }
 
@@ -229,52 +205,45 @@ ConwaySymbol mixed(int rotation, std::vector<int> corners) {
 
 ConwaySymbol crossed(int rotation) { return {{rotation}, {}, false, true}; }
 
-Family euclidean(const std::string& name, const ConwaySymbol& pattern,
-                 Tile (*tile)(const std::vector<int>&, const std::vector<int>&)) {
-  Family family = {name,
-                   "infinite",
-                   "as many as orders, in their order",
-                   pattern,
-                   pattern.star ? Topology::disk : Topology::sphere,
-                   tile};
-  family.geometry = Geometry::euclidean;
-  return family;
-}
-
+const std::string infinite = "infinite";
 const std::string three_vertices = "three vertices, in the order of the digits";
+const std::string four_vertices = "four vertices, in the order in which they go around";
 const std::string two_vertices = "two vertices";
 const std::string three_boundary_vertices = "three boundary vertices, in the order of the digits";
+const std::string four_boundary_vertices = "four boundary vertices, in the order in which they go around";
 const std::string two_boundary_vertices = "two boundary vertices";
-const std::string vertex_on_each_side = "one inside, of the order before the star, then one on the boundary";
+const std::string vertex_on_each_side =
+    "one vertex inside (first order), then one on the boundary (second order)";
 const std::string one_vertex_inside = "one vertex inside";
 const std::string one_vertex = "one vertex";
 
 }  // namespace
 
 const std::vector<Family>& family_table() {
+  constexpr Topology sphere = Topology::sphere, disk = Topology::disk;
   static const std::vector<Family> table = {
-      {"532", "60", three_vertices, rotations({2, 3, 5}), Topology::sphere, doubled_triangle<Sphere>},
-      {"432", "24", three_vertices, rotations({2, 3, 4}), Topology::sphere, doubled_triangle<Sphere>},
-      {"332", "12", three_vertices, rotations({2, 3, 3}), Topology::sphere, doubled_triangle<Sphere>},
-      {"22N", "2N", three_vertices, rotations({2, 2, N}), Topology::sphere, doubled_triangle<Sphere>},
-      {"NN", "N", two_vertices, rotations({N, N}), Topology::sphere, glued_lune},
-      {"*532", "120", three_boundary_vertices, corners({2, 3, 5}), Topology::disk, mirrored_triangle<Sphere>},
-      {"*432", "48", three_boundary_vertices, corners({2, 3, 4}), Topology::disk, mirrored_triangle<Sphere>},
-      {"*332", "24", three_boundary_vertices, corners({2, 3, 3}), Topology::disk, mirrored_triangle<Sphere>},
-      {"*22N", "4N", three_boundary_vertices, corners({2, 2, N}), Topology::disk, mirrored_triangle<Sphere>},
-      {"*NN", "2N", two_boundary_vertices, corners({N, N}), Topology::disk, mirrored_lune},
-      {"3*2", "24", vertex_on_each_side, mixed(3, {2}), Topology::disk, mirrored_kite, true},
-      {"2*N", "4N", vertex_on_each_side, mixed(2, {N}), Topology::disk, mirrored_kite, true},
-      {"N*", "2N", one_vertex_inside, mixed(N, {}), Topology::disk, sector, true},
+      {"532", "60", three_vertices, rotations({2, 3, 5}), sphere, doubled_triangle},
+      {"432", "24", three_vertices, rotations({2, 3, 4}), sphere, doubled_triangle},
+      {"332", "12", three_vertices, rotations({2, 3, 3}), sphere, doubled_triangle},
+      {"22N", "2N", three_vertices, rotations({2, 2, N}), sphere, doubled_triangle},
+      {"NN", "N", two_vertices, rotations({N, N}), sphere, glued_lune},
+      {"*532", "120", three_boundary_vertices, corners({2, 3, 5}), disk, mirrored_triangle},
+      {"*432", "48", three_boundary_vertices, corners({2, 3, 4}), disk, mirrored_triangle},
+      {"*332", "24", three_boundary_vertices, corners({2, 3, 3}), disk, mirrored_triangle},
+      {"*22N", "4N", three_boundary_vertices, corners({2, 2, N}), disk, mirrored_triangle},
+      {"*NN", "2N", two_boundary_vertices, corners({N, N}), disk, mirrored_lune},
+      {"3*2", "24", vertex_on_each_side, mixed(3, {2}), disk, mirrored_kite, true},
+      {"2*N", "4N", vertex_on_each_side, mixed(2, {N}), disk, mirrored_kite, true},
+      {"N*", "2N", one_vertex_inside, mixed(N, {}), disk, sector, true},
       {"Nx", "2N", one_vertex, crossed(N), Topology::projective_plane, crossed_lune, false, 1},
-      euclidean("333", rotations({3, 3, 3}), doubled_triangle<Plane>),
-      euclidean("442", rotations({2, 4, 4}), doubled_triangle<Plane>),
-      euclidean("632", rotations({2, 3, 6}), doubled_triangle<Plane>),
-      euclidean("2222", rotations({2, 2, 2, 2}), pillow),
-      euclidean("*333", corners({3, 3, 3}), mirrored_triangle<Plane>),
-      euclidean("*442", corners({2, 4, 4}), mirrored_triangle<Plane>),
-      euclidean("*632", corners({2, 3, 6}), mirrored_triangle<Plane>),
-      euclidean("*2222", corners({2, 2, 2, 2}), mirrored_square),
+      {"333", infinite, three_vertices, rotations({3, 3, 3}), sphere, doubled_triangle},
+      {"442", infinite, three_vertices, rotations({2, 4, 4}), sphere, doubled_triangle},
+      {"632", infinite, three_vertices, rotations({2, 3, 6}), sphere, doubled_triangle},
+      {"2222", infinite, four_vertices, rotations({2, 2, 2, 2}), sphere, pillow},
+      {"*333", infinite, three_boundary_vertices, corners({3, 3, 3}), disk, mirrored_triangle},
+      {"*442", infinite, three_boundary_vertices, corners({2, 4, 4}), disk, mirrored_triangle},
+      {"*632", infinite, three_boundary_vertices, corners({2, 3, 6}), disk, mirrored_triangle},
+      {"*2222", infinite, four_boundary_vertices, corners({2, 2, 2, 2}), disk, mirrored_square},
   };
   return table;
 }
@@ -296,10 +265,9 @@ bool fits(std::vector<int> orders, const std::vector<int>& pattern, int smallest
 
 }  // namespace
 
-const Family* find_family(const ConwaySymbol& symbol, Geometry geometry) {
+const Family* find_family(const ConwaySymbol& symbol) {
   for (const Family& family : family_table()) {
-    if (family.geometry == geometry && symbol.star == family.pattern.star &&
-        symbol.cross == family.pattern.cross &&
+    if (symbol.star == family.pattern.star && symbol.cross == family.pattern.cross &&
         fits(symbol.rotations, family.pattern.rotations, family.smallest_order) &&
         fits(symbol.corners, family.pattern.corners, family.smallest_order))
       return &family;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The one table of families: symbol, tile and gluing of each (appendix A).
+// The one table of families: symbol, space, tile and gluing of each (appendix A). To add a family, add a row.
 #pragma once
 
 #include <string>
@@ -12,21 +12,32 @@ namespace orbitutte {
 /// One row of the table. A family is known by its symbol with the orders sorted, where 0 stands for the free
 /// order N.
 struct Family {
-  std::string name;           ///< "22N"
-  std::string group_order;    ///< "2N"
-  std::string marked_points;  ///< for people
-  ConwaySymbol pattern;       ///< sorted orders, 0 for N
+  /// "22N"
+  std::string name;
+
+  /// "2N", or "infinite"
+  std::string group_order;
+
+  /// For people.
+  std::string marked_points;
+
+  /// Sorted orders, 0 for N.
+  ConwaySymbol pattern;
   Topology topology;
-  /// From the orders and the marks as the boundary meets them.
-  Tile (*tile)(const std::vector<int>& orders, const std::vector<int>& marks);
-  bool cut_to_mirror = false;  ///< the second corner of the tile is the end of the cut on the mirror
-  int smallest_order = 2;      ///< that N may be
-  Geometry geometry = Geometry::spherical;
+
+  /// The tile of a target of this family in its canonical frame, as basic_tile wants it.
+  Tile (*tile)(const Target& target, const std::vector<int>& arrangement);
+
+  /// The second corner of the tile is the end of the cut on the mirror.
+  bool cut_to_mirror = false;
+
+  /// The least that N may be.
+  int smallest_order = 2;
 };
 
 const std::vector<Family>& family_table();
 
-/// The row of this geometry that the symbol belongs to, or null.
-const Family* find_family(const ConwaySymbol& symbol, Geometry geometry = Geometry::spherical);
+/// The row that the symbol belongs to, or null.
+const Family* find_family(const ConwaySymbol& symbol);
 
 }  // namespace orbitutte

@@ -10,6 +10,8 @@
 #include <numeric>
 #include <unordered_set>
 
+#include "orbitutte/orbifold/signature.h"
+
 namespace orbitutte {
 namespace {
 
@@ -149,21 +151,21 @@ Vector3 position_of(const ConeCopies& cone, const Points& positions) {
 
 }  // namespace
 
-Orbifold polygon_orbifold(const std::vector<PolygonCorner>& corners) {
+Target polygon_target(const std::vector<PolygonCorner>& corners) {
   require_distinct_unit_corners(corners);
   require_sides(corners);
   require_left_turns(corners);
   require_hemisphere(corners);
   require_one_round(corners);
-  Orbifold polygon;
+  Target polygon;
   polygon.signature = polygon_signature;
   polygon.topology = Topology::disk;
-  polygon.marks.assign(corners.size(), {1, ConeKind::fixed});
+  polygon.marks.assign(corners.size(), Mark::of_order(1, ConeKind::fixed));
   polygon.corners = corners;
   return polygon;
 }
 
-std::vector<int> corner_vertices(const Orbifold& polygon) {
+std::vector<int> corner_vertices(const Target& polygon) {
   std::vector<int> vertices;
   for (const PolygonCorner& corner : polygon.corners) vertices.push_back(corner.vertex);
   return vertices;
@@ -178,19 +180,18 @@ Tile polygon_tile(const std::vector<PolygonCorner>& corners, const std::vector<i
                       "polygon has it; give the corners in the order in which the boundary, its faces on the "
                       "left, meets their vertices",
                       corners[k].vertex));
-    tile.sides.push_back(
-        great_arc(corners[k].position, corner_after(corners, k).position, static_cast<int>(k)));
+    tile.sides.push_back(geodesic(Space::sphere(), corners[k].position, corner_after(corners, k).position,
+                                  static_cast<int>(k)));
   }
   return tile;
 }
 
-Orbifold orbifold_of(const Embedding& embedding) {
-  if (embedding.geometry == Geometry::euclidean) return parse_euclidean_orbifold(embedding.signature);
-  if (embedding.signature != polygon_signature) return parse_orbifold(embedding.signature);
+Target read_target(const std::string& signature, const std::vector<ConeCopies>& cones,
+                   const Points& positions) {
+  if (signature != polygon_signature) return parse_orbifold(signature);
   Corners corners;
-  for (const ConeCopies& cone : embedding.cones)
-    corners.push_back({cone.vertex, position_of(cone, embedding.positions)});
-  return polygon_orbifold(corners);
+  for (const ConeCopies& cone : cones) corners.push_back({cone.vertex, position_of(cone, positions)});
+  return polygon_target(corners);
 }
 
 namespace {
@@ -205,15 +206,11 @@ double plane_area(const Tile& tile) {
 
 }  // namespace
 
-double area(const Orbifold& orbifold) {
-  if (orbifold.geometry == Geometry::euclidean) {
-    std::vector<int> any(orbifold.marks.size());
-    std::iota(any.begin(), any.end(), 0);
-    return plane_area(basic_tile(orbifold, any));
-  }
-  if (orbifold.corners.empty()) return 4 * pi / orbifold.group_order;
+double area(const Target& target) {
+  if (target.space == Space::plane()) return plane_area(basic_tile(target, first_arrangement(target)));
+  if (target.corners.empty()) return 4 * pi / target.group_order;
   double area = 2 * pi;
-  for (const double turn : turns(orbifold.corners)) area -= turn;
+  for (const double turn : turns(target.corners)) area -= turn;
   return area;
 }
 

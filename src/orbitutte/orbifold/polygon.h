@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "orbitutte/orbifold/embedding.h"
 #include "orbitutte/orbifold/tile.h"
 
 namespace orbitutte {
@@ -14,20 +15,21 @@ namespace orbitutte {
 /// they are three or more different vertices at unit vectors (to 1e-12), neighbours neither equal nor
 /// opposite, and the polygon is convex (straight corners are allowed), lies in an open hemisphere and goes
 /// around once.
-Orbifold polygon_orbifold(const std::vector<PolygonCorner>& corners);
+Target polygon_target(const std::vector<PolygonCorner>& corners);
 
 /// The vertices of a polygon's corners, to be marked.
-std::vector<int> corner_vertices(const Orbifold& polygon);
+std::vector<int> corner_vertices(const Target& polygon);
 
 /// The polygon as a tile whose sides are held. Throws MeshError naming a vertex where the boundary meets the
 /// corners in another order (`arrangement`, as in basic_tile) than the polygon has them.
 Tile polygon_tile(const std::vector<PolygonCorner>& corners, const std::vector<int>& arrangement);
 
-/// What an embedding claims to be embedded into: by its signature, and for a polygon by its fixed cones and
-/// where they are. Throws ArgumentError and MeshError where that is nothing.
-Orbifold orbifold_of(const Embedding& embedding);
+/// What cones and positions say that the target is: that of the signature, or for a polygon the one of its
+/// fixed cones and where they are. Throws ArgumentError and MeshError if that is nothing.
+Target read_target(const std::string& signature, const std::vector<ConeCopies>& cones,
+                   const Points& positions);
 
 /// 4 pi/|G|; in the plane the tile's; of a polygon the sum of its interior angles less (n - 2) pi.
-double area(const Orbifold& orbifold);
+double area(const Target& target);
 
 }  // namespace orbitutte

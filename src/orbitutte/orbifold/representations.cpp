@@ -14,18 +14,18 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double same = 1e-8;  // of traces, entries, and eigenvalues in units of the largest
+constexpr double same = 1e-8;  // tolerance for traces, entries, and eigenvalues in units of the largest
 
 /// products[h][g] is the index of g h.
 std::vector<std::vector<int>> multiplication_table(const SymmetryGroup& group) {
   std::vector<std::vector<int>> products;
   products.reserve(group.elements().size());
-  for (const Matrix3& h : group.elements()) products.push_back(group.right_products(h));
+  for (const Isometry& h : group.elements()) products.push_back(group.right_products(h));
   return products;
 }
 
-/// A(g, g k) = a(k) with random a(k) = a(1/k): it commutes with every translation f(g) -> f(h g), and is
-/// symmetric.
+/// A(g, g k) = a(k) with random a(k) = a(1/k). The matrix is symmetric and commutes with every translation
+/// f(g) -> f(h g).
 MatrixXd random_commuting_matrix(const std::vector<std::vector<int>>& products) {
   const int order = static_cast<int>(products.size());
   std::mt19937 random(1);
@@ -38,8 +38,7 @@ MatrixXd random_commuting_matrix(const std::vector<std::vector<int>>& products) 
   return A + A.transpose().eval();
 }
 
-/// Q' P_g Q for every g, where P_g takes the basis vector of h to that of g h, and Q spans an invariant
-/// space.
+/// Q' P_g Q for every g, where Q spans an invariant space and P_g takes the basis vector of h to that of g h.
 Representation restricted(const std::vector<std::vector<int>>& products, const MatrixXd& Q) {
   Representation result;
   result.dimension = static_cast<int>(Q.cols());
@@ -52,7 +51,7 @@ Representation restricted(const std::vector<std::vector<int>>& products, const M
   return result;
 }
 
-/// Do both have the same traces? Then they differ by the choice of a basis alone.
+/// Do both have the same traces? Then they differ only by the choice of a basis.
 bool equivalent(const Representation& a, const Representation& b) {
   if (a.dimension != b.dimension) return false;
   for (std::size_t g = 0; g < a.matrices.size(); ++g)
@@ -60,7 +59,7 @@ bool equivalent(const Representation& a, const Representation& b) {
   return true;
 }
 
-/// The end of the run of equal eigenvalues that begins at `first`; they ascend.
+/// The end of the run of equal eigenvalues that begins at `first`. Eigenvalues ascend.
 Eigen::Index end_of_eigenspace(const VectorXd& eigenvalues, Eigen::Index first) {
   const double bound = eigenvalues[first] + same * eigenvalues.cwiseAbs().maxCoeff();
   Eigen::Index end = first;
@@ -88,8 +87,8 @@ double homomorphism_defect(const Representation& representation,
   return defect;
 }
 
-/// The mean square of the traces: 1, 2 or 4 for what is irreducible over the real numbers, dim End_G; and
-/// dimension / multiplicity, which is the same number.
+/// Is the mean square of the traces dimension / multiplicity? For irreducible representations over the real
+/// numbers both are dim End_G, which is 1, 2 or 4.
 bool irreducible(const Representation& representation) {
   double square = 0;
   for (const MatrixXd& M : representation.matrices) square += M.trace() * M.trace();
@@ -124,13 +123,13 @@ std::vector<Representation> irreducible_representations(const SymmetryGroup& gro
 int occurrences_in_space(const Representation& representation, const SymmetryGroup& group) {
   double sum = 0;
   for (int g = 0; g < group.order(); ++g)
-    sum += representation.matrices[g].trace() * group.elements()[g].trace();
+    sum += representation.matrices[g].trace() * group.elements()[g].matrix().trace();
   return static_cast<int>(std::lround(sum / group.order()));
 }
 
 Eigen::MatrixXd fixed_vectors(const Representation& representation, const std::vector<int>& elements) {
   const int d = representation.dimension;
-  // x is fixed where the sum of |rho(g) x - x|^2 = 2 x'(1 - rho(g)) x vanishes.
+  // x is fixed if the sum of |rho(g) x - x|^2 = 2 x'(1 - rho(g)) x is zero.
   MatrixXd A = MatrixXd::Zero(d, d);
   for (const int g : elements)
     A += 2 * MatrixXd::Identity(d, d) - representation.matrices[g] - representation.matrices[g].transpose();

@@ -178,13 +178,16 @@ std::string objection(const ConwaySymbol& symbol) {
   if (find_family(symbol)) return {};
   if (trivial_order(symbol)) return "has an order of 1, which marks nothing; orders are 2 or more";
   if (symbol.rotations.empty() && symbol.corners.empty())
-    return "marks no vertex; every family embedded has one to three (see 'orbitutte types')";
+    return "marks no vertex; every family embedded has one to four (see 'orbitutte types')";
   if (is_bad(symbol))
     return "is not an orbifold of the sphere: one order alone, or two different ones, close up no tiling (a "
            "teardrop or spindle)";
   const long long chi = euler_characteristic(symbol).numerator;
-  if (chi == 0) return "is a Euclidean orbifold: its tiles fill the plane, not the sphere";
-  return "is a hyperbolic orbifold: its tiles fill the hyperbolic plane, not the sphere";
+  if (chi == 0)
+    return "is a Euclidean orbifold for which there is no tile; of those there are 333, 442, 632, 2222, "
+           "*333, "
+           "*442, *632 and *2222";
+  return "is a hyperbolic orbifold: its tiles fill the hyperbolic plane, not the sphere or the plane";
 }
 
 // The reading by the rule of the notation: one character per order, unless a half is a single number that can
@@ -208,20 +211,15 @@ const ConwaySymbol& choose(const std::string& text, const std::vector<ConwaySymb
 
 std::vector<Mark> marks_of(const ConwaySymbol& symbol) {
   std::vector<Mark> marks;
-  for (const int n : symbol.rotations) marks.push_back({n, ConeKind::rotation});
-  for (const int m : symbol.corners) marks.push_back({m, ConeKind::corner});
+  for (const int n : symbol.rotations) marks.push_back(Mark::of_order(n, ConeKind::rotation));
+  for (const int m : symbol.corners) marks.push_back(Mark::of_order(m, ConeKind::corner));
   return marks;
 }
 
-Orbifold orbifold_of(const ConwaySymbol& symbol, const Family& family) {
-  Orbifold orbifold;
-  orbifold.signature = symbol.text();
-  orbifold.symbol = symbol;
-  orbifold.topology = family.topology;
-  orbifold.marks = marks_of(symbol);
-  orbifold.inner_marks = static_cast<int>(symbol.rotations.size());
-  orbifold.geometry = family.geometry;
-  return orbifold;
+// The sign of the Euler characteristic is that of the curvature (Gauss and Bonnet).
+Space space_of(const Fraction& chi) {
+  if (chi.numerator > 0) return Space::sphere();
+  return chi.numerator == 0 ? Space::plane() : Space::hyperbolic_plane();
 }
 
 }  // namespace
@@ -230,47 +228,52 @@ std::string ConwaySymbol::text() const {
   return join(rotations) + (star ? "*" : "") + join(corners) + (cross ? "x" : "");
 }
 
-Orbifold parse_orbifold(const std::string& signature) {
+Target parse_orbifold(const std::string& signature) {
   const ConwaySymbol symbol = choose(signature, all_readings(signature));
   if (const std::string reason = objection(symbol); !reason.empty()) refuse(signature, reason);
   const Fraction chi = euler_characteristic(symbol);
-  Orbifold orbifold = orbifold_of(symbol, *find_family(symbol));
-  orbifold.group_order = static_cast<int>(2 * chi.denominator / chi.numerator);
-  return orbifold;
-}
-
-Orbifold parse_euclidean_orbifold(const std::string& signature) {
-  for (const ConwaySymbol& symbol : all_readings(signature)) {
-    if (const Family* family = find_family(symbol, Geometry::euclidean)) {
-      Orbifold orbifold = orbifold_of(symbol, *family);
-      orbifold.group_order = 0;
-      return orbifold;
-    }
-  }
-  refuse(signature, "is none of the Euclidean orbifolds 333, 442, 632, 2222, *333, *442, *632 and *2222");
+  Target target;
+  target.signature = symbol.text();
+  target.symbol = symbol;
+  target.space = space_of(chi);
+  target.topology = find_family(symbol)->topology;
+  target.marks = marks_of(symbol);
+  target.inner_marks = static_cast<int>(symbol.rotations.size());
+  target.group_order = chi.numerator > 0 ? static_cast<int>(2 * chi.denominator / chi.numerator) : 0;
+  target.is_free_to_rotate = is_free_to_rotate(basic_tile(target, first_arrangement(target)));
+  return target;
 }
 
 bool are_opposite(const std::vector<Mark>& marks) {
-  return marks.size() == 2 && marks[0].order == marks[1].order && marks[0].kind == marks[1].kind &&
+  return marks.size() == 2 && marks[0].angle == marks[1].angle && marks[0].kind == marks[1].kind &&
          marks[0].kind != ConeKind::fixed;
 }
 
 std::vector<double> metric_angles(const std::vector<Mark>& marks) {
   const bool slides = are_opposite(marks);
   std::vector<double> angles;
-  for (const auto& [order, kind] : marks) {
-    const double around = kind == ConeKind::rotation ? 2 * std::numbers::pi : std::numbers::pi;
-    const bool is_cone = kind != ConeKind::fixed && order > 0;
-    angles.push_back(is_cone ? (slides ? 2 : 1) * around / order : 0.0);
-  }
+  for (const Mark& mark : marks) angles.push_back((slides ? 2 : 1) * mark.angle);
   return angles;
 }
 
+namespace {
+
+// The family's pattern with the least N that it allows.
+ConwaySymbol with_least_order(const Family& family) {
+  ConwaySymbol symbol = family.pattern;
+  for (Orders* orders : {&symbol.rotations, &symbol.corners})
+    std::replace(orders->begin(), orders->end(), 0, family.smallest_order);
+  return symbol;
+}
+
+}  // namespace
+
 std::vector<FamilyDescription> families() {
   std::vector<FamilyDescription> result;
-  for (const Family& family : family_table())
-    if (family.geometry == Geometry::spherical)
-      result.push_back({family.name, family.group_order, family.topology, family.marked_points});
+  for (const Family& family : family_table()) {
+    const Space space = space_of(euler_characteristic(with_least_order(family)));
+    result.push_back({family.name, family.group_order, family.topology, family.marked_points, space});
+  }
   return result;
 }
 

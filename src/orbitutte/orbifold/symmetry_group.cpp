@@ -3,23 +3,24 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <functional>
+#include <queue>
+
+#include "orbitutte/orbifold/tile.h"
+
 namespace orbitutte {
 namespace {
 
-constexpr double orthogonality_tolerance = 1e-9;
+constexpr double isometry_tolerance = 1e-9;
 constexpr double identity_tolerance = 1e-6;  // elements nearer to each other than this are one
 
-void check_orthogonal(const Matrix3& matrix) {
-  const double defect = (matrix.transpose() * matrix - Matrix3::Identity()).cwiseAbs().maxCoeff();
-  if (!(defect <= orthogonality_tolerance))  // refuses NaN too
+void check_isometry(Space space, const Matrix3& matrix) {
+  const double defect = space.isometry_defect(matrix);
+  if (!(defect <= isometry_tolerance))
     throw ArgumentError(
-        fmt::format("a generator of the symmetry group is not orthogonal (off by {:.2g})", defect));
-}
-
-/// The orthogonal matrix nearest to one that is almost orthogonal: a step of Newton's iteration for the polar
-/// factor, X (3 I - X'X) / 2, which squares the error.
-Matrix3 orthogonalized(const Matrix3& matrix) {
-  return 0.5 * matrix * (3 * Matrix3::Identity() - matrix.transpose() * matrix);
+        fmt::format("a generator of the symmetry group is no isometry of the {} space (off by {:.2g})",
+                    space.name(), defect));
 }
 
 /// A linear function of the entries that changes by no more than the matrix does (in the Frobenius norm): its
@@ -32,13 +33,13 @@ double index_key(const Matrix3& matrix) {
 
 }  // namespace
 
-SymmetryGroup::SymmetryGroup(const std::vector<Matrix3>& generators, int max_order) {
-  for (const Matrix3& generator : generators) check_orthogonal(generator);
-  insert(Matrix3::Identity());
+SymmetryGroup::SymmetryGroup(Space space, const std::vector<Isometry>& generators, int max_order) {
+  for (const Isometry& generator : generators) check_isometry(space, generator.matrix());
+  insert({});
   // Products with the generators reach every element: in a finite group inverses are powers.
   for (int g = 0; g < order(); ++g) {
-    for (const Matrix3& generator : generators) {
-      const Matrix3 product = orthogonalized(elements_[g] * generator);
+    for (const Isometry& generator : generators) {
+      const Isometry product = space.nearest_isometry(elements_[g].matrix() * generator.matrix());
       if (find(product) >= 0) continue;
       if (order() >= max_order)
         throw ArgumentError(fmt::format(
@@ -49,19 +50,48 @@ SymmetryGroup::SymmetryGroup(const std::vector<Matrix3>& generators, int max_ord
   }
 }
 
-void SymmetryGroup::insert(const Matrix3& element) {
-  index_.emplace(index_key(element), order());
+SymmetryGroup SymmetryGroup::nearest_elements(Space space, const std::vector<Isometry>& generators,
+                                              const Vector3& centre, int count) {
+  for (const Isometry& generator : generators) check_isometry(space, generator.matrix());
+  SymmetryGroup seen, nearest;
+  seen.insert({});
+  // Ordered by the distance of their images of the centre, rounded so that equal ones stay in the order in
+  // which they were found.
+  using Found = std::pair<long long, int>;
+  const auto found = [&](int element) {
+    return Found(std::llround(1e9 * space.distance(centre, seen.elements_[element] * centre)), element);
+  };
+  std::priority_queue<Found, std::vector<Found>, std::greater<>> waiting;
+  waiting.push(found(0));
+  while (nearest.order() < count && !waiting.empty()) {
+    const Isometry element = seen.elements_[waiting.top().second];
+    waiting.pop();
+    nearest.insert(element);
+    for (const Isometry& generator : generators) {
+      for (const Isometry& step : {generator, generator.inverse()}) {
+        const Isometry product = space.nearest_isometry(element.matrix() * step.matrix());
+        if (seen.find(product) >= 0) continue;
+        seen.insert(product);
+        waiting.push(found(seen.order() - 1));
+      }
+    }
+  }
+  return nearest;
+}
+
+void SymmetryGroup::insert(const Isometry& element) {
+  index_.emplace(index_key(element.matrix()), order());
   elements_.push_back(element);
 }
 
-int SymmetryGroup::find(const Matrix3& matrix) const {
-  const double key = index_key(matrix);
+int SymmetryGroup::find(const Isometry& element) const {
+  const double key = index_key(element.matrix());
   const auto end = index_.end();
   int nearest = -1;
   double distance = identity_tolerance;
   for (auto it = index_.lower_bound(key - identity_tolerance);
        it != end && it->first <= key + identity_tolerance; ++it) {
-    const double d = (elements_[it->second] - matrix).norm();
+    const double d = (elements_[it->second].matrix() - element.matrix()).norm();
     if (d > distance) continue;
     nearest = it->second;
     distance = d;
@@ -69,13 +99,58 @@ int SymmetryGroup::find(const Matrix3& matrix) const {
   return nearest;
 }
 
-std::vector<int> SymmetryGroup::right_products(const Matrix3& element) const {
+std::vector<int> SymmetryGroup::right_products(const Isometry& element) const {
   std::vector<int> products(elements_.size());
-  for (int g = 0; g < order(); ++g) {
-    products[g] = find(elements_[g] * element);
-    if (products[g] < 0) throw ArgumentError("a transform does not belong to the symmetry group");
-  }
+  for (int g = 0; g < order(); ++g) products[g] = find(elements_[g] * element);
   return products;
+}
+
+namespace {
+
+std::vector<Isometry> generators_of(const Tile& tile) {
+  std::vector<Isometry> generators;
+  for (const TileSide& side : tile.sides)
+    if (!side.held()) generators.push_back(side.transform);
+  return generators;
+}
+
+// The group of the target in the frame of the embedding.
+SymmetryGroup placed(const SymmetryGroup& group, const Isometry& placement) {
+  return placement.is_identity() ? group : group.conjugated(placement);
+}
+
+}  // namespace
+
+SymmetryGroup SymmetryGroup::conjugated(const Isometry& isometry) const {
+  SymmetryGroup result;
+  for (const Isometry& element : elements_) result.insert(isometry * element * isometry.inverse());
+  return result;
+}
+
+SymmetryGroup group_of(const Target& target) {
+  if (target.group_order == 0)
+    throw ArgumentError(
+        fmt::format("the group of {} is infinite; ask for a number of its elements", target.signature));
+  const Tile tile = basic_tile(target, first_arrangement(target));
+  SymmetryGroup group(target.space, generators_of(tile), target.group_order);
+  if (group.order() != target.group_order)  // a claim of a report that was read
+    throw ArgumentError(fmt::format("the group of {} has {} elements, not {}", target.signature,
+                                    group.order(), target.group_order));
+  return group;
+}
+
+SymmetryGroup group_of(const Target& target, int count) {
+  if (target.group_order > 0) return group_of(target);
+  const Tile tile = basic_tile(target, first_arrangement(target));
+  return SymmetryGroup::nearest_elements(target.space, generators_of(tile), tile.centroid(), count);
+}
+
+SymmetryGroup group_of(const Embedding& embedding) {
+  return placed(group_of(embedding.target), embedding.placement);
+}
+
+SymmetryGroup group_of(const Embedding& embedding, int count) {
+  return placed(group_of(embedding.target, count), embedding.placement);
 }
 
 }  // namespace orbitutte

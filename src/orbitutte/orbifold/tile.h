@@ -2,74 +2,85 @@
 // The basic tile of an orbifold and its gluing (appendix A).
 #pragma once
 
-#include <Eigen/Geometry>
 #include <vector>
 
-#include "orbitutte/orbifold/signature.h"
+#include "orbitutte/orbifold/target.h"
 
 namespace orbitutte {
 
-/// A side of a tile: the great arc p(s) = cos(s) start + sin(s) direction, or the segment p(s) = start + s
-/// direction of the plane z = 1, 0 <= s <= length, the tile on its left. A point of this side at arc length s
-/// is transform * (the point of side `partner` at length - s), or at s where the transform is a rotary
-/// reflection: tiles lie on opposite sides of a glued side in both cases. A side that is its own partner is a
-/// mirror, and stays as it is under the transform. A side without a partner (-1) is held: its vertices stay
-/// where they are put.
+/// A side of a tile: the geodesic p(s) = cs(s) start + sn(s) direction, 0 <= s <= length, the tile on its
+/// left. A point of this side at arc length s is transform * (the point of side `partner` at length - s), or
+/// at s where the transform is a rotary reflection: tiles lie on opposite sides of a glued side in both
+/// cases. A side that is its own partner is a mirror, and stays as it is under the transform. A side without
+/// a partner (-1) is held: its vertices stay where they are put.
 struct TileSide {
-  Vector3 start;        ///< the corner where the side begins
-  Vector3 direction;    ///< unit tangent there
-  double length = 0;    ///< on the sphere: radians, at most pi
-  int mark = -1;        ///< the marked point at the start, an index into Orbifold::marks or one behind
-  bool slides = false;  ///< the start is no corner but any point of the mirror: its vertex is not held there
+  Space space;
+
+  /// The corner where the side begins.
+  Vector3 start;
+
+  /// The unit tangent there.
+  Vector3 direction;
+
+  /// On the sphere at most pi.
+  double length = 0;
+
+  /// The marked point at the start, an index into Target::marks or one behind.
+  int mark = -1;
+
+  /// The start is no corner but any point of the mirror: its vertex is not held there.
+  bool slides = false;
   int partner = -1;
-  Matrix3 transform = Matrix3::Identity();
-  Geometry geometry = Geometry::spherical;
+  Isometry transform;
 
   bool held() const { return partner < 0; }
-  Vector3 point(double s) const;
+  Vector3 point(double s) const { return space.at(start, direction, s); }
 
   /// Does the partner run the other way?
-  bool partner_reverses() const { return transform.determinant() > 0; }
+  bool partner_reverses() const { return !transform.reverses_orientation(); }
 
-  /// The unit tangent to the surface that points away from the tile.
-  Vector3 outward() const {
-    return geometry == Geometry::spherical ? Vector3(-pole()) : Vector3(direction.y(), -direction.x(), 0);
-  }
+  /// The line that the side lies on: line() . p is positive on the tile's side.
+  Vector3 line() const { return Space::line(start, direction); }
 
-  Vector3 pole() const {
-    return start.cross(direction);
-  }  ///< the unit normal of the arc's plane, towards the tile; in the plane, pole . p = 0 is the side's line
+  /// The unit tangent to the space that points away from the tile.
+  Vector3 outward() const { return -space.normal(line()); }
 };
 
-/// The shorter great arc between two points of the sphere that are not antipodal, as a side without a
-/// partner.
-TileSide great_arc(const Vector3& from, const Vector3& to, int mark);
+/// The shortest geodesic between two points, on the sphere not antipodal, as a side without a partner.
+TileSide geodesic(Space space, const Vector3& from, const Vector3& to, int mark);
 
-/// A spherical polygon; corner k is where side k begins. Counterclockwise from outside.
+/// A polygon of geodesics; corner k is where side k begins. Counterclockwise from outside.
 struct Tile {
   std::vector<TileSide> sides;
 
-  Geometry geometry() const { return sides.front().geometry; }
+  Space space() const { return sides.front().space; }
 
-  /// On the sphere: the direction of the integral of the position over the tile: half the sum of length *
-  /// pole over the sides, which holds for lunes and hemispheres too, where the mean of the corners vanishes.
+  /// A point in the middle. On the sphere the direction of the integral of the position over the tile, half
+  /// the sum of length * pole over the sides: that holds for lunes and hemispheres too, where the mean of the
+  /// corners vanishes.
   Vector3 centroid() const;
 };
 
-/// The tile whose boundary meets the orbifold's marks in the order `arrangement` (a permutation of their
+/// The tile whose boundary meets the target's marks in the order `arrangement` (a permutation of their
 /// indices; every other corner is a further image of one of them). A disk with a cone inside is cut from it
 /// to the mirror: there, index marks.size() stands for the end of the cut, and comes second, after the cone.
-/// Throws ArgumentError where the arrangement is no such permutation.
-Tile basic_tile(const Orbifold& orbifold, const std::vector<int>& arrangement);
+///
+/// The tile lies in the target's canonical frame, which does not depend on the arrangement: mark 0 has an
+/// image at (0, 0, 1), and mark 1, or a mirror, one from there in the direction of x, so that the marks of a
+/// closed surface are met counterclockwise. Tiles of the same target for different cuts are made of the same
+/// points of the quotient. Throws ArgumentError if the arrangement is no such permutation.
+Tile basic_tile(const Target& target, const std::vector<int>& arrangement);
 
-/// The same tile turned by a rotation.
-Tile rotated(const Tile& tile, const Matrix3& rotation);
+/// An arrangement that basic_tile takes: the marks in their order.
+std::vector<int> first_arrangement(const Target& target);
+
+/// The same tile moved by an isometry that keeps orientations.
+Tile moved(const Tile& tile, const Isometry& isometry);
 
 /// True where a side is held, so that the tile lies where it was asked for and may not be turned.
 bool stays_put(const Tile& tile);
 
-/// True where a rotation about an axis changes no side's gluing, so that the embedding is fixed only up to
-/// it; then `axis` is that direction.
-bool free_rotation_axis(const Tile& tile, Vector3& axis);
+/// Does a rotation about (0, 0, 1) change no side's gluing, so that the embedding is fixed only up to it?
+bool is_free_to_rotate(const Tile& tile);
 
 }  // namespace orbitutte

@@ -4,16 +4,19 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <array>
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "orbitutte/export/html_text.h"
+#include "orbitutte/export/palette.h"
+#include "orbitutte/page/html_template.h"
 #include "orbitutte/page/page_assets.h"
-#include "orbitutte/page/page_charts.h"
 #include "orbitutte/page/page_scene.h"
+#include "orbitutte/page/svg_chart.h"
+#include "orbitutte/report/charts.h"
 #include "orbitutte/report/report.h"
 #include "orbitutte/verify/certificate.h"
 #include "orbitutte/version.h"
@@ -23,13 +26,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using Pointer = Json::json_pointer;
-using Slots = std::map<std::string, std::string>;
 
-constexpr const char* missing = "&ndash;";
+constexpr const char* missing = "–";
 
 // Figures of the report: a dash where one is missing or of another type.
 
-const Json& at(const Json& report, const char* path) {
+const Json& at(const Json& report, const std::string& path) {
   static const Json nothing;
   const Pointer pointer(path);
   return report.contains(pointer) ? report.at(pointer) : nothing;
@@ -40,48 +42,28 @@ double number_at(const Json& report, const char* path) {
   return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// A value as HTML: whole numbers with commas, others to six digits.
-std::string value_html(const Json& value) {
+/// A value as text: whole numbers with commas, others to six digits.
+std::string figure_text(const Json& value) {
   if (value.is_number_integer()) return grouped_digits(value.get<long long>());
   if (value.is_number()) return fmt::format("{:.6g}", value.get<double>());
   if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
-  if (value.is_string() && !value.get<std::string>().empty()) return escape_html(value.get<std::string>());
+  if (value.is_string() && !value.get<std::string>().empty()) return value.get<std::string>();
   return missing;
 }
 
-std::string figure_html(const Json& report, const char* path) { return value_html(at(report, path)); }
-
-std::string measure_html(double value, const char* unit = "") {
+std::string measure_text(double value, const char* unit = "") {
   return std::isfinite(value) ? fmt::format("{:.4g}{}", value, unit) : missing;
 }
 
-// Pieces of HTML. Arguments are HTML already.
-
-std::string row(const std::vector<std::string>& cells) {
-  std::string html = "<tr>";
-  for (std::size_t k = 0; k < cells.size(); ++k)
-    html += k == 0 ? "<th scope=\"row\">" + cells[k] + "</th>" : "<td class=\"value\">" + cells[k] + "</td>";
-  return html + "</tr>\n";
+/// The report's figure that a name of the template means, `report.mesh.faces`; none for other names.
+std::optional<std::string> named_figure(const Json& report, std::string name) {
+  if (!name.starts_with("report.")) return std::nullopt;
+  std::replace(name.begin(), name.end(), '.', '/');
+  return figure_text(at(report, name.substr(name.find('/'))));
 }
 
-std::string head(const std::vector<std::string>& cells) {
-  std::string html = "<thead><tr>";
-  for (std::size_t k = 0; k < cells.size(); ++k)
-    html += fmt::format("<th scope=\"col\"{}>{}</th>", k == 0 ? "" : " class=\"value\"", cells[k]);
-  return html + "</tr></thead>\n";
-}
-
-std::string table(const std::string& header, const std::string& rows) {
-  return "<table>" + header + "<tbody>\n" + rows + "</tbody></table>";
-}
-
-std::string paragraph(const char* css_class, const std::string& html) {
-  return fmt::format("<p class=\"{}\">{}</p>\n", css_class, html);
-}
-
-std::string details(const std::string& summary, const std::string& html) {
-  return "<details><summary>" + summary + "</summary>\n" + html + "</details>\n";
-}
+/// Sections of the template are left out where there is no text.
+Content unless_empty(const std::string& text) { return text.empty() ? Content(false) : Content(text); }
 
 // Words
 
@@ -100,13 +82,13 @@ std::string check_meaning(const std::string& name) {
       {"group_order", "Order of the group that the seams generate"},
       {"seam_residual", "Paired positions match: largest difference"},
       {"positive_faces", "Triangles not positively oriented, by exact signs"},
-      {"edge_lengths", "Longest edge, below &pi;"},
+      {"edge_lengths", "Longest edge, below π"},
       {"convex_faces", "Polygons are convex: faces that are not"},
       {"held_sides", "Boundary vertices lie on the polygon's sides, in order: largest error"},
       {"cone_angles", "Angles at cones and corners: largest error"},
-      {"signed_area", "Total area is the tile's, 4&pi;/|G|, or the polygon's: error"}};
+      {"signed_area", "Total area is the tile's, 4π/|G|, or the polygon's: error"}};
   const auto found = meanings.find(name);
-  return found == meanings.end() ? escape_html(name) : found->second;
+  return found == meanings.end() ? name : found->second;
 }
 
 struct Judgement {
@@ -124,7 +106,7 @@ std::string verdict(const Judgement& judgement) {
 std::string failed_checks(const Certificate& certificate) {
   std::vector<std::string> names;
   for (const Check& check : certificate.checks)
-    if (!check.passed) names.push_back("<code>" + escape_html(check.name) + "</code>");
+    if (!check.passed) names.push_back(check.name);
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
@@ -133,8 +115,9 @@ std::string verdict_sentence(const Judgement& judgement, const Embedding& embedd
     return fmt::format(
         "The map is a bijection: {} the sphere exactly once, which the certificate below proves on the "
         "stored numbers.",
-        embedding.group_order == 1 ? "the tile covers"
-                                   : fmt::format("its {} symmetric copies cover", embedding.group_order));
+        embedding.target.group_order == 1
+            ? "the tile covers"
+            : fmt::format("its {} symmetric copies cover", embedding.target.group_order));
   if (judgement.certificate.bijective)
     return "The optimiser stopped before it converged: the map passes every check, but it is not the "
            "minimiser.";
@@ -142,246 +125,136 @@ std::string verdict_sentence(const Judgement& judgement, const Embedding& embedd
          failed_checks(judgement.certificate) + ".";
 }
 
-std::string face_noun(const Embedding& embedding) {
-  return embedding.polygons.count() > 0 ? "face" : "triangle";
+std::string face_verdict(const Certificate& certificate) {
+  const auto folded = static_cast<long long>(certificate.nonpositive_faces.size());
+  return folded == 0 ? "Every face is positively oriented"
+                     : plural(folded, "face") + " not positively oriented";
 }
 
-std::string summary(const Json& report, const Embedding& embedding, const Judgement& judgement) {
-  return fmt::format(
-      "A {} of {} vertices and {} {}, mapped onto the orbifold <b>{}</b>, whose group has {}. {}",
-      figure_html(report, "/mesh/topology"), figure_html(report, "/mesh/vertices"),
-      figure_html(report, "/mesh/faces"), face_noun(embedding) + "s", escape_html(embedding.signature),
-      plural(embedding.group_order, "element"), verdict_sentence(judgement, embedding));
-}
-
-std::string warnings(const Json& report, const Judgement& judgement) {
-  std::string html;
+Content warnings(const Json& report, const Judgement& judgement) {
+  Content texts = Content::array();
   const Json& claim = at(report, "/certificate/bijective");
   if (claim.is_boolean() && claim.get<bool>() != judgement.bijective())
-    html += paragraph(
-        "warning", fmt::format("The report says &ldquo;bijective: {}&rdquo;, the certificate computed from "
-                               "the files says otherwise. This page follows the files.",
-                               claim.get<bool>()));
+    texts.push_back(
+        fmt::format("The report says “bijective: {}”, the certificate computed from the files says "
+                    "otherwise. This page follows the files.",
+                    claim.get<bool>()));
   for (const Json& warning : at(report, "/warnings"))
-    if (warning.is_string()) html += paragraph("warning", escape_html(warning.get<std::string>()));
-  return html;
+    if (warning.is_string()) texts.push_back(warning.get<std::string>());
+  return texts;
 }
 
 // Sections
 
-std::string figure(const std::string& name, const std::string& value) {
-  return "<div><dt>" + name + "</dt><dd>" + value + "</dd></div>\n";
+Content key_figures(const Json& report, const Embedding& embedding) {
+  const double conformal = 8 * std::numbers::pi / embedding.target.group_order;
+  return {{"angle", measure_text(number_at(report, "/distortion/angle/mean"))},
+          {"area", measure_text(number_at(report, "/distortion/area/median"))},
+          {"energy", measure_text(number_at(report, "/energy"))},
+          {"energy_share", measure_text(number_at(report, "/energy") / conformal)},
+          {"time", measure_text(number_at(report, "/timings/total"), " s")},
+          {"memory", measure_text(number_at(report, "/peak_memory_bytes") / 1e6, " MB")}};
 }
 
-std::string key_figures(const Json& report, const Embedding& embedding) {
-  const double conformal = 8 * std::numbers::pi / embedding.group_order;
-  return figure("angle distortion, mean", measure_html(number_at(report, "/distortion/angle/mean"))) +
-         figure("area distortion, median", measure_html(number_at(report, "/distortion/area/median"))) +
-         figure("energy", measure_html(number_at(report, "/energy"))) +
-         figure("energy over that of a conformal map",
-                measure_html(number_at(report, "/energy") / conformal)) +
-         figure("iterations", figure_html(report, "/iterations")) +
-         figure("time in all", measure_html(number_at(report, "/timings/total"), " s")) +
-         figure("peak memory", measure_html(number_at(report, "/peak_memory_bytes") / 1e6, " MB"));
+Content check_rows(const Certificate& certificate) {
+  Content rows = Content::array();
+  for (const Check& check : certificate.checks)
+    rows.push_back({{"name", check.name},
+                    {"meaning", check_meaning(check.name)},
+                    {"detail", unless_empty(check.detail)},
+                    {"value", fmt::format("{:.4g}", check.value)},
+                    {"bound", fmt::format("{:.4g}", check.bound)},
+                    {"passed", check.passed}});
+  return rows;
 }
 
-std::string certificate_table(const Certificate& certificate) {
-  std::string rows;
-  for (const Check& check : certificate.checks) {
-    const std::string state =
-        check.passed ? "<span class=\"state good\">&#10003; <span class=\"word\">passed</span></span>"
-                     : "<span class=\"state bad\">&#10007; <span class=\"word\">failed</span></span>";
-    const std::string detail = check.detail.empty() ? "" : "<br><b>" + escape_html(check.detail) + "</b>";
-    rows += fmt::format(
-        "<tr><th scope=\"row\">{}{}<br><code class=\"fine\">{}</code></th><td class=\"value\">{:.4g}</td>"
-        "<td class=\"value\">{:.4g}</td><td class=\"value\">{}</td></tr>\n",
-        check_meaning(check.name), detail, escape_html(check.name), check.value, check.bound, state);
+/// The report's history; numbers that are missing or of another type are 0.
+std::vector<Iteration> history_of(const Json& report) {
+  const auto number = [](const Json& entry, const char* key) {
+    const bool is_given = entry.is_object() && entry.contains(key) && entry[key].is_number();
+    return is_given ? entry[key].get<double>() : 0.0;
+  };
+  std::vector<Iteration> history;
+  for (const Json& entry : at(report, "/history"))
+    history.push_back({number(entry, "energy"), number(entry, "gradient_norm"), number(entry, "step")});
+  return history;
+}
+
+Content history_rows(const std::vector<Iteration>& history) {
+  Content rows = Content::array();
+  for (std::size_t k = 0; k < history.size(); ++k)
+    rows.push_back({{"iteration", std::to_string(k)},
+                    {"energy", fmt::format("{:.12g}", history[k].energy)},
+                    {"gradient_norm", fmt::format("{:.3e}", history[k].gradient_norm)},
+                    {"step", fmt::format("{:.3e}", history[k].step)}});
+  return rows;
+}
+
+Content cone_rows(const Embedding& embedding) {
+  Content rows = Content::array();
+  for (std::size_t c = 0; c < embedding.cones.size(); ++c) {
+    const ConeCopies& cone = embedding.cones[c];
+    rows.push_back({{"colour", hexadecimal(cone_colour(static_cast<int>(c)))},
+                    {"vertex", std::to_string(cone.vertex)},
+                    {"order", std::to_string(cone.mark.order())},
+                    {"kind", name(cone.mark.kind)},
+                    {"copies", std::to_string(cone.copies.size())}});
   }
-  return table(head({"Check", "Value", "Bound", ""}), rows);
+  return rows;
 }
 
-std::string certificate_intro(const Certificate& certificate, const std::string& face) {
-  return fmt::format(
-      "Computed again from the mesh and the embedding when this page was written, by code that the solver "
-      "does not "
-      "share. {}; {} of {} checks passed. <code>orbitutte verify</code> repeats it.",
-      certificate.nonpositive_faces.empty()
-          ? "Every " + face + " is positively oriented"
-          : plural(static_cast<long long>(certificate.nonpositive_faces.size()), face) +
-                " not positively oriented",
-      std::count_if(certificate.checks.begin(), certificate.checks.end(),
-                    [](const Check& c) { return c.passed; }),
-      certificate.checks.size());
-}
-
-std::vector<double> numbers(const Json& list) {
-  std::vector<double> values;
-  for (const Json& value : list)
-    if (value.is_number()) values.push_back(value.get<double>());
-  return values;
-}
-
-std::string histogram(const Json& report) {
-  const std::string svg = histogram_svg({numbers(at(report, "/distortion/histogram/edges")),
-                                         numbers(at(report, "/distortion/histogram/counts"))});
-  if (svg.empty()) return {};
-  return svg +
-         paragraph("fine",
-                   "Triangles by how much of the tile they take, relative to their share of the source. "
-                   "The outermost bins hold all beyond.");
-}
-
-std::string distortion_table(const Json& report) {
-  return table(
-             head({"", "mean", "median", "std", "max"}),
-             row({"area, max(A, 1/A)", figure_html(report, "/distortion/area/mean"),
-                  figure_html(report, "/distortion/area/median"), figure_html(report, "/distortion/area/std"),
-                  figure_html(report, "/distortion/area/max")}) +
-                 row({"angle, &sigma;<sub>1</sub>/&sigma;<sub>2</sub>",
-                      figure_html(report, "/distortion/angle/mean"), missing, missing,
-                      figure_html(report, "/distortion/angle/max")})) +
-         paragraph("fine", figure_html(report, "/distortion/measured_faces") + " triangles measured.");
-}
-
-std::vector<double> history_column(const Json& report, const char* key) {
-  std::vector<double> values;
-  for (const Json& entry : at(report, "/history")) {
-    const bool given = entry.is_object() && entry.contains(key) && entry[key].is_number();
-    values.push_back(given ? entry[key].get<double>() : 0);
-  }
-  return values;
-}
-
-std::string convergence(const Json& report) {
-  std::vector<double> excess = history_column(report, "energy");
-  const double energy = excess.empty() ? 0 : excess.back();
-  for (double& value : excess) value = (value - energy) / energy;
-  return convergence_svg({{"gradient norm", history_column(report, "gradient_norm")},
-                          {"energy above the last, relative", std::move(excess)}});
-}
-
-std::string history_table(const Json& report) {
-  const std::vector<double> energy = history_column(report, "energy"),
-                            gradient = history_column(report, "gradient_norm"),
-                            step = history_column(report, "step");
-  std::string rows;
-  for (std::size_t k = 0; k < energy.size(); ++k)
-    rows += row({std::to_string(k), fmt::format("{:.12g}", energy[k]), fmt::format("{:.3e}", gradient[k]),
-                 fmt::format("{:.3e}", step[k])});
-  return details("Every iteration",
-                 "<div class=\"wide\">" +
-                     table(head({"Iteration", "Energy", "Gradient norm", "Largest move"}), rows) + "</div>");
-}
-
-std::string convergence_table(const Json& report) {
-  return table("", row({"termination", figure_html(report, "/termination")}) +
-                       row({"iterations", figure_html(report, "/iterations")}) +
-                       row({"evaluations", figure_html(report, "/evaluations")}) +
-                       row({"energy", figure_html(report, "/energy")}) +
-                       row({"gradient norm", figure_html(report, "/gradient_norm")})) +
-         history_table(report);
-}
-
-std::string cones_table(const Embedding& embedding) {
-  std::string rows;
+std::string cones_argument(const Embedding& embedding) {
   std::vector<int> vertices;
-  for (const ConeCopies& cone : embedding.cones) {
-    vertices.push_back(cone.vertex);
-    rows += row({std::to_string(cone.vertex), std::to_string(cone.order), name(cone.kind),
-                 std::to_string(cone.copies.size())});
+  for (const ConeCopies& cone : embedding.cones) vertices.push_back(cone.vertex);
+  return fmt::format("{}", fmt::join(vertices, ","));
+}
+
+Content seam_rows(const Embedding& embedding) {
+  Content rows = Content::array();
+  for (const Seam& seam : embedding.seams) {
+    const Matrix3& M = seam.transform.matrix();
+    const double turn = std::acos(std::clamp((M.determinant() * M.trace() - 1) / 2, -1.0, 1.0));
+    rows.push_back({{"kind", name(seam.kind())},
+                    {"vertices", grouped_digits(static_cast<long long>(seam.left.size()))},
+                    {"angle", fmt::format("{:.4g}°", turn * 180 / std::numbers::pi)}});
   }
-  return table(head({"Vertex", "Order", "Kind", "Copies"}), rows) +
-         fmt::format("<p><code>--cones {}</code></p>", fmt::join(vertices, ","));
+  return rows;
 }
 
-std::string seams_table(const Embedding& embedding) {
-  std::string rows;
-  for (const Seam& seam : embedding.seams)
-    rows +=
-        row({name(seam.kind()), grouped_digits(static_cast<long long>(seam.left.size())),
-             fmt::format("{:.4g}&deg;",
-                         std::acos(std::clamp((seam.transform.determinant() * seam.transform.trace() - 1) / 2,
-                                              -1.0, 1.0)) *
-                             180 / std::numbers::pi)});
-  return table(head({"Seam", "Vertices", "Angle"}), rows);
-}
-
-std::string timings(const Json& report) {
+Content timing_rows(const Json& report) {
   const Json& stages = at(report, "/timings");
   const double total = number_at(report, "/timings/total");
-  std::string rows;
-  if (stages.is_object())
-    for (const auto& [stage, seconds] : stages.items())
-      if (seconds.is_number())
-        rows += fmt::format(
-            "<tr><th scope=\"row\">{}</th><td class=\"bar\">{}</td><td class=\"value\">{:.3f} s</td></tr>\n",
-            escape_html(stage), stage == "total" ? "" : bar_svg(seconds.get<double>() / total),
-            seconds.get<double>());
-  return table("", rows);
-}
-
-std::string environment(const Json& report) {
-  static constexpr std::array<std::array<const char*, 2>, 17> lines = {
-      {{"mesh", "/mesh/path"},
-       {"vertices", "/mesh/vertices"},
-       {"faces", "/mesh/faces"},
-       {"unreferenced vertices", "/mesh/unreferenced_vertices"},
-       {"faces without area", "/mesh/zero_area_faces"},
-       {"SHA-256", "/environment/input_sha256"},
-       {"weights", "/weights/kind"},
-       {"clamp", "/weights/clamp"},
-       {"clamped edges", "/weights/clamped_edges"},
-       {"signed area", "/certificate/signed_area"},
-       {"expected area", "/certificate/expected_area"},
-       {"longest edge", "/certificate/max_edge_length"},
-       {"peak memory, bytes", "/peak_memory_bytes"},
-       {"version", "/environment/version"},
-       {"commit", "/environment/commit"},
-       {"solver", "/environment/backend"},
-       {"BLAS", "/environment/blas"}}};
-  std::string rows;
-  for (const auto& [label, path] : lines)
-    rows += fmt::format("<tr><th scope=\"row\">{}</th><td class=\"path\">{}</td></tr>\n", label,
-                        figure_html(report, path));
-  rows += fmt::format("<tr><th scope=\"row\">threads</th><td class=\"path\">{}</td></tr>\n",
-                      figure_html(report, "/environment/threads"));
-  return table("", rows);
+  Content rows = Content::array();
+  if (!stages.is_object()) return rows;
+  for (const auto& [stage, value] : stages.items()) {
+    if (!value.is_number()) continue;
+    const double seconds = value.get<double>();
+    const std::string percent = fmt::format("{:.1f}", 100 * std::clamp(seconds / total, 0.0, 1.0));
+    rows.push_back({{"stage", stage},
+                    {"percent", unless_empty(stage == "total" ? "" : percent)},
+                    {"seconds", fmt::format("{:.3f}", seconds)}});
+  }
+  return rows;
 }
 
 // The interactive view
 
-std::string pictures(const std::vector<PagePicture>& pictures) {
-  if (pictures.empty()) return {};
-  std::string html = "<div id=\"pictures\" class=\"pictures\">\n";
+Content picture_list(const std::vector<PagePicture>& pictures) {
+  Content list = Content::array();
   for (const PagePicture& picture : pictures)
-    html += fmt::format(
-        "<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
-        escape_html(picture.caption), base64(picture.png));
-  return html + "</div>\n";
+    list.push_back({{"caption", picture.caption}, {"png", base64(picture.png)}});
+  return list;
 }
 
 bool is_interactive(const PageOptions& options) { return options.interactive && has_interactive_view(); }
 
-std::string view(const PageOptions& options) {
-  if (is_interactive(options)) return fill_slots(page_view, {{"pictures", pictures(options.pictures)}});
-  return paragraph("notice",
-                   fmt::format("The interactive 3D view was left out of this page{}. All figures are below.",
-                               has_interactive_view() ? "" : ", since orbitutte was built without Node.js")) +
-         pictures(options.pictures);
-}
-
-std::string scripts(const PageSubject& subject, const PageOptions& options) {
-  if (!is_interactive(options)) return {};
-  return "<script type=\"application/json\" id=\"scene\">" +
-         page_scene(subject.mesh, subject.embedding, subject.colours, options.limits) +
-         "</script>\n<script>" + std::string(page_script) + "</script>";
-}
-
-std::string licences(const PageOptions& options) {
-  if (!is_interactive(options)) return {};
-  return details("Licences of the software in this page",
-                 "<p>The interactive view contains three.js and three-mesh-bvh.</p><pre>" +
-                     escape_html(page_licences) + "</pre>");
+/// The style sheet with the colours that charts have in pictures, too.
+std::string style() {
+  const Rgb energy = tone_colour(ChartTone::energy), gradient = tone_colour(ChartTone::gradient);
+  return fill_template({page_style, {}}, {{"energy", hexadecimal(energy)},
+                                          {"energy_on_dark", hexadecimal(on_dark(energy))},
+                                          {"gradient", hexadecimal(gradient)},
+                                          {"gradient_on_dark", hexadecimal(on_dark(gradient))}});
 }
 
 /// For a content security policy: what the text hashes to.
@@ -394,10 +267,10 @@ std::string policy_hash(std::string_view text) {
 }
 
 /// Nothing is loaded, sent or run but the page's own script and style.
-std::string policy(const PageOptions& options) {
+std::string policy(const std::string& style_sheet, const PageOptions& options) {
   return fmt::format(
       "default-src 'none'; script-src {}; style-src {}; img-src data:; base-uri 'none'; form-action 'none'",
-      is_interactive(options) ? policy_hash(page_script) : "'none'", policy_hash(page_style));
+      is_interactive(options) ? policy_hash(page_script) : "'none'", policy_hash(style_sheet));
 }
 
 Json parse(const std::string& report) {
@@ -409,18 +282,18 @@ Json parse(const std::string& report) {
 }
 
 void require_match(const PageSubject& subject) {
-  const Mesh& mesh = subject.mesh;
+  const Surface& surface = subject.surface;
   const Embedding& embedding = subject.embedding;
-  if (embedding.faces.rows() != mesh.F.rows())
+  if (embedding.faces.rows() != surface.triangles.rows())
     throw MeshError(fmt::format("the embedding has {} faces, the mesh {}: it is not of this mesh",
-                                embedding.faces.rows(), mesh.F.rows()));
+                                embedding.faces.rows(), surface.triangles.rows()));
   for (const int v : embedding.source_vertex)
-    if (v < 0 || v >= mesh.V.rows())
+    if (v < 0 || v >= surface.V.rows())
       throw MeshError(fmt::format(
-          "the embedding names vertex {}, but the mesh has {}: it is not of this mesh", v, mesh.V.rows()));
-  if (subject.colours.rows() != 0 && subject.colours.rows() != mesh.V.rows())
+          "the embedding names vertex {}, but the mesh has {}: it is not of this mesh", v, surface.V.rows()));
+  if (surface.colours.rows() != 0 && surface.colours.rows() != surface.V.rows())
     throw MeshError(fmt::format("there are colours of {} vertices, but the mesh has {}",
-                                subject.colours.rows(), mesh.V.rows()));
+                                surface.colours.rows(), surface.V.rows()));
 }
 
 /// The last part of the path that the report gives.
@@ -431,44 +304,56 @@ std::string mesh_name(const Json& report) {
   return file.empty() ? "mesh" : file;
 }
 
-/// The certificate of the embedding's own faces: of its polygons, where it has them.
-Certificate certificate_of(const PageSubject& subject) {
-  const Embedding& embedding = subject.embedding;
-  if (embedding.polygons.count() == 0) return certify(subject.mesh, embedding);
-  Polygons source = embedding.polygons;
-  for (int& v : source.corners) v = embedding.source_vertex[v];
-  return certify(static_cast<int>(subject.mesh.V.rows()), FaceView(source), embedding);
+void add_view(const PageSubject& subject, const PageOptions& options,
+              const std::vector<FaceDistortion>& faces, Content& content) {
+  content["has_view"] = has_interactive_view();
+  content["interactive"] = is_interactive(options);
+  content["has_pictures"] = !options.pictures.empty();
+  content["pictures"] = picture_list(options.pictures);
+  if (!is_interactive(options)) return;
+  content["licences"] = std::string(page_licences);
+  content["script"] = std::string(page_script);
+  content["scene"] = page_scene(subject.surface, subject.embedding, faces, options.limits);
 }
 
-Slots slots(const PageSubject& subject, const PageOptions& options) {
-  const Json report = parse(subject.report);
+void add_judgement(const Judgement& judgement, const Embedding& embedding, Content& content) {
+  const std::vector<Check>& checks = judgement.certificate.checks;
+  content["verdict"] = verdict(judgement);
+  content["verdict_class"] = judgement.bijective() ? "good" : "bad";
+  content["verdict_sentence"] = verdict_sentence(judgement, embedding);
+  content["face_verdict"] = face_verdict(judgement.certificate);
+  content["passed_checks"] = std::to_string(
+      std::count_if(checks.begin(), checks.end(), [](const Check& check) { return check.passed; }));
+  content["all_checks"] = std::to_string(checks.size());
+  content["checks"] = check_rows(judgement.certificate);
+}
+
+/// What fills the template, besides the report's figures.
+Content page_content(const PageSubject& subject, const Json& report, const PageOptions& options) {
   const Embedding& embedding = subject.embedding;
-  const Judgement judgement = {certificate_of(subject), at(report, "/termination") == "converged"};
-  const std::string name = escape_html(mesh_name(report)), signature = escape_html(embedding.signature);
-  return {{"policy", policy(options)},
-          {"style", std::string(page_style)},
-          {"title", name + " onto " + signature},
-          {"mesh_name", name},
-          {"signature", signature},
-          {"verdict", verdict(judgement)},
-          {"verdict_class", judgement.bijective() ? "good" : "bad"},
-          {"summary", summary(report, embedding, judgement)},
-          {"warnings", warnings(report, judgement)},
-          {"view", view(options)},
-          {"figures", key_figures(report, embedding)},
-          {"certificate_intro", certificate_intro(judgement.certificate, face_noun(embedding))},
-          {"certificate", certificate_table(judgement.certificate)},
-          {"histogram", histogram(report)},
-          {"distortion", distortion_table(report)},
-          {"convergence", convergence(report)},
-          {"convergence_table", convergence_table(report)},
-          {"cones", cones_table(embedding)},
-          {"seams", seams_table(embedding)},
-          {"timings", timings(report)},
-          {"environment", environment(report)},
-          {"version", version},
-          {"licences", licences(options)},
-          {"scripts", scripts(subject, options)}};
+  const Judgement judgement = {certify(subject.surface, embedding),
+                               at(report, "/termination") == "converged"};
+  const std::vector<FaceDistortion> faces = measure_faces(subject.surface, embedding);
+  const std::vector<Iteration> history = history_of(report);
+  const std::string style_sheet = style();
+  Content content = {{"version", version},
+                     {"style", style_sheet},
+                     {"policy", policy(style_sheet, options)},
+                     {"mesh_name", mesh_name(report)},
+                     {"signature", embedding.target.signature},
+                     {"group", plural(embedding.target.group_order, "element")},
+                     {"warnings", warnings(report, judgement)},
+                     {"figures", key_figures(report, embedding)},
+                     {"histogram", svg_chart(area_histogram(values_of(Measure::area, faces)))},
+                     {"convergence", svg_chart(convergence_chart(history))},
+                     {"history", history_rows(history)},
+                     {"cones", cone_rows(embedding)},
+                     {"cones_argument", cones_argument(embedding)},
+                     {"seams", seam_rows(embedding)},
+                     {"timings", timing_rows(report)}};
+  add_judgement(judgement, embedding, content);
+  add_view(subject, options, faces, content);
+  return content;
 }
 
 }  // namespace
@@ -477,7 +362,11 @@ bool has_interactive_view() { return !page_script.empty(); }
 
 std::string report_page(const PageSubject& subject, const PageOptions& options) {
   require_match(subject);
-  return fill_slots(page_template, slots(subject, options));
+  const Json report = parse(subject.report);
+  return fill_template({page_template,
+                        {{"view", page_view}, {"pictures", page_pictures}, {"chart", page_chart}},
+                        [&](const std::string& name) { return named_figure(report, name); }},
+                       page_content(subject, report, options));
 }
 
 }  // namespace orbitutte

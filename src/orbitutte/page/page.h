@@ -22,12 +22,12 @@ struct PageOptions {
   DisplayLimits limits;               ///< how much of the mesh the interactive view draws
 };
 
-/// What the page is about. The mesh is the one that was embedded.
+/// What the page is about. The surface is the one that was embedded; its colours are shown.
 struct PageSubject {
-  const Mesh& mesh;
+  const Surface& surface;
   const Embedding& embedding;
-  const std::string& report;      ///< JSON, as report_json writes it
-  Points colours = Points(0, 3);  ///< of the mesh's vertices, n x 3, sRGB, 0 .. 1; or none
+  /// JSON, as report_json writes it.
+  const std::string& report;
 };
 
 /// Whether this build of the library holds the script of the interactive view (Node.js made it).

@@ -1,15 +1,25 @@
 // SPDX-License-Identifier: MIT
-// The parts of the page that are files in viewer/, compiled in (cmake/viewer.cmake).
+// The parts of the page that are files in viewer/, compiled in (cmake/viewer.cmake). The .html files and the
+// style are templates: html_template.h.
 #pragma once
 
 #include <string_view>
 
 namespace orbitutte {
 
-extern const std::string_view page_template;  ///< viewer/page.html
-extern const std::string_view page_view;      ///< viewer/view.html
-extern const std::string_view page_style;     ///< viewer/style.css
-extern const std::string_view page_script;    ///< the bundle of viewer/src; empty in a build without Node.js
-extern const std::string_view page_licences;  ///< of what the bundle contains
+/// viewer/page.html
+extern const std::string_view page_template;
+/// viewer/view.html
+extern const std::string_view page_view;
+/// viewer/pictures.html
+extern const std::string_view page_pictures;
+/// viewer/chart.html
+extern const std::string_view page_chart;
+/// viewer/style.css
+extern const std::string_view page_style;
+/// the bundle of viewer/src; empty in a build without Node.js
+extern const std::string_view page_script;
+/// of what the bundle contains
+extern const std::string_view page_licences;
 
 }  // namespace orbitutte

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "orbitutte/page/page_scene.h"
 
-#include <fmt/format.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -14,7 +12,7 @@
 #include "orbitutte/export/palette.h"
 #include "orbitutte/export/tiling.h"
 #include "orbitutte/io/bytes.h"
-#include "orbitutte/verify/distortion.h"
+#include "orbitutte/report/colour_scale.h"
 
 namespace orbitutte {
 namespace {
@@ -70,11 +68,11 @@ std::vector<double> vertex_means(const Embedding& embedding, const Measure& meas
 }
 
 /// The normals of the source at the cut vertices, by area, as the cut mesh's faces run.
-Points normals_along_banks(const Mesh& mesh, const Embedding& embedding) {
+Points normals_along_banks(const Surface& surface, const Embedding& embedding) {
   Points normals = Points::Zero(embedding.positions.rows(), 3);
   for (Eigen::Index f = 0; f < embedding.faces.rows(); ++f) {
     const auto corner = [&](int k) -> Vector3 {
-      return mesh.V.row(embedding.source_vertex[embedding.faces(f, k)]);
+      return surface.V.row(embedding.source_vertex[embedding.faces(f, k)]);
     };
     const Vector3 normal = (corner(1) - corner(0)).cross(corner(2) - corner(0));
     for (const int v : embedding.faces.row(f)) normals.row(v) += normal.transpose();
@@ -84,9 +82,9 @@ Points normals_along_banks(const Mesh& mesh, const Embedding& embedding) {
 
 /// The same, with the copies of every vertex taken together. The banks of a projective plane's cut face
 /// opposite ways: there every copy takes the sum with its own sign.
-Points source_normals(const Mesh& mesh, const Embedding& embedding) {
-  Points normals = normals_along_banks(mesh, embedding);
-  Points sum = Points::Zero(mesh.V.rows(), 3);
+Points source_normals(const Surface& surface, const Embedding& embedding) {
+  Points normals = normals_along_banks(surface, embedding);
+  Points sum = Points::Zero(surface.V.rows(), 3);
   for (Eigen::Index v = 0; v < normals.rows(); ++v) {
     auto total = sum.row(embedding.source_vertex[v]);
     total += (total.dot(normals.row(v)) < 0 ? -1 : 1) * normals.row(v);
@@ -115,22 +113,25 @@ Json transform_json(const Matrix3& M) {
 Json copies_json(const Embedding& embedding) {
   Json rows = Json::array();
   for (const TileCopy& copy : tile_copies(embedding)) {
-    const Rgb colour = tile_colour(copy.colour, copy.mirrored);
-    rows.push_back({{"transform", transform_json(copy.transform)},
-                    {"colour", fmt::format("#{:02x}{:02x}{:02x}", colour.red, colour.green, colour.blue)}});
+    rows.push_back({{"transform", transform_json(copy.transform.matrix())},
+                    {"colour", hexadecimal(tile_colour(copy.colour, copy.mirrored))}});
   }
   return rows;
 }
 
 Json cones_json(const Embedding& embedding, const std::vector<int>& cut_vertex) {
   Json rows = Json::array();
-  for (const ConeCopies& cone : embedding.cones) {
+  for (std::size_t c = 0; c < embedding.cones.size(); ++c) {
+    const ConeCopies& cone = embedding.cones[c];
     Json drawn = Json::array();
     for (const int v : cone.copies) {
       const auto at = std::lower_bound(cut_vertex.begin(), cut_vertex.end(), v);
       if (at != cut_vertex.end() && *at == v) drawn.push_back(at - cut_vertex.begin());
     }
-    rows.push_back({{"vertex", cone.vertex}, {"order", cone.order}, {"drawn", std::move(drawn)}});
+    rows.push_back({{"vertex", cone.vertex},
+                    {"order", cone.mark.order()},
+                    {"colour", hexadecimal(cone_colour(static_cast<int>(c)))},
+                    {"drawn", std::move(drawn)}});
   }
   return rows;
 }
@@ -143,20 +144,20 @@ std::vector<double> drawn(const std::vector<double>& values, const std::vector<i
   return result;
 }
 
-void add_positions(const Mesh& mesh, const Embedding& embedding, const std::vector<int>& cut_vertex,
+void add_positions(const Surface& surface, const Embedding& embedding, const std::vector<int>& cut_vertex,
                    Json& scene) {
   const auto count = static_cast<Eigen::Index>(3 * cut_vertex.size());
-  const Vector3 low = mesh.V.colwise().minCoeff();
-  const double size = std::max((mesh.V.colwise().maxCoeff().transpose() - low).maxCoeff(), 1e-300);
+  const Vector3 low = surface.V.colwise().minCoeff();
+  const double size = std::max((surface.V.colwise().maxCoeff().transpose() - low).maxCoeff(), 1e-300);
   scene["source_box"] = {low[0], low[1], low[2], size};
   scene["source"] = packed(count, [&](Eigen::Index i) {
     const int v = embedding.source_vertex[cut_vertex[i / 3]];
-    return quantised(mesh.V(v, i % 3), low[i % 3], size);
+    return quantised(surface.V(v, i % 3), low[i % 3], size);
   });
   scene["image"] = packed(count, [&](Eigen::Index i) {
     return static_cast<float>(embedding.positions(cut_vertex[i / 3], i % 3));
   });
-  const Points normals = source_normals(mesh, embedding);
+  const Points normals = source_normals(surface, embedding);
   scene["normal"] = packed(count, [&](Eigen::Index i) {
     return static_cast<std::int8_t>(std::lround(127 * normals(cut_vertex[i / 3], i % 3)));
   });
@@ -165,9 +166,8 @@ void add_positions(const Mesh& mesh, const Embedding& embedding, const std::vect
   });
 }
 
-void add_distortion(const Mesh& mesh, const Embedding& embedding, const std::vector<int>& cut_vertex,
-                    Json& scene) {
-  const std::vector<FaceDistortion> faces = measure_faces(mesh, embedding);
+void add_distortion(const Embedding& embedding, const std::vector<FaceDistortion>& faces,
+                    const std::vector<int>& cut_vertex, Json& scene) {
   const auto add = [&](const std::string& name, const auto& measure) {
     const std::vector<double> values = drawn(vertex_means(embedding, measure), cut_vertex);
     const Range range = range_of(values);
@@ -177,6 +177,20 @@ void add_distortion(const Mesh& mesh, const Embedding& embedding, const std::vec
   };
   add("area", [&](Eigen::Index f) { return faces[f].area; });
   add("angle", [&](Eigen::Index f) { return faces[f].angle; });
+}
+
+Json scale_json(Measure measure, const std::vector<FaceDistortion>& faces) {
+  constexpr int steps = 256;
+  const ColourScale scale = colour_scale(measure, values_of(measure, faces));
+  Json ticks = Json::array(), colours = Json::array();
+  for (const ChartTick& tick : scale.axis.ticks)
+    ticks.push_back({{"at", share_along(scale.axis, tick.at)}, {"text", tick.text}});
+  for (const Rgb& colour : scale_colours(measure, steps)) colours.push_back(hexadecimal(colour));
+  return {{"low", scale.axis.low},
+          {"high", scale.axis.high},
+          {"title", scale.axis.title},
+          {"ticks", std::move(ticks)},
+          {"colours", std::move(colours)}};
 }
 
 void add_colours(const Points& colours, const Embedding& embedding, const std::vector<int>& cut_vertex,
@@ -190,20 +204,24 @@ void add_colours(const Points& colours, const Embedding& embedding, const std::v
 
 }  // namespace
 
-std::string page_scene(const Mesh& mesh, const Embedding& embedding, const Points& colours,
-                       const DisplayLimits& limits) {
-  const DisplayMesh display = display_mesh(mesh, embedding, limits);
+std::string page_scene(const Surface& surface, const Embedding& embedding,
+                       const std::vector<FaceDistortion>& faces, const DisplayLimits& limits) {
+  const DisplayMesh display = display_mesh(surface, embedding, limits);
   Json scene = {{"faces", embedding.faces.rows()},
                 {"shown_faces", display.fine.faces.rows()},
                 {"copy_faces", display.coarse.faces.rows()},
                 {"vertices", display.cut_vertex.size()}};
-  add_positions(mesh, embedding, display.cut_vertex, scene);
-  add_distortion(mesh, embedding, display.cut_vertex, scene);
-  add_colours(colours, embedding, display.cut_vertex, scene);
+  add_positions(surface, embedding, display.cut_vertex, scene);
+  add_distortion(embedding, faces, display.cut_vertex, scene);
+  add_colours(surface.colours, embedding, display.cut_vertex, scene);
   scene["fine"] = level_json(display.fine);
   scene["coarse"] = level_json(display.coarse);
   scene["copies"] = copies_json(embedding);
   scene["cones"] = cones_json(embedding, display.cut_vertex);
+  scene["scales"] = {{"area", scale_json(Measure::area, faces)},
+                     {"angle", scale_json(Measure::angle, faces)}};
+  scene["tile"] = hexadecimal(bold_colour);
+  scene["ink"] = hexadecimal(ink::text);
   return scene.dump();
 }
 

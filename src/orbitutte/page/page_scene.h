@@ -3,8 +3,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "orbitutte/export/display_mesh.h"
+#include "orbitutte/verify/distortion.h"
 
 namespace orbitutte {
 
@@ -18,13 +20,17 @@ namespace orbitutte {
 ///   faces around; `colour` (uint8 x 3, sRGB), where the mesh has colours;
 /// - `fine` and `coarse`: `indices` and `outline`, base64 of uint32;
 /// - `copies`: `transform` (row by row) and `colour` (sRGB) of the |G| copies, the tile itself first;
-/// - `cones`: `vertex`, `order` and `drawn`, the drawn vertices that are its copies.
+/// - `cones`: `vertex`, `order`, `colour` and `drawn`, the drawn vertices that are its copies;
+/// - `scales`: for `area` and `angle` the `colours` from low to high, the values `low` and `high` (log2 of
+/// the
+///   area ratio; the ratio of singular values), `ticks` (`at`: 0 .. 1 along the scale, `text`) and `title`;
+/// - `tile`, `ink`: the colours of the tile itself and of lines.
 ///
 /// Holds no `<`, so that it can stand within a script element. Throws as tile_sphere does where the seams
 /// generate no group of the right order; then `copies` would mean nothing.
 ///
-/// colours: of the mesh's vertices, n x 3, sRGB, 0 .. 1; or none.
-std::string page_scene(const Mesh& mesh, const Embedding& embedding, const Points& colours,
-                       const DisplayLimits& limits = {});
+/// faces: as measure_faces has them.
+std::string page_scene(const Surface& surface, const Embedding& embedding,
+                       const std::vector<FaceDistortion>& faces, const DisplayLimits& limits = {});
 
 }  // namespace orbitutte

@@ -4,7 +4,7 @@
 namespace orbitutte {
 
 int order_to_show(const Embedding& embedding, std::size_t cone) {
-  return embedding.seams.empty() ? 0 : embedding.cones[cone].order;
+  return embedding.seams.empty() ? 0 : embedding.cones[cone].mark.order();
 }
 
 void draw_label(Canvas& canvas, const BallLabel& label) {

@@ -87,6 +87,7 @@ Canvas::Canvas(PictureFormat format, const PictureSize& size, double em)
 }
 
 void Canvas::text(const Place& at, const std::string& text, const TextStyle& style) {
+  texts_.push_back(text);
   cairo_t* const context = state_->context;
   const double width = text_width(text, style);
   const double shift = style.align == Align::left ? 0 : style.align == Align::centre ? 0.5 * width : width;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "orbitutte/export/palette.h"
 #include "orbitutte/render/image.h"
 
 namespace orbitutte {
@@ -51,6 +52,9 @@ class Canvas {
   /// The text's baseline begins, is centred or ends at `at`.
   void text(const Place& at, const std::string& text, const TextStyle& style);
 
+  /// All texts so far, in the order in which they were drawn.
+  const std::vector<std::string>& texts() const { return texts_; }
+
   /// In pixels.
   double text_width(const std::string& text, const TextStyle& style) const;
 
@@ -70,6 +74,7 @@ class Canvas {
   std::shared_ptr<State> state_;
   PictureSize size_;
   double em_;
+  std::vector<std::string> texts_;
 };
 
 }  // namespace orbitutte

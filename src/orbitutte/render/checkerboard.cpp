@@ -14,15 +14,12 @@ using Plane = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
 
 constexpr Rgb dark = {52, 62, 84}, light = {240, 236, 226};
 
-// Conformal, area element 1 at the centre: x -> 2 (x e1, x e2) / (1 + x c).
-Plane stereographic(const Points& positions, const Vector3& centre) {
-  const Vector3 e1 = centre.unitOrthogonal(), e2 = centre.cross(e1);
+// Conformal, area element 1 at the centre.
+Plane seen_from(Space space, const Points& positions, const Vector3& centre) {
+  const Isometry centred = space.to_origin(centre);
   Plane plane(positions.rows(), 2);
-  for (Eigen::Index v = 0; v < positions.rows(); ++v) {
-    const Vector3 x = positions.row(v);
-    const double scale = 2 / std::max(1 + x.dot(centre), 1e-9);
-    plane.row(v) << scale * x.dot(e1), scale * x.dot(e2);
-  }
+  for (Eigen::Index v = 0; v < positions.rows(); ++v)
+    plane.row(v) = Space::conformal(centred * Vector3(positions.row(v)));
   return plane;
 }
 
@@ -83,7 +80,7 @@ std::vector<float> sides_on_source(const Embedding& embedding, const Points& sou
 
 Checkerboard::Checkerboard(const Embedding& embedding, const Points& source, const Vector3& centre,
                            double side)
-    : coordinates_(stereographic(embedding.positions, centre)),
+    : coordinates_(seen_from(embedding.space(), embedding.positions, centre)),
       faces_(embedding.faces),
       side_(side),
       side_on_source_(sides_on_source(embedding, source, coordinates_)) {

@@ -11,8 +11,8 @@ namespace orbitutte {
 
 class Checkerboard {
  public:
-  /// The tile seen from the point of the sphere opposite to its centre (a unit vector), stereographically,
-  /// and a board of squares whose median side, over the source's area, is `side` on the source.
+  /// The tile in the conformal picture around its centre (Space::conformal), and a board of squares whose
+  /// median side, over the source's area, is `side` on the source.
   Checkerboard(const Embedding& embedding, const Points& source, const Vector3& centre, double side);
 
   /// Dark, light, and their mean where squares are smaller than pixels.

@@ -5,9 +5,10 @@
 
 #include "orbitutte/export/file_ending.h"
 #include "orbitutte/io/file.h"
-#include "orbitutte/render/area_histogram.h"
+#include "orbitutte/render/chart_drawing.h"
 #include "orbitutte/render/default_view.h"
 #include "orbitutte/render/render.h"
+#include "orbitutte/report/charts.h"
 
 namespace orbitutte {
 namespace {
@@ -20,12 +21,15 @@ constexpr double picture_em = 24, column = 900, title_row = 4.4 * picture_em, fi
 struct Common {
   std::vector<std::vector<double>> areas;  // log2 A, by map
   HistogramAxes axes;
+  ColourScale scale;
 };
 
 Common common_of(const std::vector<ComparedMap>& maps) {
   Common common;
-  for (const ComparedMap& map : maps) common.areas.push_back(log_areas(map.faces));
+  for (const ComparedMap& map : maps) common.areas.push_back(values_of(Measure::area, map.faces));
   common.axes = histogram_axes(common.areas);
+  common.scale = common_colour_scale(Measure::area, common.areas);
+  common.scale.axis.title += "    (the same colours for all maps)";
   return common;
 }
 
@@ -52,10 +56,10 @@ void draw_title(Canvas& canvas, const Box& box, const ComparedMap& map) {
 }
 
 // The same view of the mesh for every map, and one scale.
-void draw_figures(Canvas& canvas, double top, const Comparison& comparison, const AreaScale& scale) {
-  const SourceFigure figure(comparison.mesh.V, comparison.mesh.F);
+void draw_figures(Canvas& canvas, double top, const Comparison& comparison, const ColourScale& scale) {
+  const SourceFigure figure(comparison.surface.V, comparison.surface.triangles);
   const View view =
-      default_view(figure, polyline(figure.positions(), comparison.cones), default_up(comparison.mesh));
+      default_view(figure, polyline(figure.positions(), comparison.cones), default_up(comparison.surface));
   const Box box = cell(0, top, figure_row).inset(2 * picture_em, 0, 2 * picture_em, 0);
   const Camera camera =
       fit_camera(view, figure.positions(), {static_cast<int>(box.width), static_cast<int>(box.height)}, 0.95);
@@ -63,7 +67,7 @@ void draw_figures(Canvas& canvas, double top, const Comparison& comparison, cons
   none.commit();
   for (std::size_t k = 0; k < comparison.maps.size(); ++k) {
     const std::vector<FaceDistortion>& faces = comparison.maps[k].faces;
-    const auto colour = [&](const Hit& hit) { return scale.colour(faces[hit.primitive]); };
+    const auto colour = [&](const Hit& hit) { return face_colour(scale, faces[hit.primitive]); };
     canvas.image({box.x + static_cast<double>(k) * column, top}, figure.draw(camera, colour, none));
   }
   draw_scale(canvas, {0, top + figure_row, canvas.size().width * 1.0, scale_row}, scale);
@@ -79,11 +83,11 @@ void write_comparison(const std::string& path, const Comparison& comparison) {
                 {static_cast<int>(column * static_cast<double>(comparison.maps.size())),
                  static_cast<int>(plots_top + histogram_row)},
                 picture_em);
-  if (format == PictureFormat::png) draw_figures(canvas, title_row, comparison, common.axes.scale);
+  if (format == PictureFormat::png) draw_figures(canvas, title_row, comparison, common.scale);
   for (std::size_t k = 0; k < comparison.maps.size(); ++k) {
     draw_title(canvas, cell(k, 0, title_row), comparison.maps[k]);
-    draw_histogram(canvas, cell(k, plots_top, histogram_row).inset(picture_em, 0, picture_em, picture_em),
-                   common.areas[k], common.axes);
+    draw_chart(canvas, cell(k, plots_top, histogram_row).inset(picture_em, 0, picture_em, picture_em),
+               area_histogram(common.areas[k], common.axes));
   }
   write_file(path, canvas.finish());
 }

@@ -89,10 +89,11 @@ double score(const SourceFigure& figure, const Points& marked, const View& view)
 
 }  // namespace
 
-Vector3 default_up(const Mesh& mesh) {
+Vector3 default_up(const Surface& surface) {
   // What is open does not stand on its rim but faces the viewer.
-  if (mesh.F.rows() == 0 || is_open(orientation(mesh.V, mesh.F))) return Vector3::UnitY();
-  const double across_y = base_share(mesh.V, 1), across_z = base_share(mesh.V, 2);
+  if (surface.triangles.rows() == 0 || is_open(orientation(surface.V, surface.triangles)))
+    return Vector3::UnitY();
+  const double across_y = base_share(surface.V, 1), across_z = base_share(surface.V, 2);
   return across_z > 0.6 && across_z > 2 * across_y ? Vector3::UnitZ() : Vector3::UnitY();
 }
 

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "orbitutte/render/colour.h"
+#include "orbitutte/export/colour.h"
 
 namespace orbitutte {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "orbitutte/render/colour.h"
+#include "orbitutte/export/colour.h"
 #include "orbitutte/render/ray_scene.h"
 
 namespace orbitutte {

@@ -4,21 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "orbitutte/render/area_histogram.h"
-#include "orbitutte/render/convergence.h"
+#include "orbitutte/render/chart_drawing.h"
+#include "orbitutte/report/charts.h"
 
 namespace orbitutte {
-
-namespace {
-
-void draw_histogram_panel(Canvas& canvas, const Box& box, PictureParts& parts) {
-  const std::vector<double> areas = log_areas(parts.distortion());
-  const HistogramAxes axes = histogram_axes({areas});
-  draw_histogram(canvas, box, areas, axes);
-  draw_centres(canvas, box, areas, axes);
-}
-
-}  // namespace
 
 void draw_panel(Panel panel, Canvas& canvas, const Box& box, PictureParts& parts) {
   switch (panel) {
@@ -33,9 +22,9 @@ void draw_panel(Panel panel, Canvas& canvas, const Box& box, PictureParts& parts
     case Panel::checkerboard:
       return draw_checkerboard_panel(canvas, box, parts);
     case Panel::histogram:
-      return draw_histogram_panel(canvas, box, parts);
+      return draw_chart(canvas, box, area_histogram(values_of(Measure::area, parts.distortion())));
     case Panel::convergence:
-      return draw_convergence(canvas, box, parts.subject().report.history);
+      return draw_chart(canvas, box, convergence_chart(parts.subject().report.history));
     case Panel::sheet:
       return draw_sheet(canvas, box, parts);
   }

@@ -17,21 +17,21 @@ Faces source_faces(const Embedding& embedding) {
 }  // namespace
 
 const SourceFigure& PictureParts::figure() {
-  if (!figure_) figure_.emplace(subject_.mesh.V, source_faces(subject_.embedding));
+  if (!figure_) figure_.emplace(subject_.surface.V, source_faces(subject_.embedding));
   return *figure_;
 }
 
 const View& PictureParts::source_view() {
   if (source_view_) return *source_view_;
   const bool is_of_sphere = options_.panel == Panel::sphere;  // then view and up are the sphere's
-  const Vector3 up = options_.up && !is_of_sphere ? *options_.up : default_up(subject_.mesh);
+  const Vector3 up = options_.up && !is_of_sphere ? *options_.up : default_up(subject_.surface);
   source_view_ = options_.view && !is_of_sphere ? View{options_.view->normalized(), up}
                                                 : default_view(figure(), marked_positions(), up);
   return *source_view_;
 }
 
 const std::vector<FaceDistortion>& PictureParts::distortion() {
-  if (!distortion_) distortion_ = measure_faces(subject_.mesh, subject_.embedding);
+  if (!distortion_) distortion_ = measure_faces(subject_.surface, subject_.embedding);
   return *distortion_;
 }
 

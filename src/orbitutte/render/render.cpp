@@ -40,21 +40,27 @@ PictureSize picture_size(const RenderOptions& options) {
   return {options.width, options.height};
 }
 
-// The size of normal text, in pixels: the same share of the picture whatever its size.
+bool has_scale(Panel panel) { return panel == Panel::area || panel == Panel::angle; }
+
+// The size of normal text, in pixels: the same share of the picture whatever its size, but that the numbers
+// of scales can be read in small pictures, too.
 double em_of(Panel panel, const PictureSize& size) {
+  constexpr double readable = 11;
+  const double side = std::min(size.width, size.height);
+  if (has_scale(panel)) return std::max(side / 44, std::min(readable, side / 24));
   if (panel == Panel::sheet) return std::min(size.width / 96.0, size.height / 72.0);
-  return is_plot(panel) ? std::min(size.width / 42.0, size.height / 26.0)
-                        : std::min(size.width, size.height) / 44.0;
+  return is_plot(panel) ? std::min(size.width / 42.0, size.height / 26.0) : side / 44;
 }
 
 void require_same_mesh(const RenderSubject& subject) {
   const Embedding& embedding = subject.embedding;
-  if (subject.mesh.F.rows() != embedding.faces.rows())
+  if (subject.surface.triangles.rows() != embedding.faces.rows())
     throw MeshError(fmt::format("the mesh has {} faces and the embedding {}: they do not belong together",
-                                subject.mesh.F.rows(), embedding.faces.rows()));
-  if (subject.mesh.F.rows() == 0) throw MeshError("the mesh has no faces: there is nothing to draw");
-  if (!subject.mesh.V.allFinite()) throw MeshError("the mesh has coordinates that are not finite");
-  const int vertices = static_cast<int>(subject.mesh.V.rows());
+                                subject.surface.triangles.rows(), embedding.faces.rows()));
+  if (subject.surface.triangles.rows() == 0)
+    throw MeshError("the mesh has no faces: there is nothing to draw");
+  if (!subject.surface.V.allFinite()) throw MeshError("the mesh has coordinates that are not finite");
+  const int vertices = static_cast<int>(subject.surface.V.rows());
   for (const int v : embedding.source_vertex)
     if (v < 0 || v >= vertices)
       throw MeshError(fmt::format(

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "orbitutte/mesh/surface.h"
 #include "orbitutte/orbifold/embedding.h"
 #include "orbitutte/report/report.h"
 
@@ -34,7 +35,7 @@ void parse_size(const std::string& text, RenderOptions& options);
 
 /// What points up where nobody says: y, as in most files; z for closed meshes that stand on a broad base
 /// across z and not across y, as parts for printing do.
-Vector3 default_up(const Mesh& mesh);
+Vector3 default_up(const Surface& surface);
 
 /// A direction "x,y,z" or "x", "-x", ... "-z". Throws ArgumentError.
 Vector3 parse_up(const std::string& text);
@@ -43,9 +44,9 @@ Vector3 parse_up(const std::string& text);
 /// "x,y,z". Where y is up, the front is at +z, and where z is up, at -y. Throws ArgumentError.
 Vector3 parse_view(const std::string& text, const Vector3& up);
 
-/// What is shown. The mesh is the one that was embedded.
+/// What is shown. The surface is the one that was embedded.
 struct RenderSubject {
-  const Mesh& mesh;
+  const Surface& surface;
   const Embedding& embedding;
   const Report& report;
   std::string title;  ///< of the sheet

@@ -5,25 +5,20 @@
 #include <string>
 #include <vector>
 
+#include "orbitutte/export/html_text.h"
 #include "orbitutte/render/panels.h"
 
 namespace orbitutte {
 namespace {
 
-// 86482 as 86,482.
-std::string with_commas(long long number) {
-  std::string text = std::to_string(number);
-  for (int at = static_cast<int>(text.size()) - 3; at > 0; at -= 3) text.insert(at, 1, ',');
-  return text;
-}
-
 std::string summary(const RenderSubject& subject) {
   std::vector<int> marked;
   for (const ConeCopies& cone : subject.embedding.cones) marked.push_back(cone.vertex);
   const Report& report = subject.report;
-  return fmt::format("{} triangles,  marked vertices {},  group of order {},  energy {:.6g},  {}",
-                     with_commas(subject.mesh.F.rows()), fmt::join(marked, ", "), report.group_order,
-                     report.energy, report.bijective ? "certified bijective" : "not certified");
+  return fmt::format("{} faces,  marked vertices {},  group of order {},  energy {:.6g},  {}",
+                     grouped_digits(subject.embedding.input_faces().count()), fmt::join(marked, ", "),
+                     report.group_order, report.energy,
+                     report.bijective ? "certified bijective" : "not certified");
 }
 
 // Returns what remains below.
@@ -68,7 +63,7 @@ void draw_sheet(Canvas& canvas, const Box& box, PictureParts& parts) {
   draw_captioned(canvas, cell(1, 1), parts, {Panel::angle, "Angle distortion"});
   const Box plots = cell(2, 1), upper = plots.inset(0, 0, 0, 0.5 * height),
             lower = plots.inset(0, 0.5 * height, 0, 0);
-  draw_captioned(canvas, upper, parts, {Panel::histogram, "Triangles by area distortion"});
+  draw_captioned(canvas, upper, parts, {Panel::histogram, "Faces by area distortion"});
   draw_captioned(canvas, lower, parts, {Panel::convergence, "Convergence"});
 }
 

@@ -2,12 +2,11 @@
 // The panels that show the source mesh.
 #include <algorithm>
 
-#include "orbitutte/render/area_histogram.h"
 #include "orbitutte/render/ball_labels.h"
+#include "orbitutte/render/chart_drawing.h"
 #include "orbitutte/render/checkerboard.h"
 #include "orbitutte/render/mesh_lines.h"
 #include "orbitutte/render/panels.h"
-#include "orbitutte/render/scales.h"
 #include "orbitutte/render/sphere_figure.h"
 
 namespace orbitutte {
@@ -94,12 +93,12 @@ void draw_source_panel(Canvas& canvas, const Box& box, PictureParts& parts) {
 
 void draw_area_panel(Canvas& canvas, const Box& box, PictureParts& parts) {
   const std::vector<FaceDistortion>& faces = parts.distortion();
-  const std::vector<double> areas = log_areas(faces);
-  const AreaScale scale = area_scale(areas);
+  const std::vector<double> areas = values_of(Measure::area, faces);
+  const ColourScale scale = colour_scale(Measure::area, areas);
   const double em = canvas.em(), bars = histogram_height(box, parts) * em,
                below = scale_height * em + bars + (bars > 0 ? em : 0);
   draw_surface(canvas, box.inset(0, 0, 0, below), parts,
-               [&](const Hit& hit) { return scale.colour(faces[hit.primitive]); });
+               [&](const Hit& hit) { return face_colour(scale, faces[hit.primitive]); });
   const Box legend = {box.x, box.bottom() - scale_height * em, box.width, scale_height * em};
   draw_scale(canvas, legend, scale);
   const Box bar = scale_bar(canvas, legend);
@@ -108,10 +107,10 @@ void draw_area_panel(Canvas& canvas, const Box& box, PictureParts& parts) {
 
 void draw_angle_panel(Canvas& canvas, const Box& box, PictureParts& parts) {
   const std::vector<FaceDistortion>& faces = parts.distortion();
-  const AngleScale scale = angle_scale(faces);
+  const ColourScale scale = colour_scale(Measure::angle, values_of(Measure::angle, faces));
   const double below = scale_height * canvas.em();
   draw_surface(canvas, box.inset(0, 0, 0, below), parts,
-               [&](const Hit& hit) { return scale.colour(faces[hit.primitive]); });
+               [&](const Hit& hit) { return face_colour(scale, faces[hit.primitive]); });
   draw_scale(canvas, {box.x, box.bottom() - below, box.width, below}, scale);
 }
 

@@ -33,7 +33,7 @@ RayScene copies_of_tile(const Points& positions, const Faces& faces, const std::
   tile.add_triangles(positions, faces);
   tile.commit();
   RayScene scene;
-  for (const TileCopy& copy : copies) scene.add_copy(tile, copy.transform);
+  for (const TileCopy& copy : copies) scene.add_copy(tile, copy.transform.matrix());
   scene.commit();
   return scene;
 }
@@ -139,13 +139,13 @@ double seam_radius(int group_order) {
 }
 
 double ball_radius(const Embedding& embedding, double pixel) {
-  const double wanted = std::max(5.5 * seam_radius(embedding.group_order), readable_radius * pixel);
+  const double wanted = std::max(5.5 * seam_radius(embedding.target.group_order), readable_radius * pixel);
   return std::min(wanted, std::max(0.3 * smallest_gap(embedding), 0.01));
 }
 
 Ornaments sphere_ornaments(const Embedding& embedding, const std::vector<TileCopy>& copies,
                            const Camera& camera) {
-  const double radius = seam_radius(embedding.group_order);
+  const double radius = seam_radius(embedding.target.group_order);
   Ornaments thin;
   for (const Seam& seam : embedding.seams)
     thin.add_tube(arcs(embedding.positions, seam.left), 0.45 * radius, {120, 124, 134});
@@ -153,7 +153,7 @@ Ornaments sphere_ornaments(const Embedding& embedding, const std::vector<TileCop
   Ornaments result;
   std::vector<Matrix3> transforms;
   transforms.reserve(copies.size());
-  for (const TileCopy& copy : copies) transforms.push_back(copy.transform);
+  for (const TileCopy& copy : copies) transforms.push_back(copy.transform.matrix());
   result.add_copies(thin, transforms);
   for (std::size_t s = 0; s < embedding.seams.size(); ++s) {
     const Seam& seam = embedding.seams[s];

@@ -10,9 +10,6 @@
 
 namespace orbitutte {
 
-/// The colour of the source mesh and of its tile on the sphere.
-constexpr Rgb bold_colour = {86, 142, 205};
-
 class SphereFigure {
  public:
   /// relief: n, how bright the source's surface is at every cut vertex, 0 .. 1; the tile and its copies carry

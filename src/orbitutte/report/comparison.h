@@ -17,7 +17,7 @@ struct ComparedMap {
 };
 
 struct Comparison {
-  const Mesh& mesh;
+  const Surface& surface;
   std::vector<int> cones;  ///< the marked vertices: they should be seen
   std::vector<ComparedMap> maps;
 };

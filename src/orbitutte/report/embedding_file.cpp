@@ -37,7 +37,7 @@ void require_properties(const PlyFile& file) {
 
 int to_index(double value, int limit, const char* what, std::size_t of) {
   if (!(value >= 0) || value >= limit || value != std::floor(value))
-    throw MeshError(fmt::format("{} {} names the vertex {}; there are {}", what, of, value, limit));
+    throw MeshError(fmt::format("{} {} names the vertex {}, but there are {}", what, of, value, limit));
   return static_cast<int>(value);
 }
 
@@ -80,7 +80,7 @@ void take_faces(PolygonMesh& mesh, Embedding& embedding) {
 std::string serialize_embedding(const Embedding& embedding) {
   return write_ply_faces(embedding.positions, embedding.input_faces(),
                          {{"source_vertex", embedding.source_vertex}},
-                         {fmt::format("orbitutte embedding {}", embedding.signature)});
+                         {fmt::format("orbitutte embedding {}", embedding.target.signature)});
 }
 
 Embedding parse_embedding(std::string_view bytes) {

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "orbitutte/io/file.h"
+#include "orbitutte/orbifold/polygon.h"
 #include "orbitutte/report/embedding_file.h"
 #include "orbitutte/version.h"
 
@@ -24,15 +25,26 @@ Json to_json(const Matrix3& M) {
   return rows;
 }
 
+Json to_json(const Target& target) {
+  return {{"signature", target.signature},
+          {"group_order", target.group_order > 0 ? Json(target.group_order) : Json()},
+          {"space", target.space.name()}};
+}
+
 Json to_json(const ConeCopies& cone) {
-  return {{"vertex", cone.vertex}, {"order", cone.order}, {"kind", name(cone.kind)}, {"copies", cone.copies}};
+  const int order = cone.mark.order();
+  return {{"vertex", cone.vertex},
+          {"order", order > 0 ? Json(order) : Json()},
+          {"angle", cone.mark.angle},
+          {"kind", name(cone.mark.kind)},
+          {"copies", cone.copies}};
 }
 
 Json to_json(const Seam& seam) {
   return {{"kind", name(seam.kind())},
           {"left", seam.left},
           {"right", seam.right},
-          {"transform", to_json(seam.transform)}};
+          {"transform", to_json(seam.transform.matrix())}};
 }
 
 Json to_json(const EdgeWeights& weights) {
@@ -65,7 +77,14 @@ Json to_json(const Certificate& certificate) {
 Json to_json(const Distortion& distortion) {
   const auto& [mean, std, median, max] = distortion.area;
   return {{"area", {{"mean", mean}, {"std", std}, {"median", median}, {"max", max}}},
-          {"angle", {{"mean", distortion.angle.mean}, {"max", distortion.angle.max}}},
+          {"angle",
+           {{"mean", distortion.angle.mean},
+            {"area_mean", distortion.angle.area_mean},
+            {"median", distortion.angle.median},
+            {"max", distortion.angle.max}}},
+          {"sigma", distortion.sigma},
+          {"within_4", distortion.within_4},
+          {"below_64", distortion.below_64},
           {"histogram",
            {{"quantity", "log2 of the area ratio"},
             {"edges", distortion.histogram.edges},
@@ -81,7 +100,7 @@ Json history_json(const std::vector<Iteration>& history) {
 }
 
 Json timings_json(const Timings& stages, const RunRecord& run) {
-  Json timings = {{"read", run.read_seconds}};
+  Json timings = {{"read", run.read_seconds}, {"validate", run.validate_seconds}};
   for (const auto& [stage, seconds] : stages) timings[stage] = timings.value(stage, 0.0) + seconds;
   timings["write"] = run.write_seconds;
   timings["total"] = run.total_seconds;
@@ -172,29 +191,46 @@ template <typename Kind>
 Kind one_of(std::initializer_list<Kind> kinds, const std::string& word, const char* what) {
   for (const Kind kind : kinds)
     if (name(kind) == word) return kind;
-  throw MeshError(fmt::format("the 'kind' of {} is '{}', which means nothing", what, word));
+  throw MeshError(fmt::format("the 'kind' of {} is '{}', which is not known", what, word));
 }
 
-Seam to_seam(const Json& json) {
-  Seam seam = {integers(json, "left"), integers(json, "right"), matrix(json, "transform")};
+Space to_space(const std::string& name) {
+  for (const Space space : {Space::sphere(), Space::plane(), Space::hyperbolic_plane()})
+    if (space.name() == name) return space;
+  throw MeshError(fmt::format("the 'space' is '{}', not spherical, euclidean or hyperbolic", name));
+}
+
+Seam to_seam(Space space, const Json& json) {
+  Seam seam = {integers(json, "left"), integers(json, "right"), space.isometry(matrix(json, "transform"))};
   if (seam.left.size() != seam.right.size())
     throw MeshError("the banks 'left' and 'right' of a seam have different lengths");
   return seam;
 }
 
-ConeCopies to_cone(const Json& json) {
+// Reports of the first version have no angles; the order is null if the angle is no 2 pi/n.
+Mark to_mark(const Json& json) {
   const ConeKind kind =
       one_of({ConeKind::rotation, ConeKind::corner, ConeKind::fixed}, text(json, "kind"), "a cone");
-  return {integer(json, "vertex"), integer(json, "order"), kind, integers(json, "copies")};
+  const bool has_order = !json.contains("order") || !json["order"].is_null();
+  const int order = has_order ? integer(json, "order") : 0;
+  if (has_order && !json.contains("angle")) return Mark::of_order(order, kind);
+  const Mark mark = {number(json, "angle"), kind};
+  if (mark.order() != order)
+    throw MeshError(
+        fmt::format("a cone has the 'order' {}, which its 'angle' {} contradicts", order, mark.angle));
+  return mark;
+}
+
+ConeCopies to_cone(const Json& json) {
+  const Mark mark = to_mark(json);
+  return {integer(json, "vertex"), mark, integers(json, "copies")};
 }
 
 WeightOptions to_weights(const Json& json) {
   const WeightKind kind = one_of({WeightKind::cotan, WeightKind::delaunay, WeightKind::mean_value,
                                   WeightKind::uniform, WeightKind::file},
                                  text(json, "kind"), "the weights");
-  WeightOptions weights = {kind, number(json, "clamp"), {}};
-  if (kind == WeightKind::delaunay) weights.kept_faces = integers(json, "kept_faces");
-  return weights;
+  return {kind, number(json, "clamp"), {}};
 }
 
 std::vector<Iteration> to_history(const Json& rows) {
@@ -212,11 +248,17 @@ Report to_report(const Json& json) {
   Report report;
   const Json& orbifold = object(json, "orbifold");
   report.signature = text(orbifold, "signature");
-  report.group_order = integer(orbifold, "group_order");
-  if (report.group_order < 1) throw MeshError("the value of 'group_order' is not positive");
-  for (const Json& seam : array(json, "seams")) report.seams.push_back(to_seam(seam));
+  if (orbifold.contains("space")) report.space = to_space(text(orbifold, "space"));
+  if (!orbifold.contains("group_order") || !orbifold["group_order"].is_null()) {
+    report.group_order = integer(orbifold, "group_order");
+    if (report.group_order < 1) throw MeshError("the value of 'group_order' is not positive");
+  }
+  if (json.contains("placement")) report.placement = report.space.isometry(matrix(json, "placement"));
+  for (const Json& seam : array(json, "seams")) report.seams.push_back(to_seam(report.space, seam));
   for (const Json& cone : array(json, "cones")) report.cones.push_back(to_cone(cone));
-  report.weights = to_weights(object(json, "weights"));
+  const Json& weights = object(json, "weights");
+  report.weights = to_weights(weights);
+  if (report.weights.kind == WeightKind::delaunay) report.kept_faces = integers(weights, "kept_faces");
   report.energy = number(json, "energy");
   report.history = to_history(array(json, "history"));
   report.converged = text(json, "termination") == name(Termination::converged);
@@ -243,7 +285,8 @@ std::string report_json(const EmbedResult& result, const RunRecord& run) {
                  {"topology", name(result.topology)},
                  {"unreferenced_vertices", result.unreferenced_vertices},
                  {"zero_area_faces", result.zero_area_faces}}},
-               {"orbifold", {{"signature", embedding.signature}, {"group_order", embedding.group_order}}},
+               {"orbifold", to_json(embedding.target)},
+               {"placement", to_json(embedding.placement.matrix())},
                {"cones", list(embedding.cones, [](const ConeCopies& cone) { return to_json(cone); })},
                {"seams", list(embedding.seams, [](const Seam& seam) { return to_json(seam); })},
                {"weights", to_json(result.weights)},
@@ -267,9 +310,9 @@ Report parse_report(std::string_view text) {
   try {
     return to_report(Json::parse(text));
   } catch (const nlohmann::json::parse_error& error) {
-    throw MeshError(fmt::format("this is no JSON, from byte {} on", error.byte));
+    throw MeshError(fmt::format("the file is not JSON: byte {} cannot be read", error.byte));
   } catch (const nlohmann::json::out_of_range&) {
-    throw MeshError("a number is too large to be one");
+    throw MeshError("a number is too large to be read");
   }
 }
 
@@ -282,22 +325,40 @@ Report read_report(const std::string& path) {
   }
 }
 
+namespace {
+
+Target target_of(const Report& report, const Points& positions) {
+  try {
+    Target target = read_target(report.signature, report.cones, positions);
+    if (target.space != report.space)
+      throw MeshError(fmt::format("the report says that {} is {}, but it is {}", report.signature,
+                                  report.space.name(), target.space.name()));
+    target.group_order = report.group_order;  // a claim, which `verify` judges
+    return target;
+  } catch (const ArgumentError& error) {
+    throw MeshError(fmt::format("the signature of the report {}", error.what()));
+  }
+}
+
+}  // namespace
+
 Embedding with_report(Embedding embedding, const Report& report) {
-  embedding.signature = report.signature;
-  embedding.group_order = report.group_order;
+  embedding.placement = report.placement;
   embedding.seams = report.seams;
   embedding.cones = report.cones;
   const int count = static_cast<int>(embedding.source_vertex.size());
   const auto require = [&](const std::vector<int>& vertices) {
     for (const int v : vertices)
       if (v < 0 || v >= count)
-        throw MeshError(fmt::format("the report names the cut vertex {}, but there are {}", v, count));
+        throw MeshError(
+            fmt::format("the report names the cut vertex {}, but the embedding has {} vertices", v, count));
   };
   for (const Seam& seam : embedding.seams) {
     require(seam.left);
     require(seam.right);
   }
   for (const ConeCopies& cone : embedding.cones) require(cone.copies);
+  embedding.target = target_of(report, embedding.positions);
   return embedding;
 }
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "orbitutte/embed.h"
+#include "orbitutte/embed_types.h"
 
 namespace orbitutte {
 
@@ -16,6 +16,8 @@ struct RunRecord {
   std::string mesh_path;
   std::string input_sha256;  ///< hexadecimal
   double read_seconds = 0;
+  /// If the surface was made before it was embedded.
+  double validate_seconds = 0;
   double write_seconds = 0;
   double total_seconds = 0;
   long long peak_memory_bytes = 0;
@@ -27,10 +29,16 @@ std::string report_json(const EmbedResult& result, const RunRecord& run);
 /// What a report says that can be checked against the files that it speaks of.
 struct Report {
   std::string signature;
+
+  /// 0 if the group is infinite.
   int group_order = 0;
+  Space space;
+  Isometry placement;
   std::vector<Seam> seams;
   std::vector<ConeCopies> cones;
   WeightOptions weights;
+  /// Triangles of which no edge was flipped.
+  std::vector<int> kept_faces;
   double energy = 0;
   std::vector<Iteration> history;
   bool converged = false;

@@ -7,8 +7,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "orbitutte/inspect/inspection.h"
-#include "orbitutte/mesh/triangulation.h"
 #include "orbitutte/orbifold/signature.h"
 #include "orbitutte/verify/energy.h"
 #include "orbitutte/weights/cone_weights.h"
@@ -23,14 +21,12 @@ Check claim(std::string name, bool holds, std::string detail) {
 }
 
 // The weights that the embedding was computed with; none where they came from a file that is not at hand.
-std::optional<EdgeWeights> weights_at_hand(const Mesh& mesh, const Connectivity& connectivity,
-                                           const Embedding& embedding, const Report& report,
-                                           const VerificationOptions& options) {
+std::optional<EdgeWeights> weights_at_hand(const Surface& surface, const Embedding& embedding,
+                                           const Report& report, const VerificationOptions& options) {
   if (options.weights) return options.weights;
-  if (report.weights.kind != WeightKind::file)
-    return weights_of(mesh, connectivity, report.weights, embedding);
+  if (report.weights.kind != WeightKind::file) return weights_of(surface, embedding, report);
   if (options.weights_file.empty()) return std::nullopt;
-  return read_weights(options.weights_file, connectivity);
+  return read_weights(options.weights_file, surface.connectivity);
 }
 
 // E as the report says, from the mesh and the positions.
@@ -60,19 +56,18 @@ Theorem2 not_run(const char* reason) {
   return theorem2;
 }
 
-Theorem2 theorem2_of(const Mesh& mesh, const Connectivity& connectivity,
-                     const std::optional<EdgeWeights>& weights, const Embedding& embedding,
-                     const Certificate& certificate) {
+Theorem2 theorem2_of(const Surface& surface, const std::optional<EdgeWeights>& weights,
+                     const Embedding& embedding, const Certificate& certificate) {
   if (!has_cover(certificate)) return not_run("the copies of the embedding do not fit together");
   if (!weights) return not_run("the weights came from a file: give it with --weights-file");
-  return check_theorem2(mesh, connectivity, *weights, embedding);
+  return check_theorem2(surface, *weights, embedding);
 }
 
 // What the report says of the triangulation that has the weights.
-Check intrinsic_claim(const Mesh& mesh, const Embedding& embedding, const EdgeWeights& weights,
+Check intrinsic_claim(const Surface& surface, const Embedding& embedding, const EdgeWeights& weights,
                       const Report& report) {
   const bool bijective =
-      weights.triangulation && certify_intrinsic(mesh, embedding, *weights.triangulation).bijective;
+      weights.triangulation && certify_intrinsic(surface, embedding, *weights.triangulation).bijective;
   return claim("report_intrinsic_bijective", *report.intrinsic_bijective == (bijective && report.converged),
                fmt::format("the report says bijective = {} of the intrinsic triangulation",
                            *report.intrinsic_bijective));
@@ -125,31 +120,23 @@ Json to_json(const Theorem2& theorem2) {
 
 }  // namespace
 
-Verdict verify(const PolygonMesh& mesh, const Embedding& embedding, const Report& report,
+Verdict verify(const Surface& surface, const Embedding& embedding, const Report& report,
                const VerificationOptions& options) {
-  require_embeddable(inspect(mesh));
-  const Triangulation triangulation = triangulate(mesh);
-  const Mesh triangles = {mesh.V, on_vertices(triangulation, mesh.corners)};
-  const Connectivity connectivity = connect(mesh, triangulation);
-
-  const Certificate certificate = certify(mesh, embedding);
-  std::optional<EdgeWeights> weights;  // of an embedding of this mesh
-  if (has_passed(certificate, "cut_mesh"))
-    weights = weights_at_hand(triangles, connectivity, embedding, report, options);
+  const Certificate certificate = certify(surface, embedding);
+  std::optional<EdgeWeights> weights;  // of an embedding of this surface
+  if (has_passed(certificate, "cut_mesh")) weights = weights_at_hand(surface, embedding, report, options);
   Verdict verdict;
   verdict.checks = certificate.checks;
   for (Check& check : check_claims(certificate, report)) verdict.checks.push_back(std::move(check));
   if (certificate.bijective && weights)
-    verdict.checks.push_back(
-        energy_check(dirichlet_energy(triangles, connectivity, *weights, embedding), report));
+    verdict.checks.push_back(energy_check(dirichlet_energy(surface, *weights, embedding), report));
   if (report.intrinsic_bijective && weights)
-    verdict.checks.push_back(intrinsic_claim(triangles, embedding, *weights, report));
+    verdict.checks.push_back(intrinsic_claim(surface, embedding, *weights, report));
   verdict.sound = certificate.bijective;
   for (const Check& check : verdict.checks) verdict.sound = verdict.sound && check.passed;
   verdict.converged = report.converged;
   verdict.bijective = verdict.sound && report.converged;
-  if (options.theorem2)
-    verdict.theorem2 = theorem2_of(triangles, connectivity, weights, embedding, certificate);
+  if (options.theorem2) verdict.theorem2 = theorem2_of(surface, weights, embedding, certificate);
   return verdict;
 }
 
@@ -159,18 +146,19 @@ std::string verdict_json(const Verdict& verdict) {
   return json.dump(1) + "\n";
 }
 
-EdgeWeights weights_of(const Mesh& mesh, const Connectivity& connectivity, const WeightOptions& options,
-                       const Embedding& embedding) {
+EdgeWeights weights_of(const Surface& surface, const Embedding& embedding, const Report& report) {
   std::vector<Mark> marks;
-  for (const ConeCopies& cone : embedding.cones) marks.push_back({cone.order, cone.kind});
+  for (const ConeCopies& cone : embedding.cones) marks.push_back(cone.mark);
   const std::vector<double> angles = metric_angles(marks);
   std::vector<ConeAngle> cones;
   for (std::size_t k = 0; k < angles.size(); ++k)
     if (angles[k] > 0) cones.push_back({embedding.cones[k].vertex, angles[k]});
-  std::vector<std::array<int, 2>> apart;
-  if (are_opposite(marks)) apart.push_back({embedding.cones[0].vertex, embedding.cones[1].vertex});
-  const EdgeWeights weights = edge_weights(mesh, connectivity, options);
-  return sharpened_at_cones(kept_apart(weights, apart, mesh, connectivity, options), cones, apart);
+  UnflippedEdges unflipped = {report.kept_faces};
+  if (are_opposite(marks))
+    unflipped.kept_apart.push_back({embedding.cones[0].vertex, embedding.cones[1].vertex});
+  const EdgeWeights weights = edge_weights(surface, report.weights, {report.kept_faces});
+  return sharpened_at_cones(kept_apart(weights, surface, report.weights, unflipped), cones,
+                            unflipped.kept_apart);
 }
 
 }  // namespace orbitutte

@@ -29,17 +29,17 @@ struct Verdict {
   std::optional<Theorem2> theorem2;  ///< where it was asked for
 };
 
-/// Throws MeshError with the first defect of the mesh, and as read_weights does; what does not hold of the
-/// embedding or its report is a failed check.
-Verdict verify(const PolygonMesh& mesh, const Embedding& embedding, const Report& report,
+/// surface: the input. Throws as read_weights and weight_kind do; what does not hold of the embedding or its
+/// report is a failed check.
+Verdict verify(const Surface& surface, const Embedding& embedding, const Report& report,
                const VerificationOptions& options = {});
 
 /// `bijective`, `checks` and, where it was asked for, `theorem2`, as JSON (docs/file-formats.md).
 std::string verdict_json(const Verdict& verdict);
 
-/// The weights of an embedding of the mesh, computed again from the mesh and, where the kind takes them into
-/// account, from the embedding's cones. Throws ArgumentError for weights of a file.
-EdgeWeights weights_of(const Mesh& mesh, const Connectivity& connectivity, const WeightOptions& options,
-                       const Embedding& embedding);
+/// The weights of an embedding of the surface, computed again from the surface, from what the report says of
+/// them and, where their kind takes these into account, from the embedding's cones. Throws ArgumentError for
+/// weights of a file.
+EdgeWeights weights_of(const Surface& surface, const Embedding& embedding, const Report& report);
 
 }  // namespace orbitutte

@@ -10,7 +10,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// The stereographic image, from the south pole, of the one of +-p that is above the equator: |z| <= 1.
+// The stereographic image, from the south pole, of p or -p, whichever lies above the equator: |z| <= 1.
 Complex upper_stereographic(const Vector3& p) {
   const double sign = p[2] < 0 ? -1 : 1;
   return Complex(sign * p[0], sign * p[1]) / (1 + std::abs(p[2]));

@@ -12,21 +12,21 @@
 namespace orbitutte {
 namespace {
 
-constexpr int fewest_relaxed_faces = 600;      // with fewer, vertices slide off what is thin
-constexpr int most_grown_faces = 10'000;       // a mesh with more is divided instead
-constexpr int most_flipped_faces = 1'000'000;  // beyond, triangles have taken their shapes
-constexpr double growth = 0.15;                // so many of the edges, the longest ones, are split at a time
+constexpr int fewest_relaxed_faces = 600;      // with fewer, vertices slide off thin parts
+constexpr int most_grown_faces = 10'000;       // a larger mesh is divided instead
+constexpr int most_flipped_faces = 1'000'000;  // in a larger mesh, triangles have taken their shapes
+constexpr double growth = 0.15;  // the share of the edges that are split at a time, the longest first
 constexpr int flip_passes = 30;
 constexpr int growing_rounds = 3;   // of relaxation after every growth
-constexpr int final_rounds = 40;    // and after the last one
-constexpr int dividing_rounds = 2;  // and after every division
+constexpr int final_rounds = 40;    // after the last growth
+constexpr int dividing_rounds = 2;  // after every division
 
 int face_count(const Mesh& mesh) { return static_cast<int>(mesh.F.rows()); }
 int vertex_count(const Mesh& mesh) { return static_cast<int>(mesh.V.rows()); }
 
 Connectivity connect(const Mesh& mesh) { return orbitutte::connect(mesh.F, vertex_count(mesh)); }
 
-// One half-edge of every edge, the lower one.
+// One half-edge of every edge, the one with the lower index.
 std::vector<int> halfedge_of_edges(const Connectivity& connectivity) {
   std::vector<int> result(connectivity.edges.size());
   for (int h = static_cast<int>(connectivity.edge_of.size()) - 1; h >= 0; --h)
@@ -42,8 +42,8 @@ std::vector<char> boundary_vertices(const Mesh& mesh, const Connectivity& connec
   return result;
 }
 
-// Newton's steps along the gradient to the zero set, in the plane through p with this normal, or in space for
-// normal 0.
+// Takes Newton steps along the gradient to the zero set: in the plane through p with this normal, or in space
+// if the normal is 0.
 Vector3 drawn(const SmoothSurface& surface, Vector3 p, const Vector3& normal = Vector3::Zero()) {
   constexpr int steps = 12;
   constexpr double tolerance = 1e-9;
@@ -83,7 +83,7 @@ Points normals(const Points& V, const SmoothSurface& surface) {
 
 // ---- growing
 
-// Puts vertex m into the edge of half-edge h; the new face gets the number `new_face`.
+// Splits the edge of half-edge h at vertex m in one of its faces. The new face gets the number `new_face`.
 void split_face(Faces& F, int h, int m, int new_face) {
   const int b = target(F, h), o = origin(F, previous_halfedge(h));
   F.data()[next_halfedge(h)] = m;
@@ -101,8 +101,8 @@ std::vector<int> edges_by_length(const Mesh& mesh, const Connectivity& connectiv
   return order;
 }
 
-// Splits the longest edges, at most one of every face, until `faces` are reached or a share of the edges is
-// split.
+// Splits the longest edges, at most one of every face, until there are `faces` faces or a share of the edges
+// is split.
 void split_long_edges(Mesh& mesh, const SmoothSurface& surface, int faces) {
   const Connectivity connectivity = connect(mesh);
   const std::vector<int> halfedge = halfedge_of_edges(connectivity);
@@ -140,7 +140,7 @@ bool has_edge(const Connectivity& connectivity, int v, int w) {
   return std::binary_search(connectivity.edges.begin(), connectivity.edges.end(), edge);
 }
 
-// Whether a triangle lies with its back to the surface, or nearly so.
+// Does a triangle turn its back to the surface, or nearly so?
 bool lies_wrong(const Mesh& mesh, const SmoothSurface& surface, int a, int b, int c) {
   constexpr double least_cosine = 0.3;
   Vector3 expected = Vector3::Zero();
@@ -148,7 +148,8 @@ bool lies_wrong(const Mesh& mesh, const SmoothSurface& surface, int a, int b, in
   return area_vector(mesh, a, b, c).normalized().dot(expected.normalized()) < least_cosine;
 }
 
-// Flips every edge whose opposite angles add up to more than pi, no two at the same vertex. Returns how many.
+// Flips every edge whose opposite angles add up to more than pi, but no two at the same vertex. Returns the
+// number of flips.
 int flip_edges(Mesh& mesh, const SmoothSurface& surface) {
   constexpr double rounding = 1e-9;
   const Connectivity connectivity = connect(mesh);
@@ -179,8 +180,8 @@ void flip_to_delaunay(Mesh& mesh, const SmoothSurface& surface) {
 
 // ---- relaxing
 
-// The area-weighted mean of the centroids of a vertex's triangles; on the boundary, the middle of its two
-// neighbours there.
+// The area-weighted mean of the centroids of a vertex's triangles; for a boundary vertex, the middle of its
+// two neighbours on the boundary.
 Points centres(const Mesh& mesh, const Connectivity& connectivity, const std::vector<char>& on_rim) {
   Points sum = Points::Zero(mesh.V.rows(), 3);
   Eigen::VectorXd weight = Eigen::VectorXd::Zero(mesh.V.rows());
@@ -205,8 +206,8 @@ Points centres(const Mesh& mesh, const Connectivity& connectivity, const std::ve
   return sum.array().colwise() / weight.array();
 }
 
-// Where every vertex comes to when it moves to the centre of its triangles, but along the surface only:
-// otherwise limbs would shrink.
+// The positions of the vertices after each has moved towards the centre of its triangles. They move only
+// along the surface: otherwise limbs would shrink.
 Points centred(const Mesh& mesh, const SmoothSurface& surface, const Connectivity& connectivity) {
   const std::vector<char> on_rim = boundary_vertices(mesh, connectivity);
   Points result = centres(mesh, connectivity, on_rim);
@@ -220,7 +221,7 @@ Points centred(const Mesh& mesh, const SmoothSurface& surface, const Connectivit
   return result;
 }
 
-// Whether a triangle lies with its back to the surface, or nearly so.
+// Does a triangle turn its back to the surface, or nearly so?
 bool lies_wrong(const Mesh& mesh, const Points& normal, int f) {
   constexpr double least_cosine = 0.2;
   const int a = mesh.F(f, 0), b = mesh.F(f, 1), c = mesh.F(f, 2);
@@ -229,7 +230,7 @@ bool lies_wrong(const Mesh& mesh, const Points& normal, int f) {
   return area.dot(expected) < least_cosine * area.norm();
 }
 
-// Moves all vertices to their centres, but those of triangles that would come to lie wrong.
+// Moves all vertices to their centres, except those of triangles that would turn their back to the surface.
 void relax(Mesh& mesh, const SmoothSurface& surface) {
   const Mesh before = mesh;
   const Points normal_before = normals(mesh.V, surface);
@@ -258,7 +259,7 @@ void relax_and_flip(Mesh& mesh, const SmoothSurface& surface, int rounds) {
 
 // ---- dividing
 
-// How many faces to grow before the divisions. Closed triangle meshes have an even number.
+// How many faces to grow before the divisions. Closed triangle meshes have an even number of faces.
 int grown_faces(const Mesh& mesh, int faces, int divisions) {
   const auto& opposite = connect(mesh).opposite;
   const bool closed = std::find(opposite.begin(), opposite.end(), -1) == opposite.end();
@@ -267,7 +268,7 @@ int grown_faces(const Mesh& mesh, int faces, int divisions) {
   return unit * static_cast<int>(divisions == 0 ? std::ceil(wanted) : std::round(wanted));
 }
 
-// Every triangle in four by the midpoints of its edges.
+// Divides every triangle into four at the midpoints of its edges.
 Mesh divided(const Mesh& mesh, const SmoothSurface& surface) {
   const Connectivity connectivity = connect(mesh);
   const std::vector<int> halfedge = halfedge_of_edges(connectivity);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A vertex is one of two antipodes, whichever. Where faces are divided, antipodes are chosen that lie
-// together: neighbours are less than a right angle apart, so the sign of their product tells them.
+// A vertex is a pair of antipodes, stored as either of the two. To divide a face, antipodes are chosen that
+// lie close together: neighbours are less than a right angle apart, so the sign of their product decides.
 #include "orbitutte/samples/projective_mesh.h"
 
 #include <Eigen/Geometry>
@@ -17,7 +17,7 @@
 namespace orbitutte {
 namespace {
 
-// The one of +-p that is nearer to `to`.
+// p or -p, whichever is nearer to `to`.
 Vector3 aligned(const Vector3& p, const Vector3& to) { return p.dot(to) < 0 ? Vector3(-p) : p; }
 
 struct Triangle {
@@ -29,8 +29,9 @@ Triangle aligned_corners(const Mesh& mesh, int f) {
   return {a, aligned(mesh.V.row(mesh.F(f, 1)), a), aligned(mesh.V.row(mesh.F(f, 2)), a)};
 }
 
-// The six axes through opposite vertices of an icosahedron, and one of every two opposite faces, the centre
-// of one at the north pole: three axes are a face where antipodes can be chosen that lie together.
+// The six axes through opposite vertices of an icosahedron, and one of every two opposite faces, with the
+// centre of one at the north pole. Three axes are a face if antipodes can be chosen on them that lie close
+// together.
 Mesh half_icosahedron() {
   constexpr double golden = std::numbers::phi;
   Mesh result;
@@ -50,8 +51,8 @@ Mesh half_icosahedron() {
   return result;
 }
 
-// The vertices of a mesh whose faces are divided by k: those of the mesh, then k - 1 on every edge, from its
-// lower end to its upper one, then those inside the faces.
+// The vertices of a mesh whose faces are divided by k: first those of the mesh, then k - 1 on every edge,
+// from its lower end to its upper one, then those inside the faces.
 class DividedVertices {
  public:
   DividedVertices(const Mesh& mesh, int k)
@@ -62,7 +63,8 @@ class DividedVertices {
 
   int count() const { return first_inside_ + static_cast<int>(mesh_.F.rows()) * inside_a_face(); }
 
-  // The vertex of face f that is i steps from its first corner towards the second, then j towards the third.
+  // The vertex of face f that lies i steps from its first corner towards the second, then j towards the
+  // third.
   int operator()(int f, int i, int j) const {
     const std::array<int, 3> weight = {k_ - i - j, i, j};
     for (int c = 0; c < 3; ++c)
@@ -87,7 +89,7 @@ class DividedVertices {
   int k_, first_inside_;
 };
 
-// Every face in k^2.
+// Divides every face into k^2.
 Mesh divided(const Mesh& mesh, int k) {
   const DividedVertices vertex(mesh, k);
   Mesh result = {Points(vertex.count(), 3), Faces(mesh.F.rows() * k * k, 3)};
@@ -107,8 +109,8 @@ Mesh divided(const Mesh& mesh, int k) {
   return result;
 }
 
-// Every face in three at its centre, and every old edge exchanged for that between the centres beside it: one
-// face on either side of every new edge. L. Kobbelt, sqrt(3)-subdivision (2000).
+// Divides every face into three at its centre, and replaces every old edge by the edge between the centres on
+// its two sides. Each new edge has one face on either side. L. Kobbelt, sqrt(3)-subdivision (2000).
 Mesh tripled(const Mesh& mesh) {
   const int n = static_cast<int>(mesh.V.rows()), m = static_cast<int>(mesh.F.rows());
   const Connectivity connectivity = connect(mesh.F, n);
@@ -128,8 +130,8 @@ Mesh tripled(const Mesh& mesh) {
   return result;
 }
 
-// Runs each face counterclockwise about its centre, seen from outside, the antipode of the centre taken that
-// lies above.
+// Turns every face so that it runs counterclockwise as seen from outside, for the antipode whose centre lies
+// above the equator.
 void turn_counterclockwise(Mesh& mesh) {
   for (int f = 0; f < static_cast<int>(mesh.F.rows()); ++f) {
     const auto [a, b, c] = aligned_corners(mesh, f);
@@ -145,7 +147,7 @@ struct Division {
   int faces() const { return (triples ? 30 : 10) * k * k; }
 };
 
-// Of the numbers `unit` k^2 the nearest one's k.
+// The k for which `unit` k^2 is nearest to `faces`.
 int nearest_division(int faces, int unit) {
   const int below = std::max(1, static_cast<int>(std::sqrt(faces / static_cast<double>(unit))));
   const auto off = [&](int k) { return std::abs(unit * k * k - faces); };

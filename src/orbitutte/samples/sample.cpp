@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The figure and the mask are zero sets of smooth functions; coarse meshes of them, set up by hand, grow into
-// even ones. Projective planes have no inside and come from parametrisations.
+// The figure and the mask are zero sets of smooth functions. Coarse meshes of them, set up by hand, grow into
+// even ones. Projective planes have no inside, so they are made from parametrisations.
 #include "orbitutte/samples/sample.h"
 
 #include <fmt/format.h>
@@ -27,8 +27,9 @@ constexpr int most_faces = 20'000'000;
 // A limb: the hull of two balls.
 struct Limb {
   Vector3 start, direction;
-  double length, radius, slope;  // the radius grows by the slope along the direction
-  double lean;  // how much further along the nearest ball's centre lies, per distance from the axis
+  double length, radius, slope;  // the radius grows by `slope` per length along the direction
+  // How much further along the limb the nearest ball's centre lies, per distance from the axis.
+  double lean;
 
   Limb(const Vector3& a, const Vector3& b, double radius_a, double radius_b)
       : start(a),
@@ -57,7 +58,7 @@ const std::array<Limb, 12>& limbs() {
   return result;
 }
 
-// The distance to the hull of two balls, the least of |p - c(t)| - r(t) over the balls between them.
+// The distance to the hull of two balls: the least of |p - c(t)| - r(t) over the balls between them.
 FieldSample limb_distance(const Limb& limb, const Vector3& p) {
   const Vector3 from_start = p - limb.start;
   const double along = from_start.dot(limb.direction);
@@ -72,7 +73,7 @@ FieldSample limb_distance(const Limb& limb, const Vector3& p) {
 // -log(sum_i exp(-k d_i)) / k: the limbs' distances, smoothly joined over lengths of 1 / k.
 FieldSample figure_field(const Vector3& p) {
   constexpr double sharpness = 14;
-  constexpr double negligible = 1.5;  // exp(-k d) is 2e-10: no step that shows
+  constexpr double negligible = 1.5;  // exp(-k d) is 2e-10, too small a step to be seen
   std::array<FieldSample, 12> distance;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < distance.size(); ++i) {
@@ -95,8 +96,8 @@ struct Boxes {
   std::vector<Vector3> points;
   std::vector<std::array<int, 4>> faces;
 
-  // Pulls a face out along `axis` to a square of the given half-diagonal around `centre`: a ring of four new
-  // faces.
+  // Pulls a face out along `axis` to a square of the given half-diagonal around `centre`; this adds a ring of
+  // four faces.
   void pull(int face, const Vector3& centre, const Vector3& axis, double radius) {
     const std::array<int, 4> old = faces[face];
     Vector3 middle = Vector3::Zero();
@@ -126,9 +127,9 @@ struct Boxes {
   }
 };
 
-// The trunk: a box of three columns, for a leg, nothing and a leg below, for a shoulder, the neck and a
-// shoulder above, and of two rows, for the arms above and the hips below. Its first faces are those that are
-// pulled out: the right and the left shoulder's side, the bottoms of the legs, the top of the middle.
+// The trunk: a box of three columns and two rows. Below are a leg, nothing and a leg; above a shoulder, the
+// neck and a shoulder. The upper row has the arms, the lower one the hips. The faces to be pulled out come
+// first: the sides of the right and the left shoulder, the bottoms of the legs, the top of the middle.
 Boxes trunk() {
   Boxes result;
   const auto vertex = [](int x, int y, int z) { return 6 * x + 2 * y + z; };
@@ -183,7 +184,7 @@ Mesh coarse_figure() {
 
 // ---- the mask
 
-// A bell-shaped rise of the mask, negative for a hollow.
+// A bell-shaped bump of the mask; its height is negative for a hollow.
 struct Bump {
   Vector3 centre, size;
   double height;
@@ -211,8 +212,8 @@ const std::array<Bump, 16>& bumps() {
   return result;
 }
 
-// An ellipsoid with bumps, of which the half in front of the plane z = 0 is the mask: (|p / r| - 1) s - sum_i
-// h_i exp(-|(p - c_i) / s_i|^2).
+// An ellipsoid with bumps: (|p / r| - 1) s - sum_i h_i exp(-|(p - c_i) / s_i|^2). The half in front of the
+// plane z = 0 is the mask.
 FieldSample mask_field(const Vector3& p) {
   const Vector3 radii(0.72, 1, 0.58);
   constexpr double scale = 0.6;
@@ -246,7 +247,7 @@ Mesh coarse_mask() {
 struct Shape {
   SampleShape shape;
   std::string name;
-  EvenMap projective_map;  // of a projective plane, otherwise null
+  EvenMap projective_map;  // of a projective plane; otherwise null
 };
 
 const std::array<Shape, 6>& shapes() {
@@ -266,12 +267,12 @@ const Shape& row_of(SampleShape shape) {
 void require_faces_from(int fewest, int faces) {
   if (faces >= fewest && faces <= most_faces) return;
   throw ArgumentError(
-      fmt::format("a sample mesh of {} faces is not made; ask for {} to {}", faces, fewest, most_faces));
+      fmt::format("a sample mesh cannot have {} faces; ask for {} to {}", faces, fewest, most_faces));
 }
 
 // ---- cones
 
-// The vertex that is furthest in a direction.
+// The vertex that lies furthest in a direction.
 int extreme_vertex(const Mesh& mesh, const Vector3& direction) {
   Eigen::Index vertex = 0;
   (mesh.V * direction).maxCoeff(&vertex);
@@ -288,7 +289,7 @@ SampleShape sample_shape(const std::string& name) {
     if (shape.name == name) return shape.shape;
     names += (names.empty() ? "" : ", ") + shape.name;
   }
-  throw ArgumentError(fmt::format("there is no sample of the shape '{}'; there are {}", name, names));
+  throw ArgumentError(fmt::format("there is no shape '{}'; choose one of {}", name, names));
 }
 
 bool passes_through_itself(SampleShape shape) { return row_of(shape).projective_map != nullptr; }

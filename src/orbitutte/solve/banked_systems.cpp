@@ -183,7 +183,7 @@ class BankedSystems : public LaplacianSystems {
 
   // The 3 x k matrix that takes the unknowns of a bank node's vertex to its position.
   Block placement(int bank) const {
-    return graph_.transform(disk_.bank(bank)) * boundary_.basis(source(bank));
+    return graph_.transform(disk_.bank(bank)).matrix() * boundary_.basis(source(bank));
   }
 
   // Numbers the unknowns of the vertices on the banks; the bank nodes that are images of each.

@@ -21,10 +21,9 @@ std::vector<Seam> seams_of(const std::vector<std::vector<int>>& sides, const Til
   return seams;
 }
 
-std::vector<ConeCopies> cones_of(const CutMesh& cut, const Orbifold& orbifold) {
+std::vector<ConeCopies> cones_of(const CutMesh& cut, const Target& target) {
   std::vector<ConeCopies> cones;
-  for (std::size_t k = 0; k < orbifold.marks.size(); ++k)
-    cones.push_back({cut.marks[k], orbifold.marks[k].order, orbifold.marks[k].kind, {}});
+  for (std::size_t k = 0; k < target.marks.size(); ++k) cones.push_back({cut.marks[k], target.marks[k], {}});
   for (int v : cut.boundary) {
     for (ConeCopies& cone : cones)
       if (cut.source_vertex[v] == cone.vertex) cone.copies.push_back(v);
@@ -48,11 +47,11 @@ void hold_corners(const Tile& tile, int input_vertices, BoundaryConditions& cond
 // is met.
 void spread_transforms(const std::vector<Seam>& seams, int input_vertices, BoundaryConditions& conditions) {
   for (const Seam& seam : seams) {
-    if (seam.left == seam.right) continue;
+    if (seam.is_mirror()) continue;
     for (std::size_t k = 0; k < seam.left.size(); ++k) {
       const int l = seam.left[k], r = seam.right[k];
       if (r >= input_vertices && l < input_vertices) {
-        conditions.transform_of[r] = index_among(conditions.transforms, inverse_isometry(seam.transform));
+        conditions.transform_of[r] = index_among(conditions.transforms, seam.transform.inverse());
       } else if (l >= input_vertices && r < input_vertices) {
         conditions.transform_of[l] = index_among(conditions.transforms, seam.transform);
       }
@@ -60,28 +59,11 @@ void spread_transforms(const std::vector<Seam>& seams, int input_vertices, Bound
   }
 }
 
-// All of space, or of the plane.
-Basis room_inside(Geometry geometry) {
-  return Matrix3::Identity().leftCols(geometry == Geometry::spherical ? 3 : 2);
-}
-
-// What a reflection leaves in place: the plane I - 2 n n' does, or the direction of a line of the plane.
-Basis room_on_mirror(const Matrix3& reflection, Geometry geometry) {
-  const Matrix3 twice_projector = Matrix3::Identity() - linear_part(reflection);  // 2 n n'
-  Eigen::Index axis = 0;
-  twice_projector.diagonal().maxCoeff(&axis);
-  const Vector3 normal = twice_projector.col(axis).normalized();
-  if (geometry == Geometry::euclidean) return Vector3(-normal.y(), normal.x(), 0);
-  Basis basis(3, 2);
-  basis.col(0) = normal.unitOrthogonal();
-  basis.col(1) = normal.cross(basis.col(0));
-  return basis;
-}
-
-void keep_on_mirrors(Geometry geometry, int input_vertices, BoundaryConditions& conditions) {
+void keep_on_mirrors(int input_vertices, BoundaryConditions& conditions) {
   for (const Seam& seam : conditions.seams) {
-    if (seam.left != seam.right) continue;
-    conditions.bases.push_back(room_on_mirror(seam.transform, geometry));
+    if (!seam.is_mirror()) continue;
+    conditions.mirrors.push_back(seam.transform);
+    conditions.bases.push_back(conditions.space.room_on(seam.transform));
     for (const int v : seam.left) {
       if (v >= input_vertices) continue;  // a copy, at the end of the cut
       if (conditions.basis_of[v] != held_in_place)
@@ -122,37 +104,52 @@ std::vector<std::vector<int>> boundary_sides(const CutMesh& cut, const Tile& til
 
 }  // namespace
 
-int index_among(std::vector<Matrix3>& distinct, const Matrix3& matrix) {
+int index_among(std::vector<Isometry>& distinct, const Isometry& isometry) {
   for (std::size_t k = 0; k < distinct.size(); ++k)
-    if ((distinct[k] - matrix).cwiseAbs().maxCoeff() < 1e-9) return static_cast<int>(k);
-  distinct.push_back(matrix);
+    if (distinct[k].difference(isometry) < 1e-9) return static_cast<int>(k);
+  distinct.push_back(isometry);
   return static_cast<int>(distinct.size()) - 1;
+}
+
+void BoundaryConditions::make_feasible(Points& positions) const {
+  for (Eigen::Index v = 0; v < positions.rows(); ++v) {
+    const int b = basis_of[v];
+    if (b == held_in_place) {
+      positions.row(v) = held.row(v);
+      continue;
+    }
+    Vector3 p = positions.row(v);
+    if (b != in_space) p += mirrors[b] * p;  // twice the middle between a point and its mirror image
+    positions.row(v) = space.retract(p);
+  }
 }
 
 Points BoundaryConditions::spread(const Points& positions, const std::vector<int>& source_vertex) const {
   Points result(static_cast<Eigen::Index>(source_vertex.size()), 3);
   result.topRows(positions.rows()) = positions;
   for (Eigen::Index v = positions.rows(); v < result.rows(); ++v)
-    result.row(v) = positions.row(source_vertex[v]) * transform(static_cast<int>(v)).transpose();
+    result.row(v) = transform(static_cast<int>(v)) * positions.row(source_vertex[v]).transpose();
   return result;
 }
 
-BoundaryConditions glue(const CutMesh& cut, const Tile& tile, const Orbifold& orbifold) {
+BoundaryConditions glue(const CutMesh& cut, const Tile& tile, const Target& target) {
   int input_vertices = 0;
   while (input_vertices < cut.vertex_count() && cut.source_vertex[input_vertices] == input_vertices)
     ++input_vertices;
   BoundaryConditions conditions;
+  conditions.space = tile.space();
   conditions.sides = boundary_sides(cut, tile);
   conditions.seams = seams_of(conditions.sides, tile);
-  conditions.cones = cones_of(cut, orbifold);
-  conditions.transforms = {Matrix3::Identity()};
+  conditions.cones = cones_of(cut, target);
+  conditions.transforms = {Isometry()};
   conditions.transform_of.assign(cut.vertex_count(), 0);
-  conditions.bases = {room_inside(tile.geometry()), Basis(3, 0)};
+  conditions.bases = {tile.space().room(), Room(3, 0)};
+  conditions.mirrors = {Isometry(), Isometry()};
   conditions.basis_of.assign(input_vertices, in_space);
   conditions.held = Points::Zero(input_vertices, 3);
   hold_corners(tile, input_vertices, conditions);
   spread_transforms(conditions.seams, input_vertices, conditions);
-  keep_on_mirrors(tile.geometry(), input_vertices, conditions);
+  keep_on_mirrors(input_vertices, conditions);
   hold_unreferenced(cut, conditions);
   return conditions;
 }

@@ -40,9 +40,9 @@ class CoupledSystems : public LaplacianSystems {
     // Edge (i, j, g) couples B_i' g B_j; seen from j, its transpose.
     const auto coupling = [&](int e, int v) -> Block {
       const auto [i, j, t] = problem.glued.edges[e];
-      const Matrix3& g = problem.glued.transforms[t];
-      return v == j ? Block(boundary_.basis(i).transpose() * g * boundary_.basis(j))
-                    : Block(boundary_.basis(j).transpose() * g.transpose() * boundary_.basis(i));
+      const Matrix3& g = problem.glued.transforms[t].matrix();
+      const Block block = boundary_.basis(i).transpose() * g * boundary_.basis(j);
+      return v == j ? block : Block(block.transpose());
     };
     coupled_.unknowns = number_unknowns(problem.dissection.order, std::move(room));
     coupled_.factor = factorize_laplacian(assemble(coupled_.unknowns, near, problem.w, coupling),

@@ -70,8 +70,8 @@ DiskGraph disk_graph(const CutMesh& cut, const GluedEdges& glued, const Boundary
   graph.inside = vertices_inside(glued, graph.given);
   graph.transforms = glued.transforms;
   std::vector<int> inverse;
-  for (const Matrix3& transform : glued.transforms)
-    inverse.push_back(index_among(graph.transforms, transform.transpose()));
+  for (const Isometry& transform : glued.transforms)
+    inverse.push_back(index_among(graph.transforms, transform.inverse()));
   graph.vertex.resize(graph.inside.size());
   std::iota(graph.vertex.begin(), graph.vertex.end(), 0);
   graph.transform_of.assign(graph.inside.size(), 0);

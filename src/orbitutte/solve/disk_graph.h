@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "orbitutte/solve/spherical_energy.h"
+#include "orbitutte/solve/dirichlet_energy.h"
 
 namespace orbitutte {
 
@@ -16,14 +16,14 @@ namespace orbitutte {
 struct DiskGraph {
   std::vector<int> vertex;               ///< of every node; the first n nodes are the vertices in place
   std::vector<int> transform_of;         ///< of every node: an index into transforms
-  std::vector<Matrix3> transforms;       ///< distinct; the first is the identity
+  std::vector<Isometry> transforms;      ///< distinct; the first is the identity
   std::vector<std::array<int, 2>> ends;  ///< of every glued edge: the nodes of one of its images
   std::vector<int> banks;                ///< the nodes of bank vertices that may move, vertex by vertex
   std::vector<char> inside;              ///< n: does the vertex move, on no bank?
   std::vector<char> given;               ///< n: is the vertex on the boundary of the cut, or held?
 
   int node_count() const { return static_cast<int>(vertex.size()); }
-  const Matrix3& transform(int node) const { return transforms[transform_of[node]]; }
+  const Isometry& transform(int node) const { return transforms[transform_of[node]]; }
 
   /// Is the node's place in the start unknown: inside, or on a bank that the cut's boundary does not name?
   bool unknown_at_start(int node) const { return !given[vertex[node]]; }

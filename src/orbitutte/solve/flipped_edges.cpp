@@ -11,9 +11,9 @@ namespace {
 // Elements of a group, each with a number; 0 is the identity.
 class Elements {
  public:
-  explicit Elements(std::vector<Matrix3> distinct) : distinct_(std::move(distinct)) {}
+  explicit Elements(std::vector<Isometry> distinct) : distinct_(std::move(distinct)) {}
 
-  int number(const Matrix3& element) { return index_among(distinct_, element); }
+  int number(const Isometry& element) { return index_among(distinct_, element); }
 
   int product(int a, int b) {
     if (a == 0) return b;
@@ -26,14 +26,14 @@ class Elements {
   int inverse(int a) {
     if (a == 0) return 0;
     const auto [at, is_new] = inverses_.try_emplace(a, 0);
-    if (is_new) at->second = number(inverse_isometry(distinct_[a]));
+    if (is_new) at->second = number(distinct_[a].inverse());
     return at->second;
   }
 
-  std::vector<Matrix3> release() { return std::move(distinct_); }
+  std::vector<Isometry> release() { return std::move(distinct_); }
 
  private:
-  std::vector<Matrix3> distinct_;
+  std::vector<Isometry> distinct_;
   std::map<std::pair<int, int>, int> products_;
   std::map<int, int> inverses_;
 };
@@ -117,12 +117,12 @@ class Frames {
 
 }  // namespace
 
-GluedEdges flipped_edges(const Faces& F, const Connectivity& connectivity,
-                         const IntrinsicTriangulation& triangulation, const CutMesh& cut,
-                         const BoundaryConditions& boundary) {
+GluedEdges flipped_edges(const Surface& surface, const IntrinsicTriangulation& triangulation,
+                         const CutMesh& cut, const BoundaryConditions& boundary) {
+  const Faces& F = surface.triangles;
   Elements elements(boundary.transforms);
   Frames frames(F, cut, boundary, elements);
-  frames.open_banks(F, connectivity, cut, changes_at_banks(boundary.seams, elements));
+  frames.open_banks(F, surface.connectivity, cut, changes_at_banks(boundary.seams, elements));
   for (const Flip& flip : triangulation.flips) frames.apply(flip);
 
   GluedEdges result;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "orbitutte/solve/initial_embedding.h"
 
-#include <Eigen/Geometry>
-
 #include "orbitutte/solve/boundary_arcs.h"
 
 namespace orbitutte {
@@ -10,12 +8,12 @@ namespace {
 
 // Each side's vertices on its arc. Both sides of a seam have the same fractions, so the positions agree
 // across it. What is held stands where it is held.
-Points boundary_on_arcs(const Mesh& mesh, const CutMesh& cut, const Tile& tile,
+Points boundary_on_arcs(const Surface& surface, const CutMesh& cut, const Tile& tile,
                         const BoundaryConditions& boundary) {
   Points result = Points::Zero(cut.vertex_count(), 3);
   for (std::size_t s = 0; s < tile.sides.size(); ++s) {
     const std::vector<int>& side = boundary.sides[s];
-    const std::vector<double> at = arc_fractions(side, mesh, cut.source_vertex, Spread::arc_length);
+    const std::vector<double> at = arc_fractions(side, surface, cut.source_vertex, Spread::arc_length);
     for (std::size_t k = 0; k + 1 < side.size(); ++k)
       result.row(side[k]) = tile.sides[s].point(at[k] * tile.sides[s].length);
   }
@@ -26,23 +24,19 @@ Points boundary_on_arcs(const Mesh& mesh, const CutMesh& cut, const Tile& tile,
 
 }  // namespace
 
-Points initial_embedding(const Mesh& mesh, const CutMesh& cut, const Tile& tile,
+Points initial_embedding(const Surface& surface, const CutMesh& cut, const Tile& tile,
                          const BoundaryConditions& boundary, const LaplacianSolver& laplacian) {
-  const Matrix3 to_pole =
-      Eigen::Quaterniond::FromTwoVectors(tile.centroid(), Vector3::UnitZ()).toRotationMatrix();
+  const Space space = tile.space();
+  const Isometry to_origin = space.to_origin(tile.centroid());
   const Eigen::Index n = boundary.held.rows();
-  const Points on_arcs = boundary_on_arcs(mesh, cut, tile, boundary).topRows(n);
-  Points lifted = laplacian.extend_harmonically(on_arcs) * to_pole.transpose();
-  lifted.col(2) = (1 - lifted.leftCols<2>().rowwise().squaredNorm().array()).cwiseMax(0).sqrt();
-  Points result = lifted * to_pole;
+  const Points on_arcs = boundary_on_arcs(surface, cut, tile, boundary).topRows(n);
+  Points result = to_origin.on_rows(laplacian.extend_harmonically(on_arcs));
+  for (Eigen::Index v = 0; v < n; ++v) result.row(v) = space.lift(result(v, 0), result(v, 1));
+  result = to_origin.inverse().on_rows(result);
   for (const int v : cut.boundary)
     if (v < n) result.row(v) = on_arcs.row(v);  // also where the tile reaches below the equator's rounding
-  for (Eigen::Index v = 0; v < n; ++v) {
-    const Basis& room = boundary.basis(static_cast<int>(v));
-    if (room.cols() == 0) result.row(v) = boundary.held.row(v);
-    if (room.cols() == 2) result.row(v) = room * (room.transpose() * result.row(v).transpose());
-  }
-  return result.rowwise().normalized();
+  boundary.make_feasible(result);
+  return result;
 }
 
 }  // namespace orbitutte

@@ -26,15 +26,14 @@ std::vector<std::array<int, 2>> ends(const GluedEdges& glued) {
 }
 
 LaplacianSolver::LaplacianSolver(const CutMesh& cut, const GluedEdges& glued, const EdgeWeights& weights,
-                                 const BoundaryConditions& boundary, const LaplacianOptions& options)
+                                 const BoundaryConditions& boundary, const LaplacianSetup& setup)
     : w_(weights.w), graph_(std::make_unique<DiskGraph>(disk_graph(cut, glued, boundary))) {
   const std::size_t n = boundary.basis_of.size();
-  const std::shared_ptr<LaplacianReuse> reuse =
-      options.reuse ? options.reuse : reusable_laplacians(Kept::order);
+  const std::shared_ptr<LaplacianReuse> reuse = setup.reuse ? setup.reuse : reusable_laplacians(Kept::order);
   if (!reuse->dissection) order_ahead(*reuse, ends(glued), static_cast<int>(n));
   const LaplacianProblem problem = {*graph_, glued, w_, boundary, *reuse->dissection};
-  systems_ = banks_are_short(cut, n) ? banked_systems(problem, options, *reuse)
-                                     : coupled_systems(problem, options.backend);
+  systems_ = banks_are_short(cut, n) ? banked_systems(problem, setup.options, *reuse)
+                                     : coupled_systems(problem, setup.options.backend);
 }
 
 std::shared_ptr<LaplacianReuse> reusable_laplacians(Kept kept) {
@@ -58,7 +57,8 @@ Points LaplacianSolver::extend_harmonically(const Points& positions) const {
   // An edge between an unknown position and a given one pulls at the former.
   const auto pull_at = [&](int node, int other, double w) {
     if (!graph.unknown_at_start(node) || graph.unknown_at_start(other)) return;
-    pull.row(node) += w * (positions.row(graph.vertex[other]) * graph.transform(other).transpose());
+    const Vector3 image = graph.transform(other) * positions.row(graph.vertex[other]).transpose();
+    pull.row(node) += w * image.transpose();
   };
   for (std::size_t e = 0; e < graph.ends.size(); ++e) {
     const auto [a, b] = graph.ends[e];

@@ -7,19 +7,16 @@
 #include <vector>
 
 #include "orbitutte/linear/sparse_factor.h"
-#include "orbitutte/solve/spherical_energy.h"
+#include "orbitutte/options.h"
+#include "orbitutte/solve/dirichlet_energy.h"
 
 namespace orbitutte {
 
 class LaplacianReuse;
 
-/// How the linear systems are solved.
-struct LaplacianOptions {
-  Backend backend = available_backends().front();
-
-  /// Parts of the mesh with at most so many vertices are factorised each on its own, at the same time as
-  /// others.
-  int block_size = 30000;
+/// How the linear systems are solved, and what is there already.
+struct LaplacianSetup {
+  LaplacianOptions options;
 
   /// What earlier solvers of the same mesh and weights left behind, to be used again where it fits; none
   /// where null. Results do not depend on it.
@@ -30,7 +27,7 @@ struct LaplacianOptions {
 /// too, which take memory.
 enum class Kept { order, factors };
 
-/// Something for LaplacianOptions::reuse that is still empty.
+/// Something for LaplacianSetup::reuse that is still empty.
 std::shared_ptr<LaplacianReuse> reusable_laplacians(Kept kept);
 
 /// Finds the elimination order, which depends on nothing but the edges that have weights, where `reuse` does
@@ -45,7 +42,7 @@ class LaplacianSolver {
   /// Orders the mesh and factorises both systems. The arguments must outlive the solver.
   /// Throws MeshError naming a vertex that no positive weight ties to the cones.
   LaplacianSolver(const CutMesh& cut, const GluedEdges& glued, const EdgeWeights& weights,
-                  const BoundaryConditions& boundary, const LaplacianOptions& options = {});
+                  const BoundaryConditions& boundary, const LaplacianSetup& setup = {});
   ~LaplacianSolver();
   LaplacianSolver(LaplacianSolver&&) noexcept;
 

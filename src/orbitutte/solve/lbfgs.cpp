@@ -162,12 +162,12 @@ class InverseHessian {
 
 struct State {
   Points x;
-  SphericalEnergy::Value value;
+  DirichletEnergy::Value value;
 };
 
 class LineSearch {
  public:
-  LineSearch(const SphericalEnergy& energy, int& evaluations) : energy_(energy), evaluations_(evaluations) {}
+  LineSearch(const DirichletEnergy& energy, int& evaluations) : energy_(energy), evaluations_(evaluations) {}
 
   // Finds a step along `direction` that satisfies Armijo's condition, or, within the energy's rounding, the
   // approximate Wolfe one, and the state behind it, whose memory is used again. Is there one?
@@ -176,7 +176,7 @@ class LineSearch {
     if (!(slope < 0)) return false;
     double t = 1;
     for (int trial = 0; trial < 40; ++trial) {
-      move(from.x, direction, t, to.x);
+      move_points(energy_.space(), from.x, direction, t, to.x);
       energy_.evaluate(to.x, to.value);
       ++evaluations_;
       if (accept(from, to, direction, t, slope)) return true;
@@ -188,13 +188,6 @@ class LineSearch {
  private:
   static constexpr double armijo = 1e-4;
   static constexpr double energy_rounding = 1e-14;
-
-  static void move(const Points& x, const Points& direction, double t, Points& result) {
-    result.resize(x.rows(), 3);
-    parallel_ranges(static_cast<int>(x.rows()), [&](int begin, int end) {
-      for (int v = begin; v < end; ++v) result.row(v) = (x.row(v) + t * direction.row(v)).normalized();
-    });
-  }
 
   static bool accept(const State& from, const State& to, const Points& direction, double t, double slope) {
     const double change = to.value.energy - from.value.energy;
@@ -211,7 +204,7 @@ class LineSearch {
     return std::isfinite(parabola) ? std::min(std::max(parabola, 0.1 * t), 0.5 * t) : 0.1 * t;
   }
 
-  const SphericalEnergy& energy_;
+  const DirichletEnergy& energy_;
   int& evaluations_;
 };
 
@@ -229,19 +222,7 @@ void check(const LbfgsOptions& options) {
 
 }  // namespace
 
-std::string name(Termination termination) {
-  switch (termination) {
-    case Termination::converged:
-      return "converged";
-    case Termination::max_iterations:
-      return "max_iterations";
-    case Termination::line_search_failed:
-      return "line_search_failed";
-  }
-  return {};
-}
-
-Minimum minimize(const SphericalEnergy& energy, const LaplacianSolver& laplacian, const Points& start,
+Minimum minimize(const DirichletEnergy& energy, const LaplacianSolver& laplacian, const Points& start,
                  const LbfgsOptions& options) {
   check(options);
   Minimum result;

@@ -2,22 +2,20 @@
 // The minimiser of the energy (2) over all ways to glue a mesh that is cut open along the sides of a tile.
 #pragma once
 
-#include <functional>
-
+#include "orbitutte/mesh/surface.h"
 #include "orbitutte/progress.h"
 #include "orbitutte/solve/boundary_arcs.h"
 #include "orbitutte/solve/lbfgs.h"
 
 namespace orbitutte {
 
-/// A mesh cut open, and a tile that its boundary is glued to.
+/// A surface cut open, and a tile that its boundary is glued to.
 struct GluingProblem {
-  const Mesh& mesh;
+  const Surface& surface;
   const CutMesh& cut;
-  const Orbifold& orbifold;
+  const Target& target;
   const EdgeWeights& weights;
-  std::function<GluedEdges(const BoundaryConditions&)> glued_along;  ///< the edges that have the weights
-  LaplacianOptions laplacian;
+  LaplacianSetup laplacian;
   Tile tile;
   BoundaryConditions boundary;
 };
@@ -27,16 +25,23 @@ struct Placement {
   Minimum minimum;
   Tile tile;
   BoundaryConditions boundary;
+
+  /// Takes the target's canonical frame to the one where the positions lie.
+  Isometry frame;
 };
 
-/// Equations (3), (4) and (7), and the sides that theorem 1 holds.
-BoundaryConditions boundary_conditions(const Mesh& mesh, const CutMesh& cut, const Tile& tile,
-                                       const Orbifold& orbifold, Spread spread);
+/// The edges that have the weights, glued along the boundary: the surface's, or those of the triangulation
+/// that has them.
+GluedEdges glued_along(const GluingProblem& problem, const BoundaryConditions& boundary);
 
-/// On the sphere: factorises, starts (appendix B), minimises (algorithm 1, with `options`, whose callback is
-/// not called), and turns what is free to turn: about the axis of NN, *NN and N* to longitude 0 of the vertex
-/// nearest to the equator, and, where edges are tiny, to a frame that resolves them. In the plane: one linear
-/// solve. Throws MeshError where an edge joins marked vertices whose images are opposite to each other.
+/// Equations (3), (4) and (7), and the sides that theorem 1 holds.
+BoundaryConditions boundary_conditions(const Surface& surface, const CutMesh& cut, const Tile& tile,
+                                       const Target& target, Spread spread);
+
+/// Factorises, starts (appendix B) and minimises (algorithm 1, with `options`, whose callback is not called).
+/// A map that the target leaves free to rotate is turned so that one vertex has longitude 0; where edges are
+/// tiny, the map is moved to a frame that resolves them. Throws MeshError if an edge joins marked vertices
+/// whose images are opposite to each other.
 Placement place(const GluingProblem& problem, const LbfgsOptions& options, Stages& stage);
 
 }  // namespace orbitutte

@@ -20,11 +20,10 @@
 #include <unordered_map>
 #include <utility>
 
-#include "orbitutte/geometry/metric.h"
 #include "orbitutte/geometry/orientation.h"
-#include "orbitutte/geometry/spherical_triangle.h"
 #include "orbitutte/mesh/connectivity.h"
 #include "orbitutte/orbifold/polygon.h"
+#include "orbitutte/orbifold/signature.h"
 #include "orbitutte/orbifold/symmetry_group.h"
 #include "orbitutte/parallel.h"
 #include "orbitutte/verify/convexity.h"
@@ -65,6 +64,11 @@ class Offences {
   std::string first_;
 };
 
+// The target that the signature names, read again.
+Target claimed_target(const Embedding& embedding) {
+  return read_target(embedding.target.signature, embedding.cones, embedding.positions);
+}
+
 // Does the signature speak of a surface without an orientation?
 bool has_no_orientation(const std::string& signature) {
   try {
@@ -102,7 +106,7 @@ Check cut_mesh_check(int n, const FaceView& input, const Embedding& embedding) {
     if (source < 0 || source >= n || (v < n && source != v))
       offences.add("cut vertex {} names the input vertex {}", v, source);
   }
-  const bool may_be_turned = has_no_orientation(embedding.signature);
+  const bool may_be_turned = has_no_orientation(embedding.target.signature);
   for (int f = 0; f < input.count(); ++f) {
     if (!is_input_face(input[f], faces[f], embedding.source_vertex, may_be_turned))
       offences.add("face {} is not the input's face {}, cut", f, f);
@@ -110,16 +114,15 @@ Check cut_mesh_check(int n, const FaceView& input, const Embedding& embedding) {
   return offences.check("cut_mesh");
 }
 
-// On the unit sphere, or in the plane z = 1.
+// In the target's space.
 Check surface_check(const Embedding& embedding) {
-  const bool spherical = embedding.geometry == Geometry::spherical;
-  const std::string name = spherical ? "unit_positions" : "plane_positions";
+  const std::string name = "unit_positions";
   const Points& X = embedding.positions;
   if (!X.allFinite()) return none(name, 1, "a position is not finite");
-  if (X.rows() == 0) return at_most(name, 0, unit_bound);
-  const auto off =
-      spherical ? (X.rowwise().norm().array() - 1).abs().eval() : (X.col(2).array() - 1).abs().eval();
-  return at_most(name, off.maxCoeff(), unit_bound);
+  const Space space = embedding.space();
+  return at_most(name,
+                 parallel_max(static_cast<int>(X.rows()), [&](int v) { return space.defect(X.row(v)); }),
+                 unit_bound);
 }
 
 // The boundary half-edges of the cut mesh, each by its origin; empty, with an offence, unless the cut mesh is
@@ -174,7 +177,7 @@ int cover(std::unordered_map<int, int>& uncovered, int a, int b) {
 // otherwise the map folds there.
 void cover_banks(const Seam& seam, std::size_t s, std::unordered_map<int, int>& uncovered,
                  Offences& offences) {
-  const bool mirror = seam.left == seam.right, reverses = seam.transform.determinant() < 0;
+  const bool mirror = seam.is_mirror(), reverses = seam.transform.reverses_orientation();
   for (std::size_t k = 1; k < seam.left.size(); ++k) {
     const int left = cover(uncovered, seam.left[k - 1], seam.left[k]);
     const int right = mirror ? left : cover(uncovered, seam.right[k - 1], seam.right[k]);
@@ -193,7 +196,8 @@ void cover_banks(const Seam& seam, std::size_t s, std::unordered_map<int, int>& 
 std::vector<int> fixed_corners(const Embedding& embedding) {
   std::vector<int> corners;
   for (const ConeCopies& cone : embedding.cones)
-    if (cone.kind == ConeKind::fixed) corners.insert(corners.end(), cone.copies.begin(), cone.copies.end());
+    if (cone.mark.kind == ConeKind::fixed)
+      corners.insert(corners.end(), cone.copies.begin(), cone.copies.end());
   return corners;
 }
 
@@ -242,21 +246,15 @@ Check held_sides_check(const Embedding& embedding) {
   return none(name, static_cast<long long>(departures.size()), departures.empty() ? "" : departures.front());
 }
 
-bool is_orthogonal(const Matrix3& M) {
-  return M.allFinite() && (M * M.transpose() - Matrix3::Identity()).cwiseAbs().maxCoeff() < unit_bound;
-}
-
 // Isometries whose determinant is that of their kind.
 Check transform_check(const Embedding& embedding) {
   Offences offences;
   const std::vector<Seam>& seams = embedding.seams;
   for (std::size_t s = 0; s < seams.size(); ++s) {
-    const bool spherical = embedding.geometry == Geometry::spherical;
-    const Matrix3 M = spherical ? seams[s].transform : linear_part(seams[s].transform);
-    if (!is_orthogonal(M)) {
-      offences.add("the transform of seam {} is not orthogonal", s);
-    } else if (seams[s].left == seams[s].right &&
-               (M.determinant() > 0 || std::abs(M.trace() - 1) > unit_bound)) {
+    const Matrix3& M = seams[s].transform.matrix();
+    if (!(embedding.space().isometry_defect(M) < unit_bound)) {
+      offences.add("the transform of seam {} is no isometry of the {} space", s, embedding.space().name());
+    } else if (seams[s].is_mirror() && (M.determinant() > 0 || std::abs(M.trace() - 1) > unit_bound)) {
       offences.add("seam {} is glued to itself by what is no reflection", s);
     }
   }
@@ -293,15 +291,16 @@ std::unordered_map<int, std::vector<int>> copies_of_cones(const Embedding& embed
 Check cone_check(const Embedding& embedding) {
   Offences offences;
   try {
-    const Orbifold orbifold = orbifold_of(embedding);
-    if (orbifold.marks.size() != embedding.cones.size())
-      offences.add("{} marks {} vertices, not {}", embedding.signature, orbifold.marks.size(),
+    const Target target = claimed_target(embedding);
+    if (target.marks.size() != embedding.cones.size())
+      offences.add("{} marks {} vertices, not {}", target.signature, target.marks.size(),
                    embedding.cones.size());
-    for (std::size_t k = 0; !offences.any() && k < orbifold.marks.size(); ++k) {
+    for (std::size_t k = 0; !offences.any() && k < target.marks.size(); ++k) {
       const ConeCopies& cone = embedding.cones[k];
-      if (cone.order != orbifold.marks[k].order || cone.kind != orbifold.marks[k].kind)
+      const Mark& mark = target.marks[k];
+      if (cone.mark.order() != mark.order() || cone.mark.kind != mark.kind)
         offences.add("vertex {} is a {} of order {}, which {} does not ask for there", cone.vertex,
-                     name(cone.kind), cone.order, embedding.signature);
+                     name(cone.mark.kind), cone.mark.order(), target.signature);
     }
   } catch (const Error& error) {
     offences.add("{}", error.what());
@@ -319,7 +318,7 @@ Check cone_check(const Embedding& embedding) {
 
 // The largest difference between an angle sum and 2 pi/order (rotation) or pi/order (corner).
 Check angle_check(const Embedding& embedding) {
-  const Metric& metric = metric_of(embedding.geometry);
+  const Space space = embedding.space();
   constexpr int no_cone = -1;
   std::vector<int> cone_of(embedding.source_vertex.size(), no_cone);
   for (std::size_t k = 0; k < embedding.cones.size(); ++k)
@@ -331,36 +330,35 @@ Check angle_check(const Embedding& embedding) {
     if (cone == no_cone) continue;
     const Points& X = embedding.positions;
     angle[cone] +=
-        metric.angle(X.row(origin(F, h)), X.row(target(F, h)), X.row(origin(F, previous_halfedge(h))));
+        space.angle(X.row(origin(F, h)), X.row(target(F, h)), X.row(origin(F, previous_halfedge(h))));
   }
   double worst = 0;
   for (std::size_t k = 0; k < embedding.cones.size(); ++k) {
     const ConeCopies& cone = embedding.cones[k];
-    if (cone.kind == ConeKind::fixed) continue;
-    const double expected = (cone.kind == ConeKind::rotation ? 2 : 1) * pi / cone.order;
-    worst = std::max(worst, std::abs(angle[k] - expected));
+    if (cone.mark.kind != ConeKind::fixed) worst = std::max(worst, std::abs(angle[k] - cone.mark.angle));
   }
   return at_most("cone_angles", worst, angle_bound);
 }
 
+// The seams generate the group of the signature. In the plane it is infinite, and nothing is to be counted.
 Check group_check(const Embedding& embedding) {
   const std::string name = "group_order";
-  const double expected = embedding.group_order;
+  const int order = embedding.target.group_order;
   try {
-    const int of_signature = orbifold_of(embedding).group_order;
-    if (of_signature != embedding.group_order)
-      return {name, false, expected, static_cast<double>(of_signature),
-              fmt::format("{} has a group of order {}, not {}", embedding.signature, of_signature,
-                          embedding.group_order)};
-    std::vector<Matrix3> generators;
+    const int of_signature = claimed_target(embedding).group_order;
+    if (of_signature != order)
+      return {
+          name, false, static_cast<double>(order), static_cast<double>(of_signature),
+          fmt::format("{} has a group of order {}, not {}", embedding.target.signature, of_signature, order)};
+    if (order == 0) return {name, true, 0, 0, {}};
+    std::vector<Isometry> generators;
     for (const Seam& seam : embedding.seams) generators.push_back(seam.transform);
-    const int generated = SymmetryGroup(generators, embedding.group_order).order();
-    const std::string detail = generated == embedding.group_order
-                                   ? std::string()
-                                   : fmt::format("the seams generate a group of order {}", generated);
-    return {name, detail.empty(), static_cast<double>(generated), expected, detail};
+    const int generated = SymmetryGroup(embedding.space(), generators, order).order();
+    const std::string detail =
+        generated == order ? std::string() : fmt::format("the seams generate a group of order {}", generated);
+    return {name, detail.empty(), static_cast<double>(generated), static_cast<double>(order), detail};
   } catch (const ArgumentError& error) {
-    return {name, false, 0, expected, error.what()};
+    return {name, false, 0, static_cast<double>(order), error.what()};
   }
 }
 
@@ -399,8 +397,11 @@ Check convexity_check(const Embedding& embedding, std::vector<int>& nonpositive)
 Check edge_length_check(const Embedding& embedding, double& longest) {
   const Points& X = embedding.positions;
   const FaceView faces = embedding.input_faces();
-  const auto length = metric_of(embedding.geometry).length;
-  const auto squared_chord = [&](int a, int b) { return (X.row(a) - X.row(b)).squaredNorm(); };
+  const Space space = embedding.space();
+  const auto squared_chord = [&](int a, int b) {
+    const Vector3 chord = X.row(a) - X.row(b);
+    return space.dot(chord, chord);
+  };
   const auto largest = [&](int f, const auto& measure) {
     double result = 0;
     int a = faces[f].back();
@@ -409,20 +410,22 @@ Check edge_length_check(const Embedding& embedding, double& longest) {
   };
   const double widest = parallel_max(faces.count(), [&](int f) { return largest(f, squared_chord); });
   longest = parallel_max(faces.count(), [&](int f) {
-    return largest(
-        f, [&](int a, int b) { return squared_chord(a, b) < widest ? 0.0 : length(X.row(a), X.row(b)); });
+    return largest(f, [&](int a, int b) {
+      return squared_chord(a, b) < widest ? 0.0 : space.distance(X.row(a), X.row(b));
+    });
   });
-  Check check = {"edge_lengths", longest < pi, longest, pi, {}};
+  const double bound = space.longest_unique();
+  Check check = {"edge_lengths", longest < bound, longest, bound, {}};
   if (!check.passed) check.detail = "an edge is not shorter than pi";
   return check;
 }
 
 Check area_check(const Embedding& embedding, Certificate& certificate) {
   const Points& X = embedding.positions;
-  const Metric& metric = metric_of(embedding.geometry);
+  const Space space = embedding.space();
   certificate.signed_area = parallel_sum(static_cast<int>(embedding.faces.rows()), [&](int f) {
     const auto v = embedding.faces.row(f);
-    return metric.area(X.row(v[0]), X.row(v[1]), X.row(v[2]));
+    return space.area(X.row(v[0]), X.row(v[1]), X.row(v[2]));
   });
   Check check =
       at_most("signed_area", std::abs(certificate.signed_area - certificate.expected_area), area_bound);
@@ -439,7 +442,7 @@ bool all_passed(const std::vector<Check>& checks) {
 // That the cut mesh is the input's; false where nothing else can be computed safely.
 bool check_input(int vertex_count, const FaceView& faces, const Embedding& embedding,
                  Certificate& certificate) {
-  certificate.expected_area = 4 * pi / embedding.group_order;
+  certificate.expected_area = 4 * pi / std::max(embedding.target.group_order, 1);
   certificate.checks.push_back(cut_mesh_check(vertex_count, faces, embedding));
   certificate.checks.push_back(surface_check(embedding));
   return all_passed(certificate.checks);
@@ -453,9 +456,9 @@ bool check_gluing(const Embedding& embedding, const Embedding& triangles, Certif
   checks.push_back(transform_check(embedding));
   checks.push_back(cone_check(embedding));
   if (!all_passed(checks)) return false;
-  certificate.expected_area = area(orbifold_of(embedding));
+  certificate.expected_area = area(claimed_target(embedding));
   checks.push_back(held_sides_check(embedding));
-  if (embedding.geometry == Geometry::spherical) checks.push_back(group_check(embedding));
+  checks.push_back(group_check(embedding));
   certificate.max_seam_residual = max_seam_residual(embedding);
   checks.push_back(at_most("seam_residual", certificate.max_seam_residual, seam_bound));
   return true;
@@ -468,7 +471,7 @@ void check_faces(const Embedding& embedding, const Embedding& triangles, const s
   std::vector<Check>& checks = certificate.checks;
   checks.push_back(orientation_check(triangles, face_of, certificate.nonpositive_faces));
   const Check lengths = edge_length_check(embedding, certificate.max_edge_length);
-  if (embedding.geometry == Geometry::spherical) checks.push_back(lengths);
+  if (std::isfinite(lengths.bound)) checks.push_back(lengths);
   checks.push_back(angle_check(triangles));
   checks.push_back(area_check(triangles, certificate));
   certificate.bijective = all_passed(checks);
@@ -503,21 +506,16 @@ Certificate certify(int vertex_count, const FaceView& faces, const Embedding& em
   return certificate;
 }
 
-Certificate certify(const Mesh& mesh, const Embedding& embedding) {
-  return certify(static_cast<int>(mesh.V.rows()), FaceView(mesh.F), embedding);
+Certificate certify(const Surface& surface, const Embedding& embedding) {
+  return certify(surface.vertex_count(), surface.faces(), embedding);
 }
 
-Certificate certify(const PolygonMesh& mesh, const Embedding& embedding) {
-  return certify(mesh.vertex_count(), FaceView(mesh.corners, mesh.face_start), embedding);
-}
-
-Certificate certify_intrinsic(const Mesh& mesh, const Embedding& embedding,
+Certificate certify_intrinsic(const Surface& surface, const Embedding& embedding,
                               const IntrinsicTriangulation& triangulation) {
   Certificate certificate;
-  if (!check_input(static_cast<int>(mesh.V.rows()), FaceView(mesh.F), embedding, certificate))
-    return certificate;
+  if (!check_input(surface.vertex_count(), surface.faces(), embedding, certificate)) return certificate;
   if (!check_gluing(embedding, embedding, certificate)) return certificate;
-  const Embedding layout = laid_out(mesh, embedding, triangulation);
+  const Embedding layout = laid_out(surface, embedding, triangulation);
   if (check_layout(layout, triangulation, certificate)) check_faces(layout, layout, {}, certificate);
   return certificate;
 }

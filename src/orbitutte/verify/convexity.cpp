@@ -11,11 +11,11 @@
 namespace orbitutte {
 namespace {
 
-Vector3 middle(const Points& positions, std::span<const int> corners) {
+Vector3 middle(Space space, const Points& positions, std::span<const int> corners) {
   const Vector3 first = positions.row(corners.front());
   Vector3 sum = Vector3::Zero();
   for (const int v : corners) sum += positions.row(v).transpose() - first;
-  return (first + sum / static_cast<double>(corners.size())).normalized();
+  return space.retract(first + sum / static_cast<double>(corners.size()));
 }
 
 // The neighbours of corner k along the polygon.
@@ -24,7 +24,8 @@ std::array<int, 2> beside(std::span<const int> corners, std::size_t k) {
   return {corners[(k + d - 1) % d], corners[(k + 1) % d]};
 }
 
-// Input vertices with two edges: those of all of their corners are the same. Cones are left out.
+// Per input vertex: does it have two edges, so that all its corners have the same neighbours? Cones do not
+// count.
 std::vector<char> vertices_with_two_edges(const Embedding& embedding) {
   const FaceView faces = embedding.input_faces();
   const std::vector<int>& source = embedding.source_vertex;
@@ -45,7 +46,7 @@ std::vector<char> vertices_with_two_edges(const Embedding& embedding) {
   return result;
 }
 
-// How far b is off the great circle through a and c.
+// The distance of b from the great circle through a and c.
 double offset(const Vector3& a, const Vector3& b, const Vector3& c) {
   const Vector3 normal = a.cross(c);
   return std::abs(normal.dot(b - a)) / normal.norm();
@@ -57,6 +58,7 @@ DividedPolygons divide_from_middles(const Embedding& embedding) {
   const FaceView faces = embedding.input_faces();
   DividedPolygons result;
   Embedding& divided = result.embedding;
+  divided.target = embedding.target;
   divided.source_vertex = embedding.source_vertex;
   divided.seams = embedding.seams;
   divided.cones = embedding.cones;
@@ -75,7 +77,7 @@ DividedPolygons divide_from_middles(const Embedding& embedding) {
       result.face_of.push_back(f);
     }
     divided.source_vertex.push_back(-1);
-    middles.push_back(middle(embedding.positions, face));
+    middles.push_back(middle(embedding.space(), embedding.positions, face));
   }
   divided.faces = Eigen::Map<const Faces>(corners.data(), static_cast<Eigen::Index>(corners.size() / 3), 3);
   divided.positions.resize(static_cast<Eigen::Index>(divided.source_vertex.size()), 3);

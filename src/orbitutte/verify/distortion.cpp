@@ -9,7 +9,6 @@
 #include <numeric>
 #include <optional>
 
-#include "orbitutte/geometry/metric.h"
 #include "orbitutte/parallel.h"
 
 namespace orbitutte {
@@ -42,6 +41,14 @@ double ratio_of_singular_values(const std::array<Complex, 2>& e, const std::arra
   return (a + b) / (a - b);
 }
 
+// Reorders the values. 0 where there are none.
+double median(std::vector<double>& values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return values.size() % 2 ? *middle : 0.5 * (*middle + *std::max_element(values.begin(), middle));
+}
+
 Distortion::Area statistics(std::vector<double>& values) {
   Distortion::Area result;
   if (values.empty()) return result;
@@ -51,10 +58,53 @@ Distortion::Area statistics(std::vector<double>& values) {
   for (const double value : values) squares += (value - result.mean) * (value - result.mean);
   result.std = std::sqrt(squares / count);
   result.max = *std::max_element(values.begin(), values.end());
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  result.median = values.size() % 2 ? *middle : 0.5 * (*middle + *std::max_element(values.begin(), middle));
+  result.median = median(values);
   return result;
+}
+
+Distortion::Angle angle_statistics(const std::vector<FaceDistortion>& faces) {
+  Distortion::Angle result;
+  std::vector<double> angles;
+  double sum = 0, weighted_sum = 0, weight = 0;
+  for (const FaceDistortion& face : faces) {
+    if (!(face.angle > 0)) continue;
+    angles.push_back(face.angle);
+    sum += face.angle;
+    weighted_sum += face.share * face.angle;
+    weight += face.share;
+    result.max = std::max(result.max, face.angle);
+  }
+  if (angles.empty()) return result;
+  result.mean = sum / static_cast<double>(angles.size());
+  result.area_mean = weighted_sum / weight;
+  result.median = median(angles);
+  return result;
+}
+
+// The share of the source's area in triangles with lowest <= A <= highest.
+double share_between(double lowest, double highest, const std::vector<FaceDistortion>& faces) {
+  double share = 0;
+  for (const FaceDistortion& face : faces)
+    if (face.area > 0 && face.area >= lowest && face.area <= highest) share += face.share;
+  return std::min(share, 1.0);
+}
+
+// sqrt(sum a (u - mean)^2 / sum a) of u = 1/2 log A, a the triangle's share of the source's area.
+double deviation_of_scale(const std::vector<FaceDistortion>& faces) {
+  double weight = 0, sum = 0, squares = 0;
+  for (const FaceDistortion& face : faces) {
+    if (!(face.area > 0)) continue;
+    weight += face.share;
+    sum += face.share * 0.5 * std::log(face.area);
+  }
+  if (!(weight > 0)) return 0;
+  const double mean = sum / weight;
+  for (const FaceDistortion& face : faces) {
+    if (!(face.area > 0)) continue;
+    const double difference = 0.5 * std::log(face.area) - mean;
+    squares += face.share * difference * difference;
+  }
+  return std::sqrt(squares / weight);
 }
 
 // Bins of log2 A, a quarter wide, from -8 to 8.
@@ -70,12 +120,14 @@ int histogram_bin(double area_ratio) {
 }
 
 // The largest coordinate of an edge: areas in its square overflow nowhere.
-double length_unit(const Mesh& mesh) {
+double length_unit(const Surface& surface) {
   double unit = 0;
-  for (int f = 0; f < mesh.F.rows(); ++f)
+  for (int f = 0; f < surface.triangles.rows(); ++f)
     for (int k = 0; k < 3; ++k)
-      unit = std::max(unit,
-                      (mesh.V.row(mesh.F(f, (k + 1) % 3)) - mesh.V.row(mesh.F(f, k))).cwiseAbs().maxCoeff());
+      unit = std::max(
+          unit, (surface.V.row(surface.triangles(f, (k + 1) % 3)) - surface.V.row(surface.triangles(f, k)))
+                    .cwiseAbs()
+                    .maxCoeff());
   return unit > 0 ? unit : 1;
 }
 
@@ -84,12 +136,13 @@ struct FaceAreas {
 };
 
 FaceDistortion face_distortion(const std::array<Vector3, 3>& source, const std::array<Vector3, 3>& image,
-                               const FaceAreas& area, const FaceAreas& total, const Metric& metric) {
+                               const FaceAreas& area, const FaceAreas& total, Space space) {
   FaceDistortion result;
+  result.share = total.source > 0 ? area.source / total.source : 0;
   const auto length = [&](int i, int j) { return (source[i] - source[j]).norm(); };
   const std::array<double, 3> lengths = {length(0, 1), length(1, 2), length(2, 0)};
-  const std::array<double, 3> arcs = {metric.length(image[0], image[1]), metric.length(image[1], image[2]),
-                                      metric.length(image[2], image[0])};
+  const std::array<double, 3> arcs = {space.distance(image[0], image[1]), space.distance(image[1], image[2]),
+                                      space.distance(image[2], image[0])};
   const double longest = std::max({lengths[0], lengths[1], lengths[2]}),
                longest_arc = std::max({arcs[0], arcs[1], arcs[2]});
   if (!(area.source > area_rounding * longest * longest) || !(area.image > position_rounding * longest_arc))
@@ -106,13 +159,13 @@ FaceDistortion face_distortion(const std::array<Vector3, 3>& source, const std::
 
 }  // namespace
 
-std::vector<FaceDistortion> measure_faces(const Mesh& mesh, const Embedding& embedding) {
-  const int m = static_cast<int>(mesh.F.rows());
-  const double unit = length_unit(mesh);
-  const Metric& metric = metric_of(embedding.geometry);
+std::vector<FaceDistortion> measure_faces(const Surface& surface, const Embedding& embedding) {
+  const int m = surface.triangle_count();
+  const double unit = length_unit(surface);
+  const Space space = embedding.space();
   const auto source = [&](int f) {
     const auto corner = [&](int k) {
-      return mesh.V.row(embedding.source_vertex[embedding.faces(f, k)]) / unit;
+      return surface.V.row(embedding.source_vertex[embedding.faces(f, k)]) / unit;
     };
     return std::array<Vector3, 3>{corner(0), corner(1), corner(2)};
   };
@@ -129,39 +182,34 @@ std::vector<FaceDistortion> measure_faces(const Mesh& mesh, const Embedding& emb
   });
   total.image = parallel_sum(m, [&](int f) {
     const auto p = image(f);
-    area[f].image = metric.area(p[0], p[1], p[2]);
+    area[f].image = space.area(p[0], p[1], p[2]);
     return std::max(area[f].image, 0.0);  // a map that is turned over in places still has shares
   });
   std::vector<FaceDistortion> of_face(m);
   parallel_ranges(m, [&](int begin, int end) {
     for (int f = begin; f < end; ++f)
-      of_face[f] = face_distortion(source(f), image(f), area[f], total, metric);
+      of_face[f] = face_distortion(source(f), image(f), area[f], total, space);
   });
   return of_face;
 }
 
-Distortion measure_distortion(const Mesh& mesh, const Embedding& embedding) {
-  const std::vector<FaceDistortion> of_face = measure_faces(mesh, embedding);
+Distortion measure_distortion(const Surface& surface, const Embedding& embedding) {
+  const std::vector<FaceDistortion> of_face = measure_faces(surface, embedding);
   Distortion result;
   result.histogram = empty_histogram();
   std::vector<double> areas;
   areas.reserve(of_face.size());
-  double angle_sum = 0;
-  int angles = 0;
   for (const FaceDistortion& face : of_face) {
-    if (face.area > 0) {
-      areas.push_back(std::max(face.area, 1 / face.area));
-      ++result.histogram.counts[histogram_bin(face.area)];
-    }
-    if (face.angle > 0) {
-      angle_sum += face.angle;
-      ++angles;
-      result.angle.max = std::max(result.angle.max, face.angle);
-    }
+    if (!(face.area > 0)) continue;
+    areas.push_back(std::max(face.area, 1 / face.area));
+    ++result.histogram.counts[histogram_bin(face.area)];
   }
   result.measured_faces = static_cast<int>(areas.size());
   result.area = statistics(areas);
-  result.angle.mean = angles ? angle_sum / angles : 0;
+  result.angle = angle_statistics(of_face);
+  result.within_4 = share_between(0.25, 4, of_face);
+  result.below_64 = share_between(0, std::nextafter(1.0 / 64, 0.0), of_face);
+  result.sigma = deviation_of_scale(of_face);
   return result;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "orbitutte/verify/energy.h"
 
-#include "orbitutte/geometry/spherical_triangle.h"
 #include "orbitutte/verify/edge_images.h"
 #include "orbitutte/verify/laid_out.h"
 
@@ -14,29 +13,29 @@ double energy_of_layout(const Embedding& layout, const std::vector<int>& edge_of
   double energy = 0;
   for (int h = 0; h < static_cast<int>(edge_of.size()); ++h) {
     if (std::exchange(done[edge_of[h]], 1)) continue;
-    const double d = arc_length(layout.positions.row(h), layout.positions.row(next_halfedge(h)));
+    const double d = layout.space().distance(layout.positions.row(h), layout.positions.row(next_halfedge(h)));
     energy += w[edge_of[h]] * d * d;
   }
   return energy;
 }
 
-}  // namespace
-
-double dirichlet_energy(const Connectivity& connectivity, const EdgeWeights& weights,
-                        const Embedding& embedding) {
+// With an image of every edge of the surface.
+double energy_of_edges(const Connectivity& connectivity, const Embedding& embedding,
+                       const Eigen::VectorXd& w) {
   double energy = 0;
   visit_edges(connectivity, embedding, [&](int e, int a, int b) {
-    const double d = arc_length(embedding.positions.row(a), embedding.positions.row(b));
-    energy += weights.w[e] * d * d;
+    const double d = embedding.space().distance(embedding.positions.row(a), embedding.positions.row(b));
+    energy += w[e] * d * d;
   });
   return energy;
 }
 
-double dirichlet_energy(const Mesh& mesh, const Connectivity& connectivity, const EdgeWeights& weights,
-                        const Embedding& embedding) {
-  if (!weights.triangulation) return dirichlet_energy(connectivity, weights, embedding);
+}  // namespace
+
+double dirichlet_energy(const Surface& surface, const EdgeWeights& weights, const Embedding& embedding) {
+  if (!weights.triangulation) return energy_of_edges(surface.connectivity, embedding, weights.w);
   const std::vector<int>& edge_of = weights.triangulation->connectivity.edge_of;
-  return energy_of_layout(laid_out(mesh, embedding, *weights.triangulation), edge_of, weights.w);
+  return energy_of_layout(laid_out(surface, embedding, *weights.triangulation), edge_of, weights.w);
 }
 
 }  // namespace orbitutte

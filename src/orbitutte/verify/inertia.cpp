@@ -34,14 +34,14 @@ class EigenCounter : public InertiaCounter {
   }
 
  private:
-  /// Pivots that are too small make L grow, which shows where the factor solves a system whose solution is
-  /// known.
+  /// Solves a system with a known solution: pivots that are too small make L grow, and then the residual is
+  /// large.
   bool trustworthy(const SymmetricMatrix& shifted) const {
     const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(shifted.rows(), 1, 2);
     const Eigen::VectorXd b = shifted.selfadjointView<Eigen::Lower>() * x;
     const Eigen::VectorXd solution = factor_.solve(b);
     const Eigen::VectorXd residual = b - shifted.selfadjointView<Eigen::Lower>() * solution;
-    return residual.norm() <= residual_bound * b.norm();  // false for NaN too
+    return residual.norm() <= residual_bound * b.norm();  // false for NaN, too
   }
 
   SymmetricMatrix lower_;

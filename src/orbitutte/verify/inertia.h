@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How many eigenvalues of a sparse symmetric matrix lie below a number, by LDL' and Sylvester's law of
-// inertia.
+// Counts the eigenvalues of a sparse symmetric matrix below a number, by LDL' and Sylvester's law of inertia.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -15,8 +14,10 @@ namespace orbitutte {
 using SymmetricMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
 enum class InertiaMethod {
-  mumps,  ///< LDL' with pivots of order 1 and 2 (optional package)
-  eigen   ///< LDL' without pivoting; it may break down
+  /// LDL' with pivots of order 1 and 2 (optional package).
+  mumps,
+  /// LDL' without pivoting, which may break down.
+  eigen
 };
 
 /// "mumps" or "eigen".
@@ -25,8 +26,8 @@ std::string name(InertiaMethod method);
 /// The methods in this binary; the first is the default.
 std::vector<InertiaMethod> available_inertia_methods();
 
-/// The inertia could not be found: the factorisation broke down, or memory ran out; what() names the package
-/// that would help, where one would.
+/// The inertia could not be found because the factorisation broke down or memory ran out. what() names a
+/// package that would help, if there is one.
 class InertiaNotFound : public Error {
  public:
   using Error::Error;
@@ -37,13 +38,13 @@ class InertiaCounter {
  public:
   virtual ~InertiaCounter() = default;
 
-  /// The number of eigenvalues of A x = lambda D x that are below `shift`: by Sylvester's law that of the
-  /// negative ones in the D of A - shift D = L D L'. Throws InertiaNotFound.
+  /// The number of eigenvalues of A x = lambda D x below `shift`. By Sylvester's law it is the number of
+  /// negative eigenvalues of the block diagonal factor of A - shift D. Throws InertiaNotFound.
   virtual long eigenvalues_below(double shift) = 0;
 };
 
-/// `lower` (n x n): the lower triangle of A, its diagonal stored in full; `scale` (n): the diagonal of D,
-/// positive. Throws ArgumentError where the method is not in this binary, InertiaNotFound.
+/// `lower` (n x n) is the lower triangle of A with its diagonal stored in full; `scale` (n) is the diagonal
+/// of D, positive. Throws ArgumentError if the method is not in this binary, and InertiaNotFound.
 std::unique_ptr<InertiaCounter> inertia_counter(const SymmetricMatrix& lower, const Eigen::VectorXd& scale,
                                                 InertiaMethod method);
 

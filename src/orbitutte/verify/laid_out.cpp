@@ -12,13 +12,13 @@ using Pair = std::array<int, 2>;  // cut vertices, ascending
 Pair ascending(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
 // The transforms that continue the map beyond the edges of the banks.
-std::map<Pair, Matrix3> continuations(const std::vector<Seam>& seams) {
-  std::map<Pair, Matrix3> result;
+std::map<Pair, Isometry> continuations(const std::vector<Seam>& seams) {
+  std::map<Pair, Isometry> result;
   for (const Seam& seam : seams) {
-    if (seam.left == seam.right) continue;
+    if (seam.is_mirror()) continue;
     for (std::size_t k = 1; k < seam.left.size(); ++k) {
       result[ascending(seam.left[k - 1], seam.left[k])] = seam.transform;
-      result[ascending(seam.right[k - 1], seam.right[k])] = inverse_isometry(seam.transform);
+      result[ascending(seam.right[k - 1], seam.right[k])] = seam.transform.inverse();
     }
   }
   return result;
@@ -27,19 +27,17 @@ std::map<Pair, Matrix3> continuations(const std::vector<Seam>& seams) {
 // Faces whose corners have positions of their own; across some half-edges the map goes on in another frame.
 class Layout {
  public:
-  Layout(const Mesh& mesh, const Embedding& embedding)
-      : F_(mesh.F),
-        opposite_(connect(mesh.F, static_cast<int>(mesh.V.rows())).opposite),
-        positions_(mesh.F.size(), 3) {
-    std::vector<int> copy(mesh.F.size());  // of the vertex where each half-edge begins: its cut vertex
-    for (int h = 0; h < static_cast<int>(mesh.F.size()); ++h) {
+  Layout(const Surface& surface, const Embedding& embedding)
+      : F_(surface.triangles), opposite_(surface.connectivity.opposite), positions_(F_.size(), 3) {
+    std::vector<int> copy(F_.size());  // of the vertex where each half-edge begins: its cut vertex
+    for (int h = 0; h < static_cast<int>(F_.size()); ++h) {
       for (const int v : embedding.faces.row(h / 3))
         if (embedding.source_vertex[v] == origin(F_, h)) copy[h] = v;
       positions_.row(h) = embedding.positions.row(copy[h]);
     }
-    const std::map<Pair, Matrix3> beyond = continuations(embedding.seams);
+    const std::map<Pair, Isometry> beyond = continuations(embedding.seams);
     if (beyond.empty()) return;
-    for (int h = 0; h < static_cast<int>(mesh.F.size()); ++h) {
+    for (int h = 0; h < static_cast<int>(F_.size()); ++h) {
       const int g = opposite_[h];
       if (g < 0) continue;
       const Pair here = ascending(copy[h], copy[next_halfedge(h)]);
@@ -53,19 +51,18 @@ class Layout {
     const int lh = previous_halfedge(g);  // begins at l
     const bool turned = origin(F_, g) == origin(F_, h);
     const int al = turned ? lh : next_halfedge(g), lb = turned ? next_halfedge(g) : lh;
-    const Matrix3 into = beyond(h);
+    const Isometry into = beyond(h);
     const Corner a = corner(h), b = corner(bk), k = corner(ka),
                  l = {F_.data()[lh], into * corner(lh).position};
     const std::array<Side, 4> sides = {
         Side{opposite_[ka], beyond(ka)}, Side{opposite_[al], into * beyond(al)},
         Side{opposite_[lb], into * beyond(lb)}, Side{opposite_[bk], beyond(bk)}};
     for (const int s : {1, 2})
-      if (sides[s].opposite >= 0)
-        set_beyond(sides[s].opposite, beyond(sides[s].opposite) * inverse_isometry(into));
+      if (sides[s].opposite >= 0) set_beyond(sides[s].opposite, beyond(sides[s].opposite) * into.inverse());
     set_corner(h, l), set_corner(bk, k), set_corner(ka, a);
     set_corner(g, k), set_corner(next_halfedge(g), l), set_corner(previous_halfedge(g), b);
-    set_beyond(h, Matrix3::Identity());
-    set_beyond(g, Matrix3::Identity());
+    set_beyond(h, {});
+    set_beyond(g, {});
     const std::array<int, 4> places = {next_halfedge(h), previous_halfedge(h), next_halfedge(g),
                                        previous_halfedge(g)};
     for (int s = 0; s < 4; ++s) {
@@ -85,7 +82,7 @@ class Layout {
   };
   struct Side {
     int opposite;
-    Matrix3 beyond;
+    Isometry beyond;
   };
 
   Corner corner(int h) const { return {F_.data()[h], positions_.row(h)}; }
@@ -94,12 +91,12 @@ class Layout {
     positions_.row(h) = corner.position;
   }
 
-  Matrix3 beyond(int h) const {
+  Isometry beyond(int h) const {
     const auto at = beyond_.find(h);
-    return at == beyond_.end() ? Matrix3(Matrix3::Identity()) : at->second;
+    return at == beyond_.end() ? Isometry() : at->second;
   }
-  void set_beyond(int h, const Matrix3& transform) {
-    if (transform == Matrix3::Identity()) {
+  void set_beyond(int h, const Isometry& transform) {
+    if (transform.is_identity()) {
       beyond_.erase(h);
     } else {
       beyond_[h] = transform;
@@ -108,23 +105,22 @@ class Layout {
 
   Faces F_;
   std::vector<int> opposite_;
-  Points positions_;                         // of the corner where each half-edge begins
-  std::unordered_map<int, Matrix3> beyond_;  // takes the face beyond a half-edge to where its own goes on
+  Points positions_;                          // of the corner where each half-edge begins
+  std::unordered_map<int, Isometry> beyond_;  // takes the face beyond a half-edge to where its own goes on
 };
 
 }  // namespace
 
-Embedding laid_out(const Mesh& mesh, const Embedding& embedding,
+Embedding laid_out(const Surface& surface, const Embedding& embedding,
                    const IntrinsicTriangulation& triangulation) {
-  Layout layout(mesh, embedding);
+  Layout layout(surface, embedding);
   for (const Flip& flip : triangulation.flips) layout.flip(flip.h);
   Embedding result;
-  result.signature = embedding.signature;
-  result.group_order = embedding.group_order;
-  result.geometry = embedding.geometry;
+  result.target = embedding.target;
+  result.placement = embedding.placement;
   result.positions = layout.positions();
-  result.faces.resize(mesh.F.rows(), 3);
-  for (int h = 0; h < static_cast<int>(mesh.F.size()); ++h) result.faces.data()[h] = h;
+  result.faces.resize(surface.triangles.rows(), 3);
+  for (int h = 0; h < static_cast<int>(result.faces.size()); ++h) result.faces.data()[h] = h;
   result.source_vertex.assign(layout.faces().data(), layout.faces().data() + layout.faces().size());
   result.cones = embedding.cones;
   for (ConeCopies& cone : result.cones) {

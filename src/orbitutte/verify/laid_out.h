@@ -3,15 +3,17 @@
 #pragma once
 
 #include "orbitutte/mesh/intrinsic_triangulation.h"
+#include "orbitutte/mesh/surface.h"
 #include "orbitutte/orbifold/embedding.h"
 
 namespace orbitutte {
 
 /// The faces of the triangulation, each on three positions of its own: half-edge h begins at position h, an
-/// image of vertex source_vertex[h] of the mesh, so that the face lies in one piece. The flips are repeated
-/// on the faces of the embedding: one of two faces is taken into the frame of the other by the transform of
-/// the seam between them. Neither orientation nor positions of the result are judged here. `embedding` is of
-/// the mesh, and its seams fit (see certify).
-Embedding laid_out(const Mesh& mesh, const Embedding& embedding, const IntrinsicTriangulation& triangulation);
+/// image of vertex source_vertex[h] of the surface, so that the face lies in one piece. The flips are
+/// repeated on the faces of the embedding: one of two faces is taken into the frame of the other by the
+/// transform of the seam between them. Neither orientation nor positions of the result are judged here.
+/// `embedding` is of the surface, and its seams fit (see certify).
+Embedding laid_out(const Surface& surface, const Embedding& embedding,
+                   const IntrinsicTriangulation& triangulation);
 
 }  // namespace orbitutte

@@ -76,7 +76,7 @@ class MumpsCounter : public InertiaCounter {
     throw InertiaNotFound(message);
   }
 
-  /// Rows and columns from 1, column by column.
+  /// Lists rows and columns, counted from 1, column by column.
   void list_entries() {
     for (int column = 0; column < lower_.outerSize(); ++column) {
       for (SymmetricMatrix::InnerIterator entry(lower_, column); entry; ++entry) {
@@ -94,10 +94,11 @@ class MumpsCounter : public InertiaCounter {
   void set_controls() {
     for (const int output : {1, 2, 3}) icntl(output) = -1;  // print nothing
     icntl(4) = 0;
-    icntl(12) = 1;   // the order looks at the pattern alone: values change between analysis and factorisation
+    // The ordering uses the pattern alone, since values change between analysis and factorisation.
+    icntl(12) = 1;
     icntl(13) = 1;   // no ScaLAPACK, which would not count negative pivots
-    icntl(14) = 50;  // per cent of memory to spare for pivoting
-    icntl(31) = 1;   // L is not kept: the pivots are all that is asked for
+    icntl(14) = 50;  // per cent of spare memory for pivoting
+    icntl(31) = 1;   // L is not kept, since only the pivots are needed
   }
 
   void shift_values(double shift) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The inertia by MUMPS, in binaries that were built with it (ORBITUTTE_HAS_MUMPS).
+// The inertia by MUMPS, in binaries built with it (ORBITUTTE_HAS_MUMPS).
 #pragma once
 
 #include <memory>
@@ -8,7 +8,7 @@
 
 namespace orbitutte {
 
-/// As inertia_counter. The sequential MUMPS keeps state of its own: counters take turns, on any thread.
+/// The same as inertia_counter. The sequential MUMPS has global state, so counters take turns, on any thread.
 std::unique_ptr<InertiaCounter> mumps_inertia_counter(const SymmetricMatrix& lower,
                                                       const Eigen::VectorXd& scale);
 

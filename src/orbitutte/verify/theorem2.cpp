@@ -23,15 +23,15 @@ using Eigen::VectorXd;
 using std::numbers::pi;
 
 constexpr double first_shift = 0.5, shift_ratio = 0.25, least_shift = 1e-6, residual_margin = 10;
-constexpr double least_scale = 1e-12;  // in units of a vertex's off-diagonal entries
-constexpr double no_entry = 1e-13;     // what rounding leaves of the zeros in rho(g)
+constexpr double least_scale = 1e-12;  // in units of the sum of a vertex's off-diagonal entries
+constexpr double no_entry = 1e-13;     // smaller entries of rho(g) are rounded zeros
 
 double over_sine(double d) { return d == 0 ? 1 : d / std::sin(d); }
 double times_cotangent(double d) { return d == 0 ? 1 : d / std::tan(d); }
 
-// W_ij with the sign turned: w d / sin d.
+// -W_ij: w d / sin d.
 double coupling(const CoverEdge& e) { return e.weight * over_sine(e.length); }
-// What the edge adds to W_ii and W_jj: w d cot d.
+// The edge's contribution to W_ii and W_jj: w d cot d.
 double diagonal_part(const CoverEdge& e) { return e.weight * times_cotangent(e.length); }
 
 template <typename Term>
@@ -51,20 +51,21 @@ double energy_over_area(const Cover& cover) {
   return energy / (2 * cover.area.sum());
 }
 
-// The diagonal of D, by vertex.
+// The diagonal of D, one value per vertex.
 VectorXd vertex_scale(const Cover& cover) {
   return energy_over_area(cover) * cover.area + least_scale * sum_at_vertices(cover, coupling);
 }
 
-// The rows of W times the coordinates, at one vertex of every orbit; nothing but rounding at a stationary
-// map.
+// The rows of W times the coordinates, at one vertex of every orbit. At a stationary map they are rounding
+// errors.
 Points coordinate_residuals(const Cover& cover, const SymmetryGroup& group) {
   Points r = Points::Zero(cover.positions.rows(), 3);
   const Points& X = cover.positions;
   for (const CoverEdge& e : cover.edges) {
-    const Matrix3& g = group.elements()[e.g];
-    r.row(e.i) += diagonal_part(e) * X.row(e.i) - coupling(e) * X.row(e.j) * g.transpose();
-    r.row(e.j) += diagonal_part(e) * X.row(e.j) - coupling(e) * X.row(e.i) * g;
+    const Isometry& g = group.elements()[e.g];
+    r.row(e.i) += diagonal_part(e) * X.row(e.i) - coupling(e) * (g * Vector3(X.row(e.j))).transpose();
+    r.row(e.j) += diagonal_part(e) * X.row(e.j) -
+                  coupling(e) * (g.inverse_matrix() * X.row(e.i).transpose()).transpose();
   }
   return r;
 }
@@ -73,18 +74,18 @@ Points coordinate_residuals(const Cover& cover, const SymmetryGroup& group) {
 Representation space(const SymmetryGroup& group) {
   Representation result;
   result.dimension = 3;
-  result.matrices.assign(group.elements().begin(), group.elements().end());
+  for (const Isometry& g : group.elements()) result.matrices.emplace_back(g.matrix());
   return result;
 }
 
-// |D^-1/2 W X| in the Frobenius norm, over the |G| sheets: at a vertex with a stabilizer, the sum over its
-// edges in the cover is what the stabilizer fixes of the sum over its edges here.
+// |D^-1/2 W X| in the Frobenius norm, over the |G| sheets. If a vertex has a stabilizer, the sum over its
+// edges in the cover is the part of the sum over its edges here that the stabilizer fixes.
 double residual_norm(const Cover& cover, const SymmetryGroup& group, const VectorXd& scale) {
   const Points r = coordinate_residuals(cover, group);
   const Representation natural = space(group);
   double square = 0;
   for (Eigen::Index i = 0; i < r.rows(); ++i) {
-    if (scale[i] == 0) continue;  // no edge leads there
+    if (scale[i] == 0) continue;  // the vertex has no edges
     const std::vector<int>& stabilizer = cover.stabilizers[i];
     const double norm =
         stabilizer.empty() ? r.row(i).norm() : (r.row(i) * fixed_vectors(natural, stabilizer)).norm();
@@ -93,24 +94,24 @@ double residual_norm(const Cover& cover, const SymmetryGroup& group, const Vecto
   return std::sqrt(group.order() * square);
 }
 
-// X'DX over the |G| sheets, X the coordinates of all vertices.
+// X'DX over the |G| sheets, where X are the coordinates of all vertices.
 Matrix3 coordinate_gram(const Cover& cover, const SymmetryGroup& group, const VectorXd& scale) {
   const Matrix3 here = cover.positions.transpose() * scale.asDiagonal() * cover.positions;
   Matrix3 sum = Matrix3::Zero();
-  for (const Matrix3& g : group.elements()) sum += g * here * g.transpose();
+  for (const Isometry& g : group.elements()) sum += g.matrix() * here * g.matrix().transpose();
   return sum;
 }
 
-// Three eigenvalues lie within this of zero.
+// A bound: three eigenvalues lie within it of zero.
 double kernel_residual(const Cover& cover, const SymmetryGroup& group, const VectorXd& scale) {
   const Eigen::SelfAdjointEigenSolver<Matrix3> gram(coordinate_gram(cover, group, scale));
   return residual_norm(cover, group, scale) / std::sqrt(gram.eigenvalues()[0]);
 }
 
-// The unknowns of one representation: vertex i has those from start[i] on, coordinates in basis[i].
+// The unknowns of one representation. Those of vertex i begin at start[i]; they are coordinates in basis[i].
 struct Unknowns {
   std::vector<int> start;       // n + 1
-  std::vector<MatrixXd> basis;  // n; empty where it is the whole space's own
+  std::vector<MatrixXd> basis;  // n; empty for the standard basis of the whole space
 
   int of(int i) const { return start[i + 1] - start[i]; }
   int count() const { return start.back(); }
@@ -130,7 +131,7 @@ Unknowns unknowns_of(const Cover& cover, const Representation& rho, const Vector
   return result;
 }
 
-// The block of W between the unknowns of i and j.
+// The block of W in the rows of i's unknowns and the columns of j's.
 MatrixXd block(const CoverEdge& e, const Representation& rho, const Unknowns& unknowns) {
   const MatrixXd &left = unknowns.basis[e.i], &right = unknowns.basis[e.j];
   MatrixXd result = -coupling(e) * rho.matrices[e.g];
@@ -164,7 +165,7 @@ void add_edge(const CoverEdge& e, const Representation& rho, const Unknowns& unk
         add_lower(unknowns.start[e.i] + r, unknowns.start[e.j] + c, B(r, c), entries);
 }
 
-// A value for every unknown from one for every vertex.
+// Gives every unknown the value of its vertex.
 VectorXd by_unknown(const VectorXd& by_vertex, const Unknowns& unknowns) {
   VectorXd result(unknowns.count());
   for (Eigen::Index i = 0; i < by_vertex.size(); ++i)
@@ -172,7 +173,7 @@ VectorXd by_unknown(const VectorXd& by_vertex, const Unknowns& unknowns) {
   return result;
 }
 
-// The lower triangle of W's part.
+// The lower triangle of the part of W that belongs to rho.
 SymmetricMatrix assemble(const Cover& cover, const Representation& rho, const Unknowns& unknowns) {
   Entries entries;
   entries.reserve(unknowns.count() + cover.edges.size() * rho.dimension);
@@ -184,7 +185,8 @@ SymmetricMatrix assemble(const Cover& cover, const Representation& rho, const Un
   return lower;
 }
 
-// Counts at smaller and smaller shifts, until no more eigenvalues lie between than coordinates belong there.
+// Counts at smaller and smaller shifts, until no more eigenvalues lie between -shift and shift than
+// coordinates belong there.
 void count_inertia(InertiaCounter& counter, double least, RepresentationInertia& part) {
   for (double shift = first_shift; shift >= least; shift *= shift_ratio) {
     part.shift = shift;
@@ -194,7 +196,7 @@ void count_inertia(InertiaCounter& counter, double least, RepresentationInertia&
   }
 }
 
-// What all representations have in common.
+// The data that all representations share.
 struct Problem {
   const Cover& cover;
   const SymmetryGroup& group;
@@ -230,7 +232,7 @@ void count_all(const Problem& problem, Theorem2& result) {
   }
 }
 
-// A kernel that is too large is a finding where the shift could go as far down as rounding lets it.
+// A kernel that is too large counts as a finding only if the shift could become as small as rounding permits.
 bool conclusive(const RepresentationInertia& part, const Problem& problem) {
   if (part.kernel == part.coordinates) return part.shift > 0 || part.unknowns == 0;
   return part.kernel > part.coordinates && problem.least_shift == least_shift;
@@ -246,12 +248,6 @@ void judge(const Problem& problem, Theorem2& result) {
         "{:.1e}",
         result.kernel_residual);
   }
-}
-
-SymmetryGroup group_of(const Embedding& embedding) {
-  std::vector<Matrix3> generators;
-  for (const Seam& seam : embedding.seams) generators.push_back(seam.transform);
-  return {generators, embedding.group_order};
 }
 
 double longest_edge(const Cover& cover) {
@@ -325,23 +321,16 @@ Theorem2 check_cover(const Cover& cover, const SymmetryGroup& group, const Theor
 
 }  // namespace
 
-Theorem2 check_theorem2(const Connectivity& connectivity, const EdgeWeights& weights,
-                        const Embedding& embedding, const Theorem2Options& options) {
+Theorem2 check_theorem2(const Surface& surface, const EdgeWeights& weights, const Embedding& embedding,
+                        const Theorem2Options& options) {
   const SymmetryGroup group = group_of(embedding);
-  return check_cover(cover_of(connectivity, weights, embedding, group), group, options);
+  return check_cover(cover_of(surface, weights, embedding, group), group, options);
 }
 
-Theorem2 check_theorem2(const Mesh& mesh, const Connectivity& connectivity, const EdgeWeights& weights,
-                        const Embedding& embedding, const Theorem2Options& options) {
-  if (!weights.triangulation) return check_theorem2(connectivity, weights, embedding, options);
+long cover_eigenvalues_below(const Surface& surface, const EdgeWeights& weights, const Embedding& embedding,
+                             double shift, const Theorem2Options& options) {
   const SymmetryGroup group = group_of(embedding);
-  return check_cover(cover_of_layout(mesh, weights, embedding, group), group, options);
-}
-
-long cover_eigenvalues_below(const Connectivity& connectivity, const EdgeWeights& weights,
-                             const Embedding& embedding, double shift, const Theorem2Options& options) {
-  const SymmetryGroup group = group_of(embedding);
-  const Cover cover = cover_of(connectivity, weights, embedding, group);
+  const Cover cover = cover_of(surface, weights, embedding, group);
   const Problem problem = {cover, group, vertex_scale(cover), least_shift, options.method};
   long below = 0;
   for (const Representation& rho : irreducible_representations(group)) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "orbitutte/mesh/edge_weights.h"
+#include "orbitutte/mesh/surface.h"
 #include "orbitutte/orbifold/embedding.h"
 #include "orbitutte/verify/certificate.h"
 #include "orbitutte/verify/inertia.h"
@@ -15,70 +16,77 @@ namespace orbitutte {
 /// How the eigenvalues are counted.
 struct Theorem2Options {
   InertiaMethod method = available_inertia_methods().front();
-  int max_group_order = 480;  ///< the representations of larger groups take too long: |G|^3
+  /// Representations of larger groups take too long: |G|^3.
+  int max_group_order = 480;
 };
 
 /// The part of W that one irreducible representation of G carries.
 struct RepresentationInertia {
   int dimension = 1;
-  int multiplicity = 1;  ///< the cover's spectrum holds that of this part so many times
+  /// How often the eigenvalues of this part occur in the cover's spectrum.
+  int multiplicity = 1;
   long unknowns = 0;
-  long negative = 0;    ///< eigenvalues below -shift
-  long kernel = 0;      ///< eigenvalues between -shift and shift
-  int coordinates = 0;  ///< how many of them theory expects: those of x, y and z
+  /// The number of eigenvalues below -shift.
+  long negative = 0;
+  /// The number of eigenvalues between -shift and shift.
+  long kernel = 0;
+  /// The number of zero eigenvalues that theory expects: those of x, y and z.
+  int coordinates = 0;
   double shift = 0;
 };
 
-/// What was found of the two conditions.
+/// The findings about the two conditions.
 struct Theorem2 {
   enum class Status { measured, inconclusive, not_run };
   Status status = Status::not_run;
-  std::string detail;  ///< why it was not run or is inconclusive
+  /// Why the check was not run or is inconclusive.
+  std::string detail;
   InertiaMethod method = InertiaMethod::eigen;
-  double max_edge_length = 0;  ///< radians
-  long negative = 0;           ///< negative eigenvalues of W on the whole cover, with multiplicity
-  long kernel = 0;             ///< and zero eigenvalues
-  double kernel_residual = 0;  ///< three eigenvalues lie so near to zero, at most
+  /// Radians.
+  double max_edge_length = 0;
+  /// The number of negative eigenvalues of W on the whole cover, with multiplicity.
+  long negative = 0;
+  /// The number of zero eigenvalues.
+  long kernel = 0;
+  /// Three eigenvalues lie at most this far from zero.
+  double kernel_residual = 0;
   std::vector<RepresentationInertia> representations;
 
-  /// theorem2_edges: the longest edge is below pi/2. Where it was measured: theorem2_inertia, one negative
-  /// eigenvalue; theorem2_kernel, of dimension three.
+  /// theorem2_edges: the longest edge is below pi/2. If the eigenvalues were measured, also theorem2_inertia:
+  /// exactly one of them is negative; and theorem2_kernel: the kernel has dimension three.
   std::vector<Check> checks() const;
-  bool holds() const;  ///< measured, and all checks passed
+  /// Measured, and all checks passed.
+  bool holds() const;
 };
 
 /// "measured", "inconclusive" or "not run".
 std::string name(Theorem2::Status status);
 
-/// The longest edge, and the inertia of the matrix W of equation (11) on the |G|-fold cover,
+/// Measures the longest edge, and the inertia of the matrix W of equation (11) on the |G|-fold cover,
 ///
-///     W_ij = -w_ij d_ij / sin d_ij  (i != j),    W_ii = sum over j of w_ij d_ij cot d_ij,    d_ij the length
-///     of edge ij,
+///     W_ij = -w_ij d_ij / sin d_ij  (i != j),    W_ii = sum over j of w_ij d_ij cot d_ij,
 ///
-/// in whose kernel the coordinates of a discrete harmonic map lie. The cover is never built: W splits over
-/// the irreducible representations rho of G into matrices on vectors x_i of the spaces that rho fixes under
-/// the stabilizer of vertex i, with blocks -w d/sin d rho(g) for an edge from i to copy g of j.
+/// where d_ij is the length of edge ij. The coordinates of a discrete harmonic map lie in the kernel of W.
+/// The cover is never built: W splits over the irreducible representations rho of G into matrices on vectors
+/// x_i, one in the space that rho fixes under the stabilizer of vertex i, with blocks -w d/sin d rho(g) for
+/// an edge from i to copy g of j.
 ///
-/// Eigenvalues are those of W x = lambda D x, D_i = E / (2 A) * (the vertex's area) + 1e-12 * sum over j of
-/// w d/sin d, with A the area of the tile: about those of -(Laplacian + 2) on the sphere, which begin with
-/// -2, 0, 0, 0,
-/// 4. The residual of the coordinates bounds how far the kernel's can be from 0 (Kahan: Parlett, "The
-/// symmetric eigenvalue problem", theorem 11.5.1). Each part is counted at -s and s for s = 1/2, 1/8, ...
-/// until as many eigenvalues lie between as coordinates belong there; s stays ten times above the residual,
-/// and above 1e-6. Inconclusive where the residual leaves no such s.
+/// The eigenvalues are those of W x = lambda D x, D_i = E / (2 A) * (the vertex's area) + 1e-12 * sum over j
+/// of w d/sin d, where A is the area of the tile. They are close to those of -(Laplacian + 2) on the sphere,
+/// which are -2, then 0 three times, then 4. The residual of the coordinates bounds how far the eigenvalues
+/// of the kernel can be from 0 (Kahan: Parlett, "The symmetric eigenvalue problem", theorem 11.5.1). Each
+/// part is counted at -s and s for s = 1/2, 1/8, ... until no more eigenvalues lie between them than
+/// coordinates belong there. s stays at least ten times the residual, and at least 1e-6; if the residual
+/// leaves no such s, the check is inconclusive.
 ///
-/// The embedding must be as cover_of wants it. Not run: a group too large, a factorisation that broke down,
-/// memory that ran out. Throws as cover_of does.
-Theorem2 check_theorem2(const Connectivity& connectivity, const EdgeWeights& weights,
-                        const Embedding& embedding, const Theorem2Options& options = {});
+/// The check is not run if the group is too large, if the factorisation breaks down or if memory runs out.
+/// The embedding must meet the conditions of cover_of; throws as cover_of does.
+Theorem2 check_theorem2(const Surface& surface, const EdgeWeights& weights, const Embedding& embedding,
+                        const Theorem2Options& options = {});
 
-/// The same with weights of any kind; the edges of intrinsic ones are those of their triangulation.
-Theorem2 check_theorem2(const Mesh& mesh, const Connectivity& connectivity, const EdgeWeights& weights,
-                        const Embedding& embedding, const Theorem2Options& options = {});
-
-/// How many eigenvalues of W x = lambda D x, as above, the whole cover has below `shift`, with multiplicity.
-/// Throws InertiaNotFound, and as cover_of does.
-long cover_eigenvalues_below(const Connectivity& connectivity, const EdgeWeights& weights,
-                             const Embedding& embedding, double shift, const Theorem2Options& options = {});
+/// The number of eigenvalues of W x = lambda D x, as above, that the whole cover has below `shift`, with
+/// multiplicity. Throws InertiaNotFound, and as cover_of does.
+long cover_eigenvalues_below(const Surface& surface, const EdgeWeights& weights, const Embedding& embedding,
+                             double shift, const Theorem2Options& options = {});
 
 }  // namespace orbitutte

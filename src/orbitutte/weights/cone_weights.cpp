@@ -10,20 +10,20 @@
 namespace orbitutte {
 namespace {
 
-constexpr double widest = 0.99 * std::numbers::pi;  // angle of a face
+constexpr double widest = 0.99 * std::numbers::pi;  // the largest angle of a face
 
-// The angle of its face where a half-edge begins.
+// The angle of its face at the origin of half-edge h.
 double angle_at_origin(const IntrinsicTriangulation& T, int h) {
   return std::atan2(1.0, 2 * T.half_cotangent[next_halfedge(h)]);
 }
 
-// The third side of a triangle from two sides and the angle between them.
+// The third side of a triangle with sides p and q and this angle between them.
 double third_side(double p, double q, double angle) {
   const double sine = std::sin(angle / 2);
   return std::sqrt((p - q) * (p - q) + 4 * p * q * sine * sine);
 }
 
-// The half-edges that begin at each cone.
+// The half-edges that leave each cone.
 std::vector<std::vector<int>> leaving(const IntrinsicTriangulation& T, const std::vector<ConeAngle>& cones) {
   std::vector<std::vector<int>> result(cones.size());
   for (int h = 0; h < static_cast<int>(T.F.size()); ++h)
@@ -32,7 +32,7 @@ std::vector<std::vector<int>> leaving(const IntrinsicTriangulation& T, const std
   return result;
 }
 
-// The face at the cone where h begins in the metric of z -> z^b.
+// Measures the face of h in the metric of z -> z^b; h leaves the cone.
 void flatten(IntrinsicTriangulation& T, int h, double b) {
   const double p = std::pow(T.length[h], b), q = std::pow(T.length[previous_halfedge(h)], b);
   const double angle = std::min(b * angle_at_origin(T, h), widest);
@@ -77,12 +77,10 @@ EdgeWeights sharpened_at_cones(const EdgeWeights& weights, const std::vector<Con
   return intrinsic_weights(std::move(T), weights.clamp);
 }
 
-EdgeWeights kept_apart(const EdgeWeights& weights, const std::vector<std::array<int, 2>>& apart,
-                       const Mesh& mesh, const Connectivity& connectivity, const WeightOptions& options) {
-  if (!weights.triangulation || !joins_any(*weights.triangulation, apart)) return weights;
-  WeightOptions keeping = options;
-  keeping.kept_apart = apart;
-  return edge_weights(mesh, connectivity, keeping);
+EdgeWeights kept_apart(const EdgeWeights& weights, const Surface& surface, const WeightOptions& options,
+                       const UnflippedEdges& unflipped) {
+  if (!weights.triangulation || !joins_any(*weights.triangulation, unflipped.kept_apart)) return weights;
+  return edge_weights(surface, options, unflipped);
 }
 
 }  // namespace orbitutte

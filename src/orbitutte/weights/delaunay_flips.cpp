@@ -10,12 +10,14 @@
 namespace orbitutte {
 namespace {
 
-constexpr double mollification = 1e-8;       // slack in units of the mean length
-constexpr double cocircular = 1e-9;          // cotangents whose sum is nearer to zero are not worth a flip,
-constexpr double cotangent_rounding = 1e-6;  // nor where it is that near to zero beside them
+constexpr double mollification = 1e-8;  // slack in units of the mean length
+// An edge is not worth a flip if its cotangents add up to zero within `cocircular`, or within
+// `cotangent_rounding` of their own size.
+constexpr double cocircular = 1e-9;
+constexpr double cotangent_rounding = 1e-6;
 constexpr std::size_t most_flips_per_edge = 100;
 
-// 16 times the squared area (W. Kahan, "Miscalculating area and angles of a needle-like triangle").
+// 16 times the square of the area (W. Kahan, "Miscalculating area and angles of a needle-like triangle").
 double sixteen_squared_areas(double a, double b, double c) {
   if (a < b) std::swap(a, b);
   if (b < c) std::swap(b, c);
@@ -23,7 +25,7 @@ double sixteen_squared_areas(double a, double b, double c) {
   return (a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c));
 }
 
-// A point at the distances r and s from (0, 0) and (d, 0), above the line between them.
+// The point above the x axis at the distances r from (0, 0) and s from (d, 0).
 struct PlanePoint {
   double x, y;
 };
@@ -53,7 +55,7 @@ class DelaunayFlips {
     do {
       before = T_.flips.size();
       flip_all_that_wait(most_flips);
-      for (const int e : std::exchange(blocked_, {})) push(e);  // what blocked them may be gone
+      for (const int e : std::exchange(blocked_, {})) push(e);  // a later flip may have removed the obstacle
     } while (T_.flips.size() > before && T_.flips.size() < most_flips);
   }
 
@@ -113,8 +115,8 @@ class DelaunayFlips {
     });
   }
 
-  // Does an edge join the vertex where the half-edge begins to w, which is none of its face's? Walks around
-  // the former, in both directions where the boundary ends the first walk.
+  // Does an edge join the origin of half-edge `out` to w? w is not a vertex of the face of `out`. Walks
+  // around the origin, in both directions if the boundary ends the first walk.
   bool are_joined(int out, int w) const {
     const int v = origin(T_.F, out);
     for (const int across : {previous_halfedge(out), out}) {
@@ -129,7 +131,7 @@ class DelaunayFlips {
     return false;
   }
 
-  // The distance from k to l, both faces laid out in the plane, in the unit of the first.
+  // The distance from k to l once both faces are laid out in the plane, in the unit of the first face.
   double diagonal(const Flip& flip, double unit) const {
     const std::vector<double>& length = T_.length;
     const double ab = length[flip.h];
@@ -169,22 +171,23 @@ class DelaunayFlips {
 
   IntrinsicTriangulation& T_;
   std::vector<int>&opposite_, &edge_of_;
-  std::vector<int> halfedge_;         // one of every edge
+  std::vector<int> halfedge_;         // one half-edge of every edge
   std::vector<char> waiting_;         // is the edge in the queue?
-  std::vector<char> kept_;            // has a kept face the edge?
+  std::vector<char> kept_;            // does the edge belong to a kept face?
   std::vector<int> queue_, blocked_;  // edges
 };
 
 }  // namespace
 
-std::vector<double> mollified_lengths(const Mesh& mesh, const Connectivity& connectivity) {
+std::vector<double> mollified_lengths(const Surface& surface) {
+  const Connectivity& connectivity = surface.connectivity;
   const int count = static_cast<int>(connectivity.edges.size());
   const auto difference = [&](int e) -> Vector3 {
     const auto [i, j] = connectivity.edges[e];
-    return mesh.V.row(i) - mesh.V.row(j);
+    return surface.V.row(i) - surface.V.row(j);
   };
   const double largest = parallel_max(count, [&](int e) { return difference(e).lpNorm<Eigen::Infinity>(); });
-  // A power of two near 1/largest: nothing overflows.
+  // A power of two near 1/largest prevents overflow.
   const double scale = largest > 0 ? std::exp2(-std::clamp(std::ilogb(largest), -1000, 1000)) : 1.0;
   std::vector<double> length(count);
   const double total = parallel_sum(count, [&](int e) { return length[e] = (scale * difference(e)).norm(); });
@@ -199,7 +202,7 @@ std::vector<double> mollified_lengths(const Mesh& mesh, const Connectivity& conn
 }
 
 double half_cotangent(double a, double b, double c) {
-  const double area = std::sqrt(sixteen_squared_areas(a, b, c));  // four times
+  const double area = std::sqrt(sixteen_squared_areas(a, b, c));  // four times the area
   return area > 0 ? 0.5 * (b * b + c * c - a * a) / area : 0.0;
 }
 
@@ -214,13 +217,14 @@ void measure_angles(IntrinsicTriangulation& triangulation, int face) {
         half_cotangent(length[k], length[(k + 1) % 3], length[(k + 2) % 3]);
 }
 
-IntrinsicTriangulation intrinsic_triangulation(const Mesh& mesh, const Connectivity& connectivity) {
-  const std::vector<double> length = mollified_lengths(mesh, connectivity);
-  IntrinsicTriangulation result = {mesh.F, connectivity, {}, {}, {}, {}};
-  result.length.resize(mesh.F.size());
-  result.half_cotangent.resize(mesh.F.size());
-  parallel_ranges(static_cast<int>(mesh.F.rows()), [&](int begin, int end) {
-    for (int h = 3 * begin; h < 3 * end; ++h) result.length[h] = length[connectivity.edge_of[h]];
+IntrinsicTriangulation intrinsic_triangulation(const Surface& surface) {
+  const std::vector<double> length = mollified_lengths(surface);
+  const std::vector<int>& edge_of = surface.connectivity.edge_of;
+  IntrinsicTriangulation result = {surface.triangles, surface.connectivity, {}, {}, {}, {}};
+  result.length.resize(edge_of.size());
+  result.half_cotangent.resize(edge_of.size());
+  parallel_ranges(surface.triangle_count(), [&](int begin, int end) {
+    for (int h = 3 * begin; h < 3 * end; ++h) result.length[h] = length[edge_of[h]];
     for (int f = begin; f < end; ++f) measure_angles(result, f);
   });
   return result;

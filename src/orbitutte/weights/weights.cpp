@@ -17,18 +17,18 @@
 namespace orbitutte {
 namespace {
 
-// A weight of an intrinsic triangulation that is zero, between concyclic points, becomes this: the theory
-// asks for positive ones, and so little moves nothing that can be seen.
+// Replaces weights of zero in an intrinsic triangulation, which concyclic points cause. The theory requires
+// positive weights; one as small as this has no visible effect.
 constexpr double concyclic_weight = 1e-6;
 
-// Half the cotangent of the angle at vertex o of a triangle (i, j, o); zero where the triangle has no area
-// but rounding errors, as `inspect` counts them: their cotangents, 1e15 or so, would be rounding errors too.
+// Half the cotangent of the angle at vertex o of a triangle (i, j, o). Zero if the area is nothing but
+// rounding error, by the criterion of `inspect`: the cotangent, 1e15 or so, would be rounding error, too.
 double half_cotangent(const Points& V, int i, int j, int o) {
   Vector3 a = V.row(i) - V.row(o), b = V.row(j) - V.row(o);
   const double longest =
       std::max({a.lpNorm<Eigen::Infinity>(), b.lpNorm<Eigen::Infinity>(), (b - a).lpNorm<Eigen::Infinity>()});
   if (!(longest > 0)) return 0;
-  // A power of two near 1/longest: nothing overflows, and right angles stay exact.
+  // A power of two near 1/longest prevents overflow and keeps right angles exact.
   const double scale = std::exp2(-std::clamp(std::ilogb(longest), -1000, 1000));
   a *= scale;
   b *= scale;
@@ -36,7 +36,7 @@ double half_cotangent(const Points& V, int i, int j, int o) {
   return twice_area > 8 * std::numeric_limits<double>::epsilon() ? 0.5 * a.dot(b) / twice_area : 0.0;
 }
 
-// The sum of a half-edge's value and its opposite's, for every edge.
+// For every edge, the sum of the values of its half-edges.
 Eigen::VectorXd summed_over_sides(const Connectivity& connectivity, const std::vector<double>& value) {
   Eigen::VectorXd sum(static_cast<Eigen::Index>(connectivity.edges.size()));
   parallel_ranges(static_cast<int>(value.size()), [&](int begin, int end) {
@@ -50,17 +50,17 @@ Eigen::VectorXd summed_over_sides(const Connectivity& connectivity, const std::v
   return sum;
 }
 
-EdgeWeights cotangent_weights(const Mesh& mesh, const Connectivity& connectivity, double clamp) {
+EdgeWeights cotangent_weights(const Surface& surface, double clamp) {
   EdgeWeights result;
   result.clamp = clamp;
-  const int halfedges = static_cast<int>(mesh.F.size());
+  const Faces& F = surface.triangles;
+  const int halfedges = static_cast<int>(F.size());
   std::vector<double> cotangent(halfedges);
   parallel_ranges(halfedges, [&](int begin, int end) {
     for (int h = begin; h < end; ++h)
-      cotangent[h] =
-          half_cotangent(mesh.V, origin(mesh.F, h), target(mesh.F, h), origin(mesh.F, previous_halfedge(h)));
+      cotangent[h] = half_cotangent(surface.V, origin(F, h), target(F, h), origin(F, previous_halfedge(h)));
   });
-  result.w = summed_over_sides(connectivity, cotangent);
+  result.w = summed_over_sides(surface.connectivity, cotangent);
   for (double& w : result.w) {
     if (!(w > 0)) {
       w = clamp;
@@ -70,22 +70,21 @@ EdgeWeights cotangent_weights(const Mesh& mesh, const Connectivity& connectivity
   return result;
 }
 
-EdgeWeights delaunay_weights(const Mesh& mesh, const Connectivity& connectivity,
-                             const WeightOptions& options) {
-  IntrinsicTriangulation triangulation = intrinsic_triangulation(mesh, connectivity);
-  for (const int f : options.kept_faces)
-    if (f < 0 || f >= mesh.F.rows())
-      throw MeshError(
-          fmt::format("there is no face {} to keep; the mesh has the faces 0 to {}", f, mesh.F.rows() - 1));
-  triangulation.kept_faces = options.kept_faces;
-  triangulation.kept_apart = options.kept_apart;
-  std::vector<int> all(connectivity.edges.size());
+EdgeWeights delaunay_weights(const Surface& surface, double clamp, const UnflippedEdges& unflipped) {
+  for (const int f : unflipped.kept_faces)
+    if (f < 0 || f >= surface.triangle_count())
+      throw MeshError(fmt::format("there is no face {} to keep; the mesh has the faces 0 to {}", f,
+                                  surface.triangle_count() - 1));
+  IntrinsicTriangulation triangulation = intrinsic_triangulation(surface);
+  triangulation.kept_faces = unflipped.kept_faces;
+  triangulation.kept_apart = unflipped.kept_apart;
+  std::vector<int> all(surface.connectivity.edges.size());
   std::iota(all.begin(), all.end(), 0);
   make_delaunay(triangulation, all);
-  return intrinsic_weights(std::move(triangulation), options.clamp);
+  return intrinsic_weights(std::move(triangulation), clamp);
 }
 
-// Half the mean length of the edges at every vertex.
+// For every vertex, half the mean length of its edges.
 std::vector<double> half_mean_lengths(const Connectivity& connectivity, const std::vector<double>& length,
                                       int vertex_count) {
   std::vector<double> sum(vertex_count, 0.0);
@@ -100,16 +99,19 @@ std::vector<double> half_mean_lengths(const Connectivity& connectivity, const st
   return sum;
 }
 
-EdgeWeights mean_value_weights(const Mesh& mesh, const Connectivity& connectivity) {
-  const std::vector<double> length = mollified_lengths(mesh, connectivity);
-  const std::vector<double> scale = half_mean_lengths(connectivity, length, static_cast<int>(mesh.V.rows()));
+EdgeWeights mean_value_weights(const Surface& surface) {
+  const Faces& F = surface.triangles;
+  const Connectivity& connectivity = surface.connectivity;
+  const std::vector<double> length = mollified_lengths(surface);
+  const std::vector<double> scale = half_mean_lengths(connectivity, length, surface.vertex_count());
   const auto side = [&](int h) { return length[connectivity.edge_of[h]]; };
-  std::vector<double> share(connectivity.edge_of.size());  // of the weight, from one face
+  // of each half-edge: the part of the weight that its face contributes
+  std::vector<double> share(connectivity.edge_of.size());
   parallel_ranges(static_cast<int>(share.size()), [&](int begin, int end) {
     for (int h = begin; h < end; ++h) {
       const double a = side(h), b = side(next_halfedge(h)), c = side(previous_halfedge(h));
-      const double at_origin = scale[origin(mesh.F, h)] * half_angle_tangent(b, c, a),
-                   at_target = scale[target(mesh.F, h)] * half_angle_tangent(c, a, b);
+      const double at_origin = scale[origin(F, h)] * half_angle_tangent(b, c, a),
+                   at_target = scale[target(F, h)] * half_angle_tangent(c, a, b);
       share[h] = (at_origin + at_target) / (2 * a);
     }
   });
@@ -118,7 +120,7 @@ EdgeWeights mean_value_weights(const Mesh& mesh, const Connectivity& connectivit
   return result;
 }
 
-// The blank-separated words of a line, each without copying.
+// Removes the next blank-separated word from a line and returns it; empty at the end.
 std::string_view next_word(std::string_view& line) {
   const auto first = line.find_first_not_of(" \t\r");
   if (first == std::string_view::npos) return line = {};
@@ -141,17 +143,14 @@ int find_edge(const Connectivity& connectivity, int i, int j) {
                                                        : -1;
 }
 
-EdgeWeights weights_of_kind(const Mesh& mesh, const Connectivity& connectivity,
-                            const WeightOptions& options) {
-  if (options.kind == WeightKind::cotan) return cotangent_weights(mesh, connectivity, options.clamp);
-  if (options.kind == WeightKind::delaunay) return delaunay_weights(mesh, connectivity, options);
-  if (options.kind == WeightKind::mean_value) return mean_value_weights(mesh, connectivity);
-  EdgeWeights uniform;
-  uniform.w = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(connectivity.edges.size()));
-  return uniform;
+EdgeWeights uniform_weights(const Surface& surface) {
+  EdgeWeights result;
+  result.w = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(surface.connectivity.edges.size()));
+  return result;
 }
 
-// Weights that are given edge by edge. `place()` tells where one stands, `where` all of them.
+// Collects weights that are given edge by edge. For messages, `place()` names one entry and `where` the whole
+// list.
 class WeightCollector {
  public:
   explicit WeightCollector(const Connectivity& connectivity) : connectivity_(connectivity) {
@@ -167,13 +166,13 @@ class WeightCollector {
           "{}: edge ({}, {}) has the weight {}; weights must be finite and not negative", place(), i, j, w));
     const int edge = find_edge(connectivity_, i, j);
     if (edge < 0)
-      throw MeshError(fmt::format("{}: ({}, {}) is no edge of the mesh; leave it out", place(), i, j));
+      throw MeshError(fmt::format("{}: the mesh has no edge ({}, {}); leave it out", place(), i, j));
     if (result_.w[edge] != missing)
       throw MeshError(fmt::format("{}: edge ({}, {}) is given twice; give every edge once", place(), i, j));
     result_.w[edge] = w;
   }
 
-  /// All of them, when every edge has one; `row` is what would hold one more.
+  /// All weights, once every edge has one. For messages, `row` names an entry of the list.
   EdgeWeights weights(const std::string& where, const char* row) {
     const auto absent = std::find(result_.w.begin(), result_.w.end(), missing);
     if (absent != result_.w.end()) {
@@ -209,20 +208,31 @@ EdgeWeights intrinsic_weights(IntrinsicTriangulation triangulation, double clamp
   return result;
 }
 
-EdgeWeights edge_weights(const Mesh& mesh, const Connectivity& connectivity, const WeightOptions& options) {
+WeightKind weight_kind(const Surface& surface, WeightKind asked) {
+  if (asked == WeightKind::standard) return surface.has_polygons() ? WeightKind::cotan : WeightKind::delaunay;
+  const bool of_triangles = asked == WeightKind::delaunay || asked == WeightKind::mean_value;
+  if (of_triangles && surface.has_polygons())
+    throw ArgumentError(fmt::format(
+        "the mesh has faces of more than three corners, for which there are no {} weights; take cotan or "
+        "uniform weights, or a file of weights",
+        name(asked)));
+  return asked;
+}
+
+EdgeWeights edge_weights(const Surface& surface, const WeightOptions& options,
+                         const UnflippedEdges& unflipped) {
   if (!(options.clamp > 0) || !std::isfinite(options.clamp))
     throw ArgumentError(
         fmt::format("the clamp of the weights is {}; it must be positive and finite", options.clamp));
   if (options.kind == WeightKind::file && options.given.empty())
-    throw ArgumentError("weights of the kind 'file' are read by read_weights");
-  if (options.kind == WeightKind::file) return given_weights(options.given, connectivity);
-  if (options.kind == WeightKind::standard) {
-    WeightOptions delaunay = options;
-    delaunay.kind = WeightKind::delaunay;
-    return edge_weights(mesh, connectivity, delaunay);
-  }
-  EdgeWeights result = weights_of_kind(mesh, connectivity, options);
-  result.kind = options.kind;
+    throw ArgumentError("the kind of the weights is 'file'; call read_weights to read them");
+  if (options.kind == WeightKind::file) return given_weights(options.given, surface.connectivity);
+  const WeightKind kind = weight_kind(surface, options.kind);
+  EdgeWeights result = kind == WeightKind::cotan        ? cotangent_weights(surface, options.clamp)
+                       : kind == WeightKind::delaunay   ? delaunay_weights(surface, options.clamp, unflipped)
+                       : kind == WeightKind::mean_value ? mean_value_weights(surface)
+                                                        : uniform_weights(surface);
+  result.kind = kind;
   result.clamp = options.clamp;
   return result;
 }

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/mesh/surface.h"
+
+#include <algorithm>
+#include <array>
+
+namespace orbitutte {
+
+Polygons Surface::polygons_on(const Faces& cut, const std::vector<char>& turned) const {
+  Polygons result;
+  if (!has_polygons()) return result;
+  result.start = polygons.start;
+  result.corners.resize(polygons.corners.size());
+  int triangle = 0;
+  for (int f = 0; f < result.count(); ++f) {
+    const bool is_turned = !turned.empty() && turned[triangle] != 0;
+    const std::array<int, 3> slot = is_turned ? std::array{0, 2, 1} : std::array{0, 1, 2};
+    for (int k = 2; k < result.start[f + 1] - result.start[f]; ++k, ++triangle)
+      for (int c = 0; c < 3; ++c) result.corners[division(triangle, c)] = cut(triangle, slot[c]);
+    if (is_turned)
+      std::reverse(result.corners.begin() + result.start[f] + 1,
+                   result.corners.begin() + result.start[f + 1]);
+  }
+  return result;
+}
+
+}  // namespace orbitutte

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// A surface as one value, whatever its faces were in the file: what everything behind the readers takes.
+#pragma once
+
+#include <vector>
+
+#include "orbitutte/mesh/connectivity.h"
+
+namespace orbitutte {
+
+/// Vertices, faces of any size, their triangles and how these hang together. make_surface
+/// (inspect/recognition.h) makes it once and judges the mesh; it is const from then on.
+struct Surface {
+  /// n x 3 positions.
+  Points V;
+  /// T x 3: the faces in their order, larger ones divided into triangles.
+  Faces triangles;
+  /// The half-edges of the triangles, and the edges of the faces alone.
+  Connectivity connectivity;
+  /// The faces, if some have more than three corners; none if all are triangles.
+  Polygons polygons;
+  /// T x 3: the triangles as indices into polygons.corners (triangulate); none if all faces are triangles.
+  Faces division;
+  Topology topology = Topology::other;
+  int unreferenced_vertices = 0;
+  /// As Inspection counts them.
+  int zero_area_faces = 0;
+  /// n x 3, of the vertices: sRGB, 0 .. 1; none if the mesh has no colours.
+  Points colours = Points(0, 3);
+
+  bool has_polygons() const { return polygons.count() > 0; }
+  int vertex_count() const { return static_cast<int>(V.rows()); }
+  int triangle_count() const { return static_cast<int>(triangles.rows()); }
+
+  /// The faces as they were given.
+  FaceView faces() const { return has_polygons() ? FaceView(polygons) : FaceView(triangles); }
+
+  /// The polygons that the triangles make up on other vertices, such as those of a cut mesh; none if all
+  /// faces are triangles. cut: T x 3, the triangles there. turned: T, or empty; if a triangle is turned over
+  /// (its second and third vertex exchanged), its polygon is, too.
+  Polygons polygons_on(const Faces& cut, const std::vector<char>& turned = {}) const;
+};
+
+}  // namespace orbitutte

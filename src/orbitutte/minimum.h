@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// Where the optimiser ended, and why.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "orbitutte/types.h"
+
+namespace orbitutte {
+
+enum class Termination { converged, max_iterations, line_search_failed };
+
+/// "converged", "max_iterations" or "line_search_failed".
+std::string name(Termination termination);
+
+/// One row of the history: the state after an iteration (the first row: the start).
+struct Iteration {
+  double energy = 0;
+  /// The infinity norm of the feasible, tangential gradient.
+  double gradient_norm = 0;
+  /// The infinity norm of the displacement that led here, radians.
+  double step = 0;
+};
+
+/// Where the optimiser ended, and how it came there.
+struct Minimum {
+  /// n x 3, points of the space.
+  Points positions;
+  double energy = 0;
+  double gradient_norm = 0;
+  int iterations = 0;
+  int evaluations = 0;
+  Termination termination = Termination::converged;
+  std::vector<Iteration> history;
+};
+
+}  // namespace orbitutte

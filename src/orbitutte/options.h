@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// How single stages of the method are done: options that programs set, and names of what there is to choose.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace orbitutte {
+
+/// Chooses between the cuts through the same marked vertices.
+struct CutOptions {
+  /// Another seed gives another cut; 0 gives the shortest.
+  std::uint64_t seed = 0;
+};
+
+/// How vertices are spread along an arc.
+enum class Spread {
+  /// In proportion to the lengths of the boundary's edges in the source.
+  arc_length,
+  equidistant
+};
+
+/// The libraries that factorise sparse matrices.
+enum class Backend { cholmod, eigen };
+
+/// "cholmod" or "eigen".
+std::string name(Backend backend);
+
+/// The backends in this binary; the first is the default (CMake option ORBITUTTE_SOLVER).
+std::vector<Backend> available_backends();
+
+/// The BLAS of this binary: OpenBLAS's own description if it can be asked for, else "unknown".
+std::string blas_description();
+
+/// How the linear systems are solved.
+struct LaplacianOptions {
+  Backend backend = available_backends().front();
+
+  /// Parts of the mesh with at most so many vertices are factorised each on its own, at the same time as
+  /// others.
+  int block_size = 30000;
+};
+
+}  // namespace orbitutte

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// What a surface is mapped onto: an orbifold S^2/G or R^2/G, or a fixed spherical polygon.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "orbitutte/geometry/space.h"
+#include "orbitutte/types.h"
+
+namespace orbitutte {
+
+/// A Conway symbol, read: rotation orders before the first star or cross, corner orders after the star.
+struct ConwaySymbol {
+  std::vector<int> rotations;
+  std::vector<int> corners;
+  bool star = false;
+  bool cross = false;
+
+  /// One character per order while each is a single digit, commas otherwise; `x` for the cross.
+  std::string text() const;
+};
+
+/// The signature of fixed boundaries, which no symbol of Conway's is: theorem 1, see polygon.h.
+inline const std::string polygon_signature = "polygon";
+
+enum class ConeKind { rotation, corner, fixed };
+
+/// "rotation", "corner" or "fixed".
+std::string name(ConeKind kind);
+
+/// A marked point of the target.
+struct Mark {
+  /// What the angles around it add up to, radians: 2 pi/n at a cone of order n, pi/n at a corner; 0 if the
+  /// point is held and its angle is not asked for.
+  double angle = 0;
+  ConeKind kind = ConeKind::rotation;
+
+  /// The mark of an order; a fixed one has none.
+  static Mark of_order(int order, ConeKind kind);
+
+  /// n where the angle is 2 pi/n (rotation) or pi/n (corner), 1 where the mark is fixed, 0 otherwise.
+  int order() const;
+};
+
+/// What an embedding aims at. parse_orbifold and polygon_target make targets.
+struct Target {
+  /// Canonical text, the orders in the arrangement that was given.
+  std::string signature;
+  ConwaySymbol symbol;
+  Space space;
+
+  /// What the mesh has to be.
+  Topology topology = Topology::sphere;
+
+  /// In the order in which vertices are marked.
+  std::vector<Mark> marks;
+
+  /// So many marks, the first, lie inside the surface, the others on its boundary.
+  int inner_marks = 0;
+
+  /// |G|; 0 if it is infinite.
+  int group_order = 1;
+
+  /// Of a fixed polygon: one a mark; otherwise none (polygon.h).
+  std::vector<PolygonCorner> corners;
+
+  /// Rotations about (0, 0, 1) change nothing about the target: NN, N* and Nx fix a map up to one of them.
+  bool is_free_to_rotate = false;
+};
+
+}  // namespace orbitutte

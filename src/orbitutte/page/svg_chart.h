@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// Charts as inline SVG, in the page's own colours and readable without script.
+#pragma once
+
+#include "orbitutte/page/html_template.h"
+#include "orbitutte/report/chart.h"
+
+namespace orbitutte {
+
+/// What fills viewer/chart.html: where texts, bars and lines are, in units of the picture. `false`, so that a
+/// section is left out, where the chart is empty.
+Content svg_chart(const Chart& chart);
+
+}  // namespace orbitutte

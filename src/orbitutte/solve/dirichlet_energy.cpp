@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/solve/dirichlet_energy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <unordered_map>
+
+#include "orbitutte/parallel.h"
+
+namespace orbitutte {
+GluedEdges glued_edges(const CutMesh& cut, const Connectivity& connectivity,
+                       const BoundaryConditions& boundary) {
+  GluedEdges result;
+  result.transforms = {Isometry()};
+  result.edges.resize(connectivity.edges.size());
+  std::unordered_map<long long, int> known;  // by the transforms of both ends
+  for (int h = static_cast<int>(cut.F.size()) - 1; h >= 0; --h) {
+    const int a = origin(cut.F, h), b = target(cut.F, h), e = cut.edge_of[h];
+    if (e < 0) continue;  // a diagonal
+    int t = 0;
+    if (const int ta = boundary.transform_of[a], tb = boundary.transform_of[b]; ta != tb) {
+      const long long key = static_cast<long long>(ta) << 32 | tb;
+      const auto at = known.find(key);
+      t = at != known.end() ? at->second
+                            : known[key] = index_among(
+                                  result.transforms, boundary.transform(a).inverse() * boundary.transform(b));
+    }
+    result.edges[e] = {cut.source_vertex[a], cut.source_vertex[b], t};
+  }
+  return result;
+}
+
+DirichletEnergy::DirichletEnergy(const GluedEdges& glued, const EdgeWeights& weights,
+                                 const BoundaryConditions& boundary)
+    : space_(boundary.space), transforms_(glued.transforms), basis_of_(boundary.basis_of) {
+  const int n = static_cast<int>(basis_of_.size());
+  for (const Isometry& mirror : boundary.mirrors)
+    projectors_.push_back(0.5 * (Matrix3::Identity() + mirror.matrix()));
+  projectors_[held_in_place].setZero();
+  start_.assign(n + 1, 0);
+  for (const GluedEdge& edge : glued.edges) {
+    ++start_[edge.i + 1];
+    ++start_[edge.j + 1];
+  }
+  std::partial_sum(start_.begin(), start_.end(), start_.begin());
+  incidences_.resize(2 * glued.edges.size());
+  std::vector<int> fill(start_.begin(), start_.end() - 1);
+  for (std::size_t e = 0; e < glued.edges.size(); ++e) {
+    const auto [i, j, t] = glued.edges[e];
+    const double w = weights.w[static_cast<Eigen::Index>(e)];
+    incidences_[fill[i]++] = {j, 2 * t, w};
+    incidences_[fill[j]++] = {i, 2 * t + 1, w};
+  }
+  rounding_floor_.resize(n);
+  for (int v = 0; v < n; ++v) {
+    double sum = 0;
+    for (int k = start_[v]; k < start_[v + 1]; ++k) sum += incidences_[k].w;
+    rounding_floor_[v] = 4 * std::numeric_limits<double>::epsilon() * sum;
+  }
+}
+
+Vector3 DirichletEnergy::image(const Points& p, const Incidence& incidence) const {
+  Vector3 q = p.row(incidence.neighbor);
+  if (incidence.transform < 2) return q;
+  const Isometry& g = transforms_[incidence.transform / 2];
+  return incidence.transform % 2 == 0 ? g.matrix() * q : g.inverse_matrix() * q;
+}
+
+DirichletEnergy::Value DirichletEnergy::evaluate(const Points& positions) const {
+  Value value;
+  evaluate(positions, value);
+  return value;
+}
+
+template <int k>
+DirichletEnergy::Pull DirichletEnergy::pull_at(const Points& p, int v) const {
+  const Vector3 here = p.row(v);
+  Pull pull = {Vector3::Zero(), 0, 0};
+  for (int at = start_[v]; at < start_[v + 1]; ++at) {
+    const Vector3 there = image(p, incidences_[at]);
+    const double w = incidences_[at].w;
+    const auto d = Curvature<k>::distance(here, there);
+    pull.energy += w * d.squared;
+    pull.weight += w * d.over_sn;
+    pull.force += w * d.over_sn * (there - here);
+  }
+  if (basis_of_[v] != 0) pull.force = projectors_[basis_of_[v]] * pull.force;
+  pull.force = Curvature<k>::tangent(here, pull.force);
+  return pull;
+}
+
+void DirichletEnergy::evaluate(const Points& positions, Value& value) const {
+  value.gradient.resize(positions.rows(), 3);
+  // Every edge is met from both ends, half of its energy at each, and grad_i E = -2 times the pull.
+  value.energy = visit_curvature(space_, [&]<int k>(Curvature<k>) {
+    return 0.5 * parallel_sum(static_cast<int>(positions.rows()), [&](int v) {
+             const Pull pull = pull_at<k>(positions, v);
+             value.gradient.row(v) = -2 * pull.force;
+             return pull.energy;
+           });
+  });
+}
+
+void DirichletEnergy::make_feasible(Points& vectors) const {
+  for (int v = 0; v < static_cast<int>(vectors.rows()); ++v)
+    if (basis_of_[v] != 0) vectors.row(v) = projectors_[basis_of_[v]] * Vector3(vectors.row(v));
+}
+
+void DirichletEnergy::relax(Points& p, int v) const {
+  visit_curvature(space_, [&]<int k>(Curvature<k>) {
+    const Pull pull = pull_at<k>(p, v);
+    if (pull.weight > 0) p.row(v) = Curvature<k>::retract(p.row(v).transpose() + pull.force / pull.weight);
+  });
+}
+
+std::pair<int, double> DirichletEnergy::smallest_spot(const Points& positions) const {
+  std::pair<int, double> spot = {0, std::numeric_limits<double>::infinity()};
+  for (int v = 0; v < static_cast<int>(positions.rows()); ++v) {
+    for (int k = start_[v]; k < start_[v + 1]; ++k) {
+      const double length = (image(positions, incidences_[k]) - Vector3(positions.row(v))).norm();
+      if (length < spot.second) spot = {v, length};
+    }
+  }
+  return spot;
+}
+
+void DirichletEnergy::relax_small(Points& positions, double length, int sweeps) const {
+  std::vector<int> small;
+  for (int v = 0; v < static_cast<int>(positions.rows()); ++v) {
+    bool any = false;
+    for (int k = start_[v]; k < start_[v + 1] && !any; ++k)
+      any = (image(positions, incidences_[k]) - Vector3(positions.row(v))).norm() < length;
+    if (any) small.push_back(v);
+  }
+  for (int sweep = 0; sweep < sweeps; ++sweep)
+    for (const int v : small) relax(positions, v);
+}
+
+}  // namespace orbitutte

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// The discrete Dirichlet energy of maps into a space of constant curvature (equation (2)) and its gradient.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "orbitutte/cut/cut.h"
+#include "orbitutte/mesh/connectivity.h"
+#include "orbitutte/mesh/edge_weights.h"
+#include "orbitutte/solve/boundary_conditions.h"
+
+namespace orbitutte {
+
+/// An undirected edge of the uncut mesh with its gluing: the neighbour of i is transforms[t] * (position of
+/// j).
+struct GluedEdge {
+  int i = 0, j = 0;
+  int t = 0;  ///< an index into GluedEdges::transforms; 0 is the identity
+};
+
+/// The edges of the energy, each with the group element that is applied to its second end.
+struct GluedEdges {
+  std::vector<GluedEdge> edges;      ///< in the order of Connectivity::edges
+  std::vector<Isometry> transforms;  ///< distinct elements of G; the first is the identity
+};
+
+/// The group element of every edge: that of one of its images in the cut mesh.
+GluedEdges glued_edges(const CutMesh& cut, const Connectivity& connectivity,
+                       const BoundaryConditions& boundary);
+
+/// E(p) = sum over edges of w_ij d(p_i, g_ij p_j)^2, with d the distance of the space (see
+/// Curvature::distance).
+class DirichletEnergy {
+ public:
+  DirichletEnergy(const GluedEdges& glued, const EdgeWeights& weights, const BoundaryConditions& boundary);
+
+  struct Value {
+    double energy = 0;
+    Points gradient;  ///< n x 3: tangential, and feasible (along mirrors; zero where held)
+  };
+
+  /// positions: n x 3, points of the space. The same bits whatever the number of threads.
+  Value evaluate(const Points& positions) const;
+
+  /// The same, into a value whose memory is used again.
+  void evaluate(const Points& positions, Value& value) const;
+
+  /// Projects vectors (n x 3) onto the room of their vertices: along mirrors; zero where held.
+  void make_feasible(Points& vectors) const;
+
+  /// The vertex with the shortest edge, and that edge's length.
+  std::pair<int, double> smallest_spot(const Points& positions) const;
+
+  /// Gauss-Seidel sweeps over the vertices with an edge shorter than `length`: each moves to the weighted
+  /// mean of its neighbours, computed from differences, so that it ends within a unit in the last place of
+  /// it.
+  void relax_small(Points& positions, double length, int sweeps) const;
+
+  Space space() const { return space_; }
+
+  /// How exactly the gradient can be known in double precision: per vertex, the rounding error of a position
+  /// of length one times the sum of its weights. n.
+  const Eigen::VectorXd& rounding_floor() const { return rounding_floor_; }
+
+ private:
+  /// One end of an edge, seen from the other.
+  struct Incidence {
+    int neighbor, transform;  ///< transform: 2 t for g, 2 t + 1 for its inverse
+    double w;
+  };
+
+  Vector3 image(const Points& p, const Incidence& incidence) const;
+
+  // The tangential, feasible part of sum over j of w_ij d/sn d (g_ij p_j - p_i) at vertex i, and the sums
+  // that are met on the way.
+  struct Pull {
+    Vector3 force;
+    double energy, weight;  // sum of w d^2, and of w d/sn d
+  };
+  template <int k>
+  Pull pull_at(const Points& p, int v) const;
+  void relax(Points& p, int v) const;
+
+  Space space_;
+  std::vector<Isometry> transforms_;
+  std::vector<Matrix3> projectors_;  // onto the room of each vertex, by BoundaryConditions::basis_of
+  std::vector<int> basis_of_;
+  std::vector<int> start_;  // incidences of vertex v: start_[v] .. start_[v + 1] - 1
+  std::vector<Incidence> incidences_;
+  Eigen::VectorXd rounding_floor_;
+};
+
+}  // namespace orbitutte
