@@ -99,8 +99,13 @@ EmbedOptions options_from(const EmbedArguments& arguments) {
   return options;
 }
 
+struct Input {
+  Surface surface;
+  std::vector<std::string> warnings;  // of the reader
+};
+
 // Reads the mesh, and notes what the report says of its file.
-Surface read_input(const std::string& path, RunRecord& run) {
+Input read_input(const std::string& path, RunRecord& run) {
   const Stopwatch reading;
   const MeshFormat format = mesh_format(path);
   const std::string bytes = read_file(path);
@@ -108,11 +113,12 @@ Surface read_input(const std::string& path, RunRecord& run) {
   run.input_sha256 = sha256(bytes);
   try {
     PolygonMesh mesh = parse_mesh(bytes, format);
+    std::vector<std::string> warnings = std::move(mesh.warnings);
     run.read_seconds = reading.seconds();
     const Stopwatch judging;
     Surface surface = make_surface(std::move(mesh));
     run.validate_seconds = judging.seconds();
-    return surface;
+    return {std::move(surface), std::move(warnings)};
   } catch (const MeshError& error) {
     throw MeshError(fmt::format("{}: {}", path, error.what()));
   }
@@ -191,7 +197,7 @@ int embed_command(const EmbedArguments& arguments) {
   if (cones.empty() && !automatic) cones = parse_cones(arguments.cones);
 
   RunRecord run;
-  const Surface surface = read_input(arguments.mesh, run);
+  const auto [surface, reader_warnings] = read_input(arguments.mesh, run);
 
   if (automatic) {
     cones = choose_marked_vertices(surface, orbifold);
@@ -202,7 +208,8 @@ int embed_command(const EmbedArguments& arguments) {
     line.show(progress);
     return true;
   };
-  const EmbedResult result = embed(surface, orbifold, cones, options);
+  EmbedResult result = embed(surface, orbifold, cones, options);
+  result.warnings.insert(result.warnings.begin(), reader_warnings.begin(), reader_warnings.end());
   line.clear();
   for (const std::string& warning : result.warnings) tell("orbitutte: warning: {}\n", warning);
 

@@ -71,6 +71,12 @@ int verify_command(const VerifyArguments& arguments) {
 int tile_command(const TileArguments& arguments) {
   const Tiling tiling = tile_sphere(read_embedding(arguments.embedding, read_report(arguments.report)));
   write_tiling(arguments.output, tiling);
+  if (!tiling.left_out.empty())
+    tell(
+        "orbitutte: warning: {} faces of the input, the first face {}, are left out: all their vertices are "
+        "on "
+        "one mirror, so that they coincide with their mirror images\n",
+        tiling.left_out.size(), tiling.left_out.front());
   tell("{}: {} tiles, {} vertices, {} faces\n", arguments.output, tiling.tiles, tiling.mesh.V.rows(),
        tiling.faces().count());
   return succeeded;

@@ -25,13 +25,15 @@ void print_text(const std::string& path, const Inspection& inspection, const std
              inspection.boundary.size());
   for (const std::vector<int>& loop : inspection.boundary)
     fmt::print("    boundary of {} edges through vertex {}\n", loop.size(), loop.front());
-  if (inspection.triangles > 0)
+  if (inspection.area > 0)
     fmt::print("  angles {:.3g} to {:.3g} degrees, edges {:.4g} to {:.4g}, zero-area faces {}\n",
                degrees(inspection.min_angle), degrees(inspection.max_angle), inspection.min_edge_length,
                inspection.max_edge_length, inspection.zero_area_faces);
-  fmt::print("  cotangent weights: {} negative, {} zero\n", inspection.negative_cotangent_edges,
-             inspection.zero_cotangent_edges);
+  if (inspection.triangles > 0)
+    fmt::print("  cotangent weights: {} negative, {} zero\n", inspection.negative_cotangent_edges,
+               inspection.zero_cotangent_edges);
   for (const Defect& defect : inspection.defects) fmt::print("  defect: {}\n", defect.message);
+  if (!inspection.welding_advice.empty()) fmt::print("  hint: {}\n", inspection.welding_advice);
   for (const WeakPlace& place : places) fmt::print("  not 3-connected: {}\n", place.message);
   if (const std::vector<std::string> into = families_for(inspection); !into.empty()) {
     fmt::print("  embeds into {}\n", fmt::join(into, ", "));
@@ -46,8 +48,9 @@ int info_command(const InfoArguments& arguments) {
   const PolygonMesh mesh = read_mesh(arguments.mesh);
   const Inspection inspection = inspect(mesh);
   const std::vector<WeakPlace> places = weak_places(mesh, inspection);
+  for (const std::string& warning : mesh.warnings) fmt::print(stderr, "orbitutte: warning: {}\n", warning);
   if (arguments.json) {
-    fmt::print("{}", inspection_json(arguments.mesh, inspection, places));
+    fmt::print("{}", inspection_json(arguments.mesh, mesh, inspection, places));
   } else {
     print_text(arguments.mesh, inspection, places);
   }

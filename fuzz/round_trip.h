@@ -63,19 +63,29 @@ inline void check_same_mesh(const Mesh& a, const Mesh& b) {
   require(a.F.rows() == b.F.rows() && a.F == b.F, "faces come back in their order");
 }
 
+/// In single precision.
+inline bool has_equal_corners(const Mesh& mesh, Eigen::Index f) {
+  const auto corner = [&](int k) { return Eigen::RowVector3f(mesh.V.row(mesh.F(f, k)).cast<float>()); };
+  return corner(0) == corner(1) || corner(1) == corner(2) || corner(2) == corner(0);
+}
+
 /// STL numbers the vertices anew and knows single precision only: what has to come back are the rounded
 /// corners.
 inline void check_same_corners(const Mesh& a, const Mesh& b) {
-  require(a.F.rows() == b.F.rows(), "faces come back");
+  Eigen::Index came_back = 0;
   for (Eigen::Index f = 0; f < a.F.rows(); ++f) {
+    if (has_equal_corners(a, f)) continue;  // left out
+    require(came_back < b.F.rows(), "faces come back");
     for (int corner = 0; corner < 3; ++corner) {
       for (int axis = 0; axis < 3; ++axis) {
         const auto x = static_cast<float>(a.V(a.F(f, corner), axis)),
-                   y = static_cast<float>(b.V(b.F(f, corner), axis));
+                   y = static_cast<float>(b.V(b.F(came_back, corner), axis));
         require(x == y || (std::isnan(x) && std::isnan(y)), "corners come back in single precision");
       }
     }
+    ++came_back;
   }
+  require(came_back == b.F.rows(), "no other faces come back");
 }
 
 inline void check_ply_round_trip(std::string_view bytes) {

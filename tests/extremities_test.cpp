@@ -6,6 +6,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
@@ -26,7 +27,7 @@ std::vector<int> extremities_of(const Mesh& mesh, int count) {
   const Connectivity connectivity = connect(mesh.F, vertex_count(mesh));
   const std::vector<int>& opposite = connectivity.opposite;
   const bool closed = std::find(opposite.begin(), opposite.end(), -1) == opposite.end();
-  return extremities(test::unjudged(mesh), closed ? count : 0, closed ? 0 : count);
+  return extremities(test::unjudged(mesh), {closed ? count : 0, closed ? 0 : count});
 }
 
 EdgeGraph graph_of(const Mesh& mesh) { return edge_length_graph(test::unjudged(mesh)); }
@@ -100,7 +101,7 @@ TEST(Extremities, OfADiskAreOnItsBoundary) {
 
 TEST(Extremities, InsideADiskAreFarFromItsBoundary) {
   for (const Mesh& mesh : {test::grid_disk(6, 4), test::round_disk(5)}) {
-    const std::vector<int> chosen = extremities(test::unjudged(mesh), 1, 1);
+    const std::vector<int> chosen = extremities(test::unjudged(mesh), {1, 1});
     ASSERT_EQ(chosen.size(), 2u);
     const std::vector<double> from_boundary = distances(graph_of(mesh), boundary_vertices(mesh));
     EXPECT_EQ(from_boundary[chosen[0]], *std::max_element(from_boundary.begin(), from_boundary.end()));
@@ -157,9 +158,28 @@ TEST(Extremities, TooFewVerticesAreRefused) {
   };
   EXPECT_EQ(refusal(test::tetrahedron(), 4), "");
   EXPECT_EQ(refusal(test::tetrahedron(), 5), "5 vertices have to be marked, but only 4 can be");
-  EXPECT_THROW(extremities(test::unjudged(test::grid_disk(5, 1)), 1, 0), MeshError);
+  EXPECT_THROW(extremities(test::unjudged(test::grid_disk(5, 1)), {1, 0}), MeshError);
   EXPECT_EQ(refusal(test::round_disk(1), 6), "");
   EXPECT_EQ(refusal(test::round_disk(1), 7), "7 vertices have to be marked, but only 6 can be");
+}
+
+TEST(Extremities, AreNoNeighboursWhereThatIsAskedForAndPossible) {
+  const auto are_joined = [](const Connectivity& connectivity, const std::vector<int>& pair) {
+    const std::array<int, 2> edge = {std::min(pair[0], pair[1]), std::max(pair[0], pair[1])};
+    return std::binary_search(connectivity.edges.begin(), connectivity.edges.end(), edge);
+  };
+  Mesh needle = test::octahedron();  // 0 and 1 are opposite, and so are 2, 3 and 4, 5
+  for (const int far : {0, 2, 4}) {
+    Mesh mesh = needle;
+    mesh.V.row(far) *= 10;
+    const Connectivity connectivity = connect(mesh.F, 6);
+    EXPECT_FALSE(are_joined(connectivity, extremities(test::unjudged(mesh), {2, 0, true})));
+  }
+  const Mesh tetrahedron = test::tetrahedron();  // all are neighbours
+  EXPECT_EQ(extremities(test::unjudged(tetrahedron), {2, 0, true}).size(), 2u);
+  const Mesh disk = test::round_disk(3);
+  const Connectivity of_disk = connect(disk.F, vertex_count(disk));
+  EXPECT_FALSE(are_joined(of_disk, extremities(test::unjudged(disk), {0, 2, true})));
 }
 
 }  // namespace

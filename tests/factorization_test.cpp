@@ -5,6 +5,8 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "orbitutte/linear/dense_factor.h"
@@ -46,11 +48,34 @@ double lower_difference(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
 
 // --- dissection
 
+/// A double pyramid: two vertices with an edge to each of the others, in whose cluster most of them are.
+Mesh hub(int corners) {
+  Mesh mesh;
+  mesh.V.resize(corners + 2, 3);
+  mesh.F.resize(2 * corners, 3);
+  mesh.V.topRows(2) << 0, 0, 1, 0, 0, -1;
+  for (int k = 0; k < corners; ++k) {
+    const double angle = 2 * std::numbers::pi * k / corners;
+    const int a = 2 + k, b = 2 + (k + 1) % corners;
+    mesh.V.row(a) << std::cos(angle), std::sin(angle), 0;
+    mesh.F.row(2 * k) << 0, a, b;
+    mesh.F.row(2 * k + 1) << 1, b, a;
+  }
+  return mesh;
+}
+
 class Dissected : public testing::TestWithParam<Mesh> {};
 INSTANTIATE_TEST_SUITE_P(Meshes, Dissected,
                          testing::Values(test::tetrahedron(), test::icosphere(3), test::icosphere(5),
                                          test::grid_disk(90, 90), test::grid_disk(4000, 1),
-                                         test::united(test::icosphere(4), test::torus(80, 40))));
+                                         test::united(test::icosphere(4), test::torus(80, 40)), hub(1700),
+                                         hub(20000), test::united(hub(3000), hub(5000))));
+
+TEST_P(Dissected, NothingIsPrinted) {
+  testing::internal::CaptureStdout();
+  dissect(graph_of(GetParam()));
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+}
 
 TEST_P(Dissected, OrderNamesEveryVertexOnce) {
   std::vector<int> order = dissect(graph_of(GetParam())).order;

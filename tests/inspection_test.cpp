@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "orbitutte/io/mesh_io.h"
+#include "polygon_meshes.h"
 #include "test_meshes.h"
 
 namespace orbitutte {
@@ -400,6 +401,77 @@ TEST(InspectionQuality, ATriangleWithItsCornersOnALineHasNoAreaWhateverTheRoundi
   const Vector3 start(0.1, 0.7, -0.3), direction(0.3, 0.1, 0.7);
   const Mesh mesh = test::mesh({start, start + 0.1 * direction, start + 0.7 * direction}, {{0, 1, 2}});
   EXPECT_EQ(inspect(mesh).zero_area_faces, 1);
+}
+
+TEST(InspectionQuality, OfPolygonsIsThatOfTheirOwnEdgesAndCorners) {
+  const Inspection cube = inspect(test::cube());
+  PolygonMesh mixed = test::cube();
+  mixed.face_start.insert(mixed.face_start.begin() + 1, 3);  // a face in two: first three corners
+  mixed.corners.insert(mixed.corners.begin() + 3, {mixed.corners[2], mixed.corners[3], mixed.corners[0]});
+  mixed.corners.erase(mixed.corners.begin() + 6);
+  for (int& start : mixed.face_start)
+    if (start > 3) start += 2;
+  const Inspection halved = inspect(mixed);
+  EXPECT_DOUBLE_EQ(halved.area, cube.area);
+  EXPECT_DOUBLE_EQ(cube.min_angle, std::numbers::pi / 2);
+  EXPECT_DOUBLE_EQ(cube.max_angle, std::numbers::pi / 2);
+  EXPECT_DOUBLE_EQ(cube.min_edge_length, cube.max_edge_length);
+  EXPECT_DOUBLE_EQ(cube.area, 6 * cube.max_edge_length * cube.max_edge_length);
+  EXPECT_DOUBLE_EQ(halved.min_angle, std::numbers::pi / 4);
+}
+
+TEST(InspectionQuality, APolygonThatBendsInwardsHasAnAngleAbovePi) {
+  PolygonMesh arrow;
+  arrow.V = (Points(4, 3) << 0, 0, 0, 2, -1, 0, 1, 0, 0, 2, 1, 0).finished();
+  arrow.corners = {0, 1, 2, 3};
+  arrow.face_start = {0, 4};
+  EXPECT_NEAR(inspect(arrow).area, 1, 1e-15);
+  EXPECT_NEAR(inspect(arrow).max_angle, 3 * std::numbers::pi / 2, 1e-14);
+}
+
+TEST(Inspection, AMeshWithoutAreaIsDefective) {
+  Mesh mesh = test::octahedron();
+  mesh.V.setConstant(3);
+  expect_only(
+      inspect(mesh), DefectKind::no_area, 8,
+      "no face has any area, since all vertices are at the same point; give the vertices their positions");
+  mesh.V.col(0).setLinSpaced(0.0, 1.0);
+  expect_only(inspect(mesh), DefectKind::no_area, 8,
+              "no face has any area; give the vertices their positions");
+  mesh.V.row(1) << 0, 1, 0;
+  EXPECT_THAT(kinds(inspect(mesh)), IsEmpty());
+}
+
+TEST(Inspection, CoordinatesWhoseSquaresAreNoDoublesAreADefect) {
+  Mesh mesh = test::octahedron();
+  for (const double scale : {1e-149, 1e149})
+    EXPECT_THAT(kinds(inspect(Mesh{scale * mesh.V, mesh.F})), IsEmpty());
+  const Inspection huge = inspect(Mesh{1e200 * mesh.V, mesh.F}),
+                   tiny = inspect(Mesh{1e-200 * mesh.V, mesh.F});
+  for (const Inspection& result : {huge, tiny}) {
+    EXPECT_THAT(kinds(result), ElementsAre(DefectKind::size_out_of_range));
+    EXPECT_EQ(result.topology, Topology::other);
+  }
+  EXPECT_THAT(message(huge, DefectKind::size_out_of_range), HasSubstr("scale the mesh down"));
+  EXPECT_THAT(message(tiny, DefectKind::size_out_of_range), HasSubstr("scale it up"));
+}
+
+TEST(Inspection, VerticesDoubledAlongASeamAreToldAtTheSamePointOrNearly) {
+  const Mesh disk = test::round_disk(4);
+  EXPECT_EQ(inspect(disk).welding_advice, "");
+  const std::vector<int> boundary = inspect(disk).boundary.front();
+  const int v = boundary[0], w = boundary[5];
+  const auto [first, second] = std::minmax(v, w);
+  for (const double distance : {0.0, 1e-8}) {
+    Mesh folded = disk;
+    folded.V.row(w) = folded.V.row(v) + distance * Eigen::RowVector3d(1, 0, 0);
+    EXPECT_THAT(inspect(folded).welding_advice,
+                testing::StartsWith("vertices " + std::to_string(first) + " and " + std::to_string(second) +
+                                    (distance > 0 ? " are only 1e-08 apart" : " are at the same point")));
+  }
+  Mesh short_edge = disk;  // neighbours on the boundary are no seam
+  short_edge.V.row(boundary[1]) = short_edge.V.row(v) + 1e-8 * Eigen::RowVector3d(1, 0, 0);
+  EXPECT_EQ(inspect(short_edge).welding_advice, "");
 }
 
 RC_GTEST_PROP(InspectionQuality, AnglesAndCotangentsDoNotDependOnTheScale, ()) {

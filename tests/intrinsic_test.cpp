@@ -205,7 +205,7 @@ TEST(IntrinsicDelaunay, KeptFacesStayFaces) {
   const IntrinsicTriangulation T = delaunay(mesh, kept);
   EXPECT_GT(T.flips.size(), 5u);
   for (const int f : kept) EXPECT_EQ(T.F.row(f), mesh.F.row(f));
-  EXPECT_THROW(edge_weights(test::unjudged(mesh), {WeightKind::delaunay}, {test::face_count(mesh)}),
+  EXPECT_THROW(edge_weights(test::unjudged(mesh), {WeightKind::delaunay}, {{test::face_count(mesh)}}),
                MeshError);
 }
 
@@ -374,6 +374,62 @@ TEST(Cones, TwoOnOneFaceLeaveItAsItIs) {
   const EdgeWeights weights = sharpened_at_cones(delaunay_weights(mesh), {{a, 1.0}, {b, 1.5}, {c, pi}});
   EXPECT_TRUE(weights.w.allFinite());
   EXPECT_GT(weights.w.minCoeff(), 0);
+}
+
+/// A long bar, whose Delaunay triangulation joins vertices that the bar does not.
+Mesh bar() {
+  Mesh mesh;
+  mesh.V.resize(8, 3);
+  for (int v = 0; v < 8; ++v) mesh.V.row(v) << 10 * (v / 4), v / 2 % 2, v % 2;
+  mesh.F.resize(12, 3);
+  mesh.F << 0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5, 0, 4, 5, 0, 5, 1, 2, 3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 5, 7,
+      1, 7, 3;
+  return mesh;
+}
+
+bool joins(const Connectivity& connectivity, int v, int w) {
+  return std::any_of(connectivity.edges.begin(), connectivity.edges.end(), [&](const auto& edge) {
+    return edge == std::array{v, w} || edge == std::array{w, v};
+  });
+}
+
+TEST(Cones, AtOppositePointsAreJoinedByNoEdgeOfTheTriangulation) {
+  const Mesh mesh = bar();
+  const Connectivity connectivity = connectivity_of(mesh);
+  const EdgeWeights weights = delaunay_weights(mesh);
+  int joined_by_flips = 0;
+  for (int v = 0; v < 8; ++v) {
+    for (int w = v + 1; w < 8; ++w) {
+      if (joins(connectivity, v, w)) continue;
+      joined_by_flips += joins(weights.triangulation->connectivity, v, w);
+      const std::vector<std::array<int, 2>> apart = {{v, w}};
+      const EdgeWeights kept = kept_apart(weights, test::unjudged(mesh), {}, {{}, apart});
+      const EdgeWeights sharpened = sharpened_at_cones(kept, {{v, pi}, {w, pi}}, apart);
+      EXPECT_FALSE(joins(kept.triangulation->connectivity, v, w)) << v << " " << w;
+      EXPECT_FALSE(joins(sharpened.triangulation->connectivity, v, w)) << v << " " << w;
+      EXPECT_GT(sharpened.w.minCoeff(), 0);
+    }
+  }
+  EXPECT_GT(joined_by_flips, 0);
+}
+
+TEST(Cones, AtOppositePointsThatNoEdgeJoinsAreEmbeddedAndTheOthersAreNot) {
+  const Mesh mesh = bar();
+  const Connectivity connectivity = connectivity_of(mesh);
+  for (int v = 0; v < 8; ++v) {
+    for (int w = v + 1; w < 8; ++w) {
+      for (const WeightKind kind : {WeightKind::delaunay, WeightKind::cotan}) {
+        EmbedOptions options;
+        options.weights.kind = kind;
+        if (joins(connectivity, v, w)) {
+          EXPECT_THROW(embed(mesh, parse_orbifold("33"), {v, w}, options), MeshError) << v << " " << w;
+        } else {
+          EXPECT_TRUE(embed(mesh, parse_orbifold("33"), {v, w}, options).certificate.bijective)
+              << v << " " << w;
+        }
+      }
+    }
+  }
 }
 
 // --- gluing

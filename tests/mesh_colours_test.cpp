@@ -178,7 +178,7 @@ TEST(MeshColours, WholeNumbersUpToOneAreNoBytesInTexts) {
   EXPECT_EQ(mesh.colours.row(0), Eigen::RowVector3d(1, 0, 1));
 }
 
-struct ColourRefusal {
+struct ColourWarning {
   std::string bytes;
   MeshFormat format;
   std::string sentence;
@@ -203,52 +203,62 @@ std::string binary_ply_of(const std::vector<float>& numbers) {
   return bytes;
 }
 
-TEST(MeshColours, MalformedOnesAreRefusedNamingLineOrVertex) {
-  const std::string mend = "; mend the file or export it again", again = "; export the file again";
-  const ColourRefusal refusals[] = {
-      {"v 0 0 0 1 0 0\nv 0 0 0 1 0\n", MeshFormat::obj,
-       "line 2: the line ends where vertex 1 needs another colour channel" + mend},
+TEST(MeshColours, MalformedOnesArePassedOverNamingLineOrVertex) {
+  const std::string range = ", which is not within 0 .. 255";
+  const ColourWarning warnings[] = {
+      {"v 0 0 0 1 0 0\nv 0 0 0 1 0\n", MeshFormat::obj, "line 2: vertex 1 lacks a colour channel"},
       {"v 0 0 0 1 red 0\n", MeshFormat::obj,
-       "line 1: vertex 0 has the colour channel 'red', which is no number" + mend},
-      {"v 0 0 0 1 0 -0.5\n", MeshFormat::obj,
-       "line 1: vertex 0 has the colour channel '-0.5', which is neither within 0 .. 1 nor within 0 .. 255" +
-           mend},
-      {"v 0 0 0 1 nan 0\n", MeshFormat::obj,
-       "line 1: vertex 0 has the colour channel 'nan', which is neither within 0 .. 1 nor within 0 .. 255" +
-           mend},
-      {"v 0 0 0 1 0 256\n", MeshFormat::obj,
-       "line 1: vertex 0 has the colour channel '256', which is neither within 0 .. 1 nor within 0 .. 255" +
-           mend},
-      {"v 0 0 0 255 0 0\nv 0 0 0 0 0.5 0\n", MeshFormat::obj,
-       "vertex 1 has the colour channel 0.5, but others are above 1, so that all have to be whole numbers of "
-       "0 .. 255" +
-           again},
-      {"COFF 1 0 0\n0 0 0 0.5\n", MeshFormat::off,
-       "line 2: the line ends where vertex 0 needs another colour channel" + mend},
+       "line 1: vertex 0 has the colour channel 'red', which is no number"},
+      {"v 0 0 0 1 0 -0.5\n", MeshFormat::obj, "vertex 0 has the colour channel -0.5" + range},
+      {"v 0 0 0 1 nan 0\n", MeshFormat::obj, "vertex 0 has the colour channel nan" + range},
+      {"v 0 0 0 1 0 256\n", MeshFormat::obj, "vertex 0 has the colour channel 256" + range},
+      {"COFF 1 0 0\n0 0 0 0.5\n", MeshFormat::off, "line 2: vertex 0 lacks a colour channel"},
       {"COFF 1 0 0\n0 0 0 x 0 0 1\n", MeshFormat::off,
-       "line 2: vertex 0 has the colour channel 'x', which is no number" + mend},
-      {ply_of(channels_of("float"), "0 0 0 1 0 0\n0 0 0 1 1.5 0\n"), MeshFormat::ply,
-       "vertex 1 has the green 1.5, which is not within 0 .. 1" + again},
+       "line 2: vertex 0 has the colour channel 'x', which is no number"},
       {ply_of(channels_of("int"), "0 0 0 1 0 0\n0 0 0 1 1 -1\n"), MeshFormat::ply,
-       "vertex 1 has the blue -1, which is not within 0 .. 255" + again},
-      {ply_of(channels_of("uchar"), "0 0 0 1 0 0\n0 0 0 256 1 1\n"), MeshFormat::ply,
-       "line 12: vertex 1 has the red '256', which is out of range" + mend},
+       "vertex 1 has the colour channel -1" + range},
+      {ply_of(channels_of("float"), "0 0 0 1 0 0\n0 0 0 1 inf 0\n"), MeshFormat::ply,
+       "vertex 1 has the colour channel inf" + range},
       {ply_of("property uchar red\nproperty uchar blue\n", "0 0 0 1 0\n0 0 0 1 1\n"), MeshFormat::ply,
-       "the element 'vertex' has colours without a number 'green'" + again},
+       "the element 'vertex' has colours without a number 'green'"},
       {ply_of("property uchar red\nproperty uchar green\nproperty list uchar uchar blue\n",
               "0 0 0 1 0 1 7\n0 0 0 1 1 0\n"),
-       MeshFormat::ply, "the element 'vertex' has colours without a number 'blue'" + again},
-      {binary_ply_of({0, 0, 0, 1, 1, 1, 0, 0, 0, 0, 0, 7}), MeshFormat::ply,
-       "vertex 1 has the blue 7, which is not within 0 .. 1" + again},
+       MeshFormat::ply, "the element 'vertex' has colours without a number 'blue'"},
+      {binary_ply_of({0, 0, 0, 1, 1, 1, 0, 0, 0, 0, 0, -7}), MeshFormat::ply,
+       "vertex 1 has the colour channel -7" + range},
   };
-  for (const auto& [bytes, format, sentence] : refusals) {
-    try {
-      parse_mesh(bytes, format);
-      ADD_FAILURE() << "no MeshError: " << sentence;
-    } catch (const MeshError& error) {
-      EXPECT_EQ(error.what(), sentence);
-    }
+  for (const auto& [bytes, format, sentence] : warnings) {
+    const PolygonMesh mesh = parse_mesh(bytes, format);
+    EXPECT_GT(mesh.vertex_count(), 0) << sentence;
+    EXPECT_EQ(mesh.colours.rows(), 0) << sentence;
+    EXPECT_THAT(mesh.warnings,
+                testing::ElementsAre(sentence + ": the colours of the vertices are passed over"));
   }
+}
+
+TEST(MeshColours, AboveOneByRoundingAreOneWithAWarning) {
+  for (const PolygonMesh& mesh :
+       {parse_mesh("v 0 0 0 0.5 0 0\nv 0 0 0 0.25 1.0000001 0\n", MeshFormat::obj),
+        parse_mesh(ply_of(channels_of("double"), "0 0 0 0.5 0 0\n0 0 0 0.25 1.0000001 0\n"),
+                   MeshFormat::ply)}) {
+    EXPECT_EQ(mesh.colours, (Points(2, 3) << 0.5, 0, 0, 0.25, 1, 0).finished());
+    EXPECT_THAT(mesh.warnings,
+                testing::ElementsAre(testing::HasSubstr("vertex 1 has the colour channel 1.0")));
+  }
+}
+
+TEST(MeshColours, NumbersUpTo255NeedNotBeWholeButThenAWarningSaysHowTheyAreTaken) {
+  for (const PolygonMesh& mesh :
+       {parse_mesh("v 0 0 0 255 0 0\nv 0 0 0 0 51.5 0\n", MeshFormat::obj),
+        parse_mesh("COFF 2 0 0\n0 0 0 255 0 0\n0 0 0 0 51.5 0\n", MeshFormat::off),
+        parse_mesh(binary_ply_of({0, 0, 0, 255, 0, 0, 0, 0, 0, 0, 51.5, 0}), MeshFormat::ply)}) {
+    EXPECT_EQ(mesh.colours, Points((Points(2, 3) << 255, 0, 0, 0, 51.5, 0).finished() / 255));
+    EXPECT_THAT(mesh.warnings, testing::ElementsAre(testing::HasSubstr("taken for numbers of 0 .. 255")));
+  }
+  const PolygonMesh whole =
+      parse_mesh(ply_of(channels_of("float"), "0 0 0 1 0 0\n0 0 0 255 0 0\n"), MeshFormat::ply);
+  EXPECT_EQ(whole.colours(1, 0), 1);
+  EXPECT_THAT(whole.warnings, testing::IsEmpty());
 }
 
 }  // namespace

@@ -553,6 +553,57 @@ INSTANTIATE_TEST_SUITE_P(
                 "line 7: face 0 has the index '2147483648', which is out of range" + mend}),
     test_name);
 
+TEST(Off, NoBlankNeedStandBehindTheKeyword) {
+  for (const std::string keyword : {"OFF4 4 6\n", "OFF4 4\n", "off4 4 6\n", "COFF4 4 6\n"})
+    expect_corner(parse_mesh(keyword + off_points + off_faces, MeshFormat::off));
+}
+
+TEST(Off, NumbersMayStandInAnyLinesWhereNothingElseDoes) {
+  const std::string numbers = off_points + off_faces;
+  expect_corner(parse_mesh("OFF\n4 4 6\n" + replaced(numbers, " ", "\n"), MeshFormat::off));
+  expect_corner(parse_mesh("OFF\n4 4 6\n" + replaced(numbers, "\n", " "), MeshFormat::off));
+  expect_corner(parse_mesh("OFF\n4 4 6\n" + replaced(numbers, " 2", "\n2"), MeshFormat::off));
+}
+
+TEST(MeshFiles, InUtf16AreNamedWithTheRemedy) {
+  const auto wide = [](const std::string& text, bool big) {
+    std::string bytes;
+    for (const char c : text) bytes += big ? std::string({'\0', c}) : std::string({c, '\0'});
+    return bytes;
+  };
+  const std::string sentence = "the file is UTF-16 text; save it as UTF-8";
+  for (const auto& [text, format] : {std::pair(obj_corner, MeshFormat::obj),
+                                     std::pair("OFF\n4 4 6\n" + off_points + off_faces, MeshFormat::off),
+                                     std::pair(std::string("ply\nformat ascii 1.0\n"), MeshFormat::ply),
+                                     std::pair(std::string("solid\nendsolid\n"), MeshFormat::stl)}) {
+    EXPECT_EQ(refusal(wide(text, false), format), sentence);
+    EXPECT_EQ(refusal(wide(text, true), format), sentence);
+    EXPECT_EQ(refusal("\xFF\xFE" + wide(text, false), format), sentence);
+    EXPECT_EQ(refusal("\xFE\xFF" + wide(text, true), format), sentence);
+  }
+}
+
+TEST(Stl, BytesBehindTheLastFacetArePassedOverWithAWarning) {
+  const std::string whole = binary_stl("", 4, stl_triangles);
+  EXPECT_THAT(parse_mesh(whole, MeshFormat::stl).warnings, testing::IsEmpty());
+  for (const std::size_t behind : {1, 49, 51, 80}) {
+    const PolygonMesh mesh = parse_mesh(whole + std::string(behind, '\n'), MeshFormat::stl);
+    EXPECT_EQ(mesh.face_count(), 4);
+    EXPECT_THAT(mesh.warnings,
+                testing::ElementsAre(testing::HasSubstr("passed over behind the 4 triangles")));
+  }
+}
+
+TEST(Stl, FacetsWithTwoEqualCornersAreLeftOutWithAWarning) {
+  const std::string text = "solid\n" + facet(o, x, y) + facet(o, x, o) + facet(x, x, y) + "endsolid\n";
+  const PolygonMesh mesh = parse_mesh(text, MeshFormat::stl);
+  EXPECT_EQ(mesh.face_count(), 1);
+  EXPECT_EQ(mesh.vertex_count(), 3);
+  EXPECT_THAT(mesh.warnings,
+              testing::ElementsAre("facet 1 has two corners at the same point (2 such facets): it "
+                                   "is left out, and the faces are numbered without it"));
+}
+
 class PlyMeshRefusal : public testing::TestWithParam<Refusal> {};
 
 TEST_P(PlyMeshRefusal, NamesTheElement) {

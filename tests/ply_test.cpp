@@ -298,7 +298,9 @@ constexpr Limits integer_limits[] = {{PlyType::int8, -128, 127},
                                      {PlyType::int16, -32768, 32767},
                                      {PlyType::uint16, 0, 65535},
                                      {PlyType::int32, -2147483648.0, 2147483647},
-                                     {PlyType::uint32, 0, 4294967295.0}};
+                                     {PlyType::uint32, 0, 4294967295.0},
+                                     {PlyType::int64, -9007199254740992.0, 9007199254740992.0},
+                                     {PlyType::uint64, 0, 9007199254740992.0}};
 
 double value_of(PlyType type) {
   for (const Limits& limits : integer_limits) {
@@ -312,9 +314,9 @@ double value_of(PlyType type) {
 PlyProperty random_property(std::size_t count, std::size_t number) {
   PlyProperty property;
   property.name = "p" + std::to_string(number);
-  property.type = static_cast<PlyType>(*rc::gen::inRange(0, 8));
+  property.type = static_cast<PlyType>(*rc::gen::inRange(0, 10));
   property.is_list = *rc::gen::arbitrary<bool>();
-  property.count_type = static_cast<PlyType>(*rc::gen::inRange(0, 6));
+  property.count_type = static_cast<PlyType>(*rc::gen::inRange(0, 8));
   if (property.is_list) property.list_start = {0};
   for (std::size_t i = 0; i < count; ++i) {
     const int length = property.is_list ? *rc::gen::inRange(0, 6) : 1;

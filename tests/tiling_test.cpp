@@ -19,9 +19,13 @@
 #include <tuple>
 
 #include "hand_made.h"
+#include "orbitutte/export/closed_mesh.h"
 #include "orbitutte/export/palette.h"
+#include "orbitutte/export/tiling_files.h"
 #include "orbitutte/io/file.h"
 #include "orbitutte/io/ply.h"
+#include "orbitutte/mesh/triangulation.h"
+#include "polygon_meshes.h"
 #include "sample_embeddings.h"
 
 namespace orbitutte {
@@ -217,6 +221,110 @@ TEST(Tiling, LeavesOutVerticesWithoutFaces) {
   EXPECT_EQ(tiling.mesh.V, expected.mesh.V);
   EXPECT_EQ(tiling.mesh.F, expected.mesh.F);
   EXPECT_EQ(tiling.source_vertex, expected.source_vertex);
+}
+
+// --- one closed mesh
+
+std::string fault_of(const Mesh& mesh) {
+  try {
+    require_closed_sphere(mesh);
+  } catch (const MeshError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+/// The grid of two by two squares, each halved from one corner: vertices 2 and 6 are tips of ears.
+Mesh grid_with_ears() {
+  Mesh mesh;
+  mesh.V.resize(9, 3);
+  for (int v = 0; v < 9; ++v) mesh.V.row(v) << v % 3, v / 3, 0;
+  mesh.F.resize(8, 3);
+  mesh.F << 0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4, 3, 4, 7, 3, 7, 6, 4, 5, 8, 4, 8, 7;
+  return mesh;
+}
+
+TEST(ClosedMesh, EveryPlantedFaultIsFound) {
+  const Mesh sound = test::icosphere(1);
+  EXPECT_EQ(fault_of(sound), "");
+  Mesh mesh = sound;
+  mesh.F.row(3) = mesh.F.row(4);
+  EXPECT_THAT(fault_of(mesh), testing::HasSubstr("faces 3 and 4 have the same vertices"));
+  mesh = sound;
+  mesh.F.row(3).reverseInPlace();
+  EXPECT_THAT(fault_of(mesh), testing::HasSubstr("in the same direction"));
+  mesh = sound;
+  mesh.F.conservativeResize(mesh.F.rows() - 1, 3);
+  EXPECT_THAT(fault_of(mesh), testing::HasSubstr("the surface is a disk"));
+  mesh = test::with_vertices_merged(sound, 0, 1);
+  EXPECT_NE(fault_of(mesh), "");
+  EXPECT_NE(fault_of(test::united(sound, sound)), "");
+  EXPECT_NE(fault_of(test::torus(5, 5)), "");
+  mesh = sound;
+  mesh.V.conservativeResize(mesh.V.rows() + 1, 3);
+  mesh.V.bottomRows(1).setOnes();
+  EXPECT_THAT(fault_of(mesh), testing::HasSubstr("a vertex is in no face"));
+}
+
+TEST(ClosedMesh, OfPolygonsEveryPlantedFaultIsFound) {
+  const PolygonMesh cube = test::cube();
+  Polygons polygons = {cube.corners, cube.face_start};
+  EXPECT_NO_THROW(require_closed_sphere(cube.V, polygons));
+  std::swap(polygons.corners[0], polygons.corners[2]);
+  EXPECT_THROW(require_closed_sphere(cube.V, polygons), MeshError);
+  polygons.corners.resize(20);
+  polygons.start.pop_back();
+  EXPECT_THROW(require_closed_sphere(cube.V, polygons), MeshError);
+}
+
+TEST(Tiling, EarsThatCoincideWithTheirMirrorImagesAreLeftOut) {
+  const Mesh mesh = grid_with_ears();
+  const EmbedResult result = embed(mesh, parse_orbifold("*432"), {0, 8, 4 - 1});
+  const Tiling tiling = tile_sphere(result.embedding);
+  EXPECT_EQ(tiling.left_out.size() + tiling.input_faces.size(), 8u);
+  EXPECT_FALSE(tiling.left_out.empty());
+  expect_closed_sphere(tiling.mesh);
+  expect_covers_sphere_once(tiling.mesh);
+  expect_copies_of_source(tiling, result.embedding);
+  const PlyFile file = parse_ply(ply_bytes(tiling));
+  const std::vector<double>& source = file.find("face")->find("source_face")->values;
+  EXPECT_EQ(std::vector<int>(source.begin(), source.end()), tiling.source_face);
+}
+
+TEST(Tiling, AnEdgeThatCoincidesWithItsMirrorImageIsNamed) {
+  Embedding embedding = with_sources(mirror_triangle(2, 2, 2, 8, 4));
+  const std::vector<int> side = embedding.seams[0].left;
+  const Eigen::Index n = embedding.positions.rows(), m = embedding.faces.rows();
+  // Three faces over two edges of the mirror, around a vertex that lies on none.
+  embedding.faces.conservativeResize(m + 3, 3);
+  embedding.positions.conservativeResize(n + 1, 3);
+  embedding.positions.row(n) = embedding.positions.row(side[1]);
+  embedding.source_vertex.push_back(static_cast<int>(n));
+  for (int k = 0; k < 3; ++k) embedding.faces.row(m + k) << side[k], side[(k + 1) % 3], static_cast<int>(n);
+  try {
+    tile_sphere(embedding);
+    ADD_FAILURE() << "no MeshError";
+  } catch (const MeshError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("of the input joins two vertices of one mirror"));
+  }
+}
+
+TEST(Tiling, PolygonsAreDividedSoThatNoDiagonalLiesOnAMirror) {
+  PolygonMesh quads;
+  quads.V = grid_with_ears().V;
+  quads.corners = {0, 1, 4, 3, 1, 2, 5, 4, 3, 4, 7, 6, 4, 5, 8, 7};
+  quads.face_start = {0, 4, 8, 12, 16};
+  for (const std::vector<int>& marks : {std::vector{0, 8, 3}, {1, 3, 5}, {0, 2, 8}, {1, 8, 6}}) {
+    const EmbedResult result = embed(quads, parse_orbifold("*432"), marks);
+    Embedding embedding = result.embedding;
+    embedding.faces = on_vertices(fan(embedding.polygons), embedding.polygons.corners);  // as from a file
+    for (const Embedding& each : {embedding, result.embedding}) {
+      const Tiling tiling = tile_sphere(each);
+      EXPECT_TRUE(tiling.left_out.empty());
+      expect_closed_sphere(tiling.mesh);
+      expect_covers_sphere_once(tiling.mesh);
+    }
+  }
 }
 
 TEST(Tiling, RefusesAnotherGroupOrder) {

@@ -237,6 +237,7 @@ Exceptions and warnings
 .. autoexception:: FileError
 .. autoexception:: Cancelled
 .. autoexception:: EmbeddingWarning
+.. autoexception:: MeshWarning
 """
 
 

@@ -29,7 +29,7 @@ Embedding                               positions, faces, source_vertex, seams, 
     save(ply, json), load(ply, json[, mesh]), write_tiling(path), render(path, panel=..., size=...)
 
 Exceptions: Error, of which MeshError and ArgumentError are ValueErrors and FileError is an OSError; Cancelled. Results that
-are not converged or not certified come with an EmbeddingWarning.
+are not converged or not certified come with an EmbeddingWarning, files of which something was passed over with a MeshWarning.
 """
 try:
     from . import _orbitutte
@@ -43,10 +43,10 @@ from ._api import (
 )
 from ._embedding import Cone, EdgeWeights, Embedding, Location, Seam
 from ._orbitutte import __version__
-from .errors import ArgumentError, Cancelled, EmbeddingWarning, Error, FileError, MeshError
+from .errors import ArgumentError, Cancelled, EmbeddingWarning, Error, FileError, MeshError, MeshWarning
 
 __all__ = [
     "ArgumentError", "Cancelled", "Cone", "EdgeWeights", "Embedding", "EmbeddingWarning", "Error", "FileError",
-    "Location", "MeshError", "Seam", "Solver", "Tiling", "__version__", "build", "choose_cones", "distortion", "embed",
+    "Location", "MeshError", "MeshWarning", "Seam", "Solver", "Tiling", "__version__", "build", "choose_cones", "distortion", "embed",
     "info", "keep_freed_memory", "read_mesh", "sample_mesh", "signatures", "tile", "verify", "write_mesh",
 ]

@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from . import _arrays, _options, _orbitutte
 from ._embedding import Embedding
-from .errors import ArgumentError, EmbeddingWarning
+from .errors import ArgumentError, EmbeddingWarning, MeshWarning
 
 Progress = Callable[[str, int, float, float], Union[bool, None]]
 Cones = Union[Sequence[int], npt.NDArray[np.integer], str, None]
@@ -228,8 +228,15 @@ def read_mesh(path: str | os.PathLike) -> tuple[npt.NDArray[np.float64], _arrays
     ------
     FileError, MeshError, ArgumentError
         If it cannot be read, makes no sense, or has an unknown ending.
+
+    Warns
+    -----
+    MeshWarning
+        If something in the file that may matter was ignored.
     """
     mesh = _orbitutte.Mesh.read(_arrays.path(path))
+    for sentence in mesh.warnings:
+        warnings.warn(sentence, MeshWarning, stacklevel=2)
     return mesh.positions, _arrays.faces(*mesh.faces)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The exceptions and the warning of orbitutte. Memory that runs out is Python's own MemoryError."""
+"""The exceptions and the warnings of orbitutte. Memory that runs out is Python's own MemoryError."""
 
 
 class Error(Exception):
@@ -26,5 +26,9 @@ class EmbeddingWarning(UserWarning):
     """An embedding did not converge, or is not certified, or something about it deserves a look."""
 
 
-for _class in (Error, MeshError, ArgumentError, FileError, Cancelled, EmbeddingWarning):
+class MeshWarning(UserWarning):
+    """Something in the file of a mesh that may matter was passed over."""
+
+
+for _class in (Error, MeshError, ArgumentError, FileError, Cancelled, EmbeddingWarning, MeshWarning):
     _class.__module__ = "orbitutte"

@@ -41,7 +41,7 @@ std::shared_ptr<SourceMesh> sample(const std::string& shape, int faces) {
 std::string info(const SourceMesh& mesh) {
   const PolygonMesh polygons = mesh.polygons();
   const Inspection inspection = inspect(polygons);
-  return inspection_json("", inspection, weak_places(polygons, inspection));
+  return inspection_json("", polygons, inspection, weak_places(polygons, inspection));
 }
 
 py::tuple faces_of(const std::shared_ptr<SourceMesh>& mesh) {
@@ -73,6 +73,7 @@ void bind_mesh(py::module_& module) {
           "positions",
           [](const std::shared_ptr<SourceMesh>& mesh) { return view(*mesh->arrays().V, py::cast(mesh)); })
       .def_property_readonly("faces", &faces_of, "(m x 3, None), or (corners, start) of polygons")
+      .def_property_readonly("warnings", &SourceMesh::warnings)
       .def("info", &info, Release())
       .def("write", &write, Release())
       .def("choose_cones", &choose_cones, Release());

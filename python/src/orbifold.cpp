@@ -24,8 +24,7 @@ void bind_orbifold(py::module_& module) {
   py::class_<Target>(module, "Target")
       .def_static("parse", &parse_orbifold)
       .def_static("polygon", &polygon)
-      .def_static("polygon_file",
-                  [](const std::string& path) { return polygon_target(read_corners(path)); })
+      .def_static("polygon_file", [](const std::string& path) { return polygon_target(read_corners(path)); })
       .def_readonly("signature", &Target::signature)
       .def_readonly("group_order", &Target::group_order)
       .def_property_readonly("space", [](const Target& target) { return target.space.name(); })

@@ -63,7 +63,8 @@ SourceMesh::Input SourceMesh::judged_triangles_or_polygons(PolygonMesh mesh) {
 
 SourceMesh::SourceMesh(Mesh mesh) : input_(judged(std::move(mesh))) {}
 
-SourceMesh::SourceMesh(PolygonMesh mesh) : input_(judged_triangles_or_polygons(std::move(mesh))) {}
+SourceMesh::SourceMesh(PolygonMesh mesh)
+    : warnings_(std::move(mesh.warnings)), input_(judged_triangles_or_polygons(std::move(mesh))) {}
 
 SourceMesh::Arrays SourceMesh::arrays() const {
   if (const Mesh* mesh = std::get_if<Mesh>(&input_)) return {&mesh->V, &mesh->F, nullptr, nullptr};

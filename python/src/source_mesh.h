@@ -3,7 +3,9 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <variant>
+#include <vector>
 
 #include "orbitutte/mesh/polygon_mesh.h"
 #include "orbitutte/mesh/surface.h"
@@ -17,6 +19,9 @@ class SourceMesh {
  public:
   explicit SourceMesh(Mesh mesh);
   explicit SourceMesh(PolygonMesh mesh);
+
+  /// What the reader of the file passed over.
+  const std::vector<std::string>& warnings() const { return warnings_; }
 
   /// The vertices and faces as they were given: either F, or corners and start, is null.
   struct Arrays {
@@ -46,6 +51,7 @@ class SourceMesh {
   static Input judged(AnyMesh mesh);
   static Input judged_triangles_or_polygons(PolygonMesh mesh);
 
+  std::vector<std::string> warnings_;
   Input input_;
 };
 

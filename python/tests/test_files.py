@@ -73,6 +73,24 @@ def test_meshes_read_back_as_they_were_written(ending, figure, tmp_path):
         assert np.array_equal(read_V, V) and (read_F == F if isinstance(F, list) else np.array_equal(read_F, F))
 
 
+def test_what_a_reader_passes_over_is_a_warning(tmp_path, figure):
+    path = tmp_path / "figure.stl"
+    orbitutte.write_mesh(path, *figure)
+    path.write_bytes(path.read_bytes() + b"\n")
+    with pytest.warns(orbitutte.MeshWarning, match="1 byte is passed over"):
+        V, F = orbitutte.read_mesh(path)
+    assert len(F) == len(figure[1])
+
+
+def test_nothing_is_printed_on_standard_output(capfd):
+    angles = 2 * np.pi * np.arange(3200) / 3200
+    V = np.vstack([[[0, 0, 1], [0, 0, -1]], np.column_stack([np.cos(angles), np.sin(angles), 0 * angles])])
+    k = np.arange(3200)
+    F = np.vstack([np.column_stack([0 * k, 2 + k, 2 + (k + 1) % 3200]), np.column_stack([0 * k + 1, 2 + (k + 1) % 3200, 2 + k])])
+    assert orbitutte.embed(V, F, "432").bijective
+    assert capfd.readouterr().out == ""
+
+
 def test_an_embedding_without_its_mesh_says_what_it_needs_it_for(embedding, tmp_path):
     embedding.save(tmp_path / "map.ply", tmp_path / "map.json")
     loaded = orbitutte.Embedding.load(tmp_path / "map.ply", tmp_path / "map.json")

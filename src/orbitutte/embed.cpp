@@ -239,8 +239,8 @@ EmbedResult EmbeddingSolver::embed(const Target& orbifold, const std::vector<int
 
 std::vector<int> choose_marked_vertices(const Surface& surface, const Target& orbifold) {
   require_topology(surface, orbifold);
-  return extremities(surface, orbifold.inner_marks,
-                     static_cast<int>(orbifold.marks.size()) - orbifold.inner_marks);
+  const int outer = static_cast<int>(orbifold.marks.size()) - orbifold.inner_marks;
+  return extremities(surface, {orbifold.inner_marks, outer, are_opposite(orbifold.marks)});
 }
 
 std::vector<int> choose_marked_vertices(const Mesh& mesh, const Target& orbifold) {

@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
+#include "orbitutte/inspect/coincidence.h"
 #include "orbitutte/inspect/weak_places.h"
 #include "orbitutte/parallel.h"
 #include "orbitutte/warnings.h"
@@ -26,22 +28,37 @@ std::vector<ConeAngle> cone_angles(const Target& orbifold, const std::vector<int
   return cones;
 }
 
-struct Hole {
-  int edges = 0;
-  int vertex = -1;  // the smallest on its boundary
-};
+using Pairs = std::vector<std::array<int, 2>>;
 
-// The one hole of a disk.
-Hole hole_of(const Surface& disk) {
-  Hole hole;
-  for (int h = 0; h < static_cast<int>(disk.connectivity.opposite.size()); ++h) {
-    if (disk.connectivity.opposite[h] >= 0) continue;
-    ++hole.edges;
-    const int vertex = origin(disk.triangles, h);
-    if (hole.vertex < 0 || vertex < hole.vertex) hole.vertex = vertex;
-  }
-  return hole;
+// The marked vertices that come to lie at opposite points of the sphere.
+Pairs opposite_vertices(const EmbedRequest& request) {
+  if (!are_opposite(request.orbifold.marks) || request.marked_vertices.size() != 2) return {};
+  return {{request.marked_vertices[0], request.marked_vertices[1]}};
 }
+
+// Every arc between opposite points is as short as any other, so that an edge between them has no place.
+void require_no_edge(const Connectivity& connectivity, const Pairs& opposite, const Target& orbifold) {
+  for (const auto& [v, w] : opposite) {
+    const std::array<int, 2> edge = {std::min(v, w), std::max(v, w)};
+    if (!std::binary_search(connectivity.edges.begin(), connectivity.edges.end(), edge)) continue;
+    throw MeshError(
+        fmt::format("the marked vertices {} and {} are joined by an edge, but {} puts them at opposite "
+                    "points of the sphere; mark vertices that are further apart, or split the edge",
+                    v, w, orbifold.signature));
+  }
+}
+
+// The boundary of a disk, edge by edge.
+Pairs boundary_edges(const Surface& disk) {
+  Pairs edges;
+  for (int h = 0; h < static_cast<int>(disk.connectivity.opposite.size()); ++h)
+    if (disk.connectivity.opposite[h] < 0)
+      edges.push_back({origin(disk.triangles, h), target(disk.triangles, h)});
+  return edges;
+}
+
+// The smallest of the first ends.
+int smallest_vertex(const Pairs& edges) { return (*std::min_element(edges.begin(), edges.end()))[0]; }
 
 }  // namespace
 
@@ -58,11 +75,12 @@ PreparedSurface prepare(const Surface& surface, const EmbedOptions& options) {
 void require_topology(const Surface& surface, const Target& orbifold) {
   if (surface.topology == orbifold.topology) return;
   if (surface.topology == Topology::disk && orbifold.topology == Topology::sphere) {
-    const auto [edges, vertex] = hole_of(surface);
+    const Pairs hole = boundary_edges(surface);
     throw MeshError(fmt::format(
         "the mesh has a hole of {} edges, through vertex {}, which makes it a disk, but {} needs a sphere; "
-        "fill the hole, or choose an orbifold for a disk, such as *{}",
-        edges, vertex, orbifold.signature, orbifold.signature));
+        "fill the hole, or choose an orbifold for a disk, such as *{}{}",
+        hole.size(), smallest_vertex(hole), orbifold.signature, orbifold.signature,
+        in_brackets(welding_advice(find_coincidence(surface.V, hole)))));
   }
   throw MeshError(fmt::format(
       "the mesh is a {}, but {} needs a {}; choose an orbifold for a {} (see 'orbitutte types')",
@@ -75,6 +93,7 @@ void require_fit(const EmbedRequest& request) {
     throw MeshError(fmt::format("{} needs {} marked vertices, not {}", orbifold.signature,
                                 orbifold.marks.size(), request.marked_vertices.size()));
   require_topology(request.prepared.surface, orbifold);
+  require_no_edge(request.prepared.surface.connectivity, opposite_vertices(request), orbifold);
 }
 
 EdgeWeights find_weights(const EmbedRequest& request, const std::vector<int>& kept_faces,
@@ -82,10 +101,12 @@ EdgeWeights find_weights(const EmbedRequest& request, const std::vector<int>& ke
   const Surface& surface = request.prepared.surface;
   const EmbedOptions& options = request.options;
   if (!known.weights || known.kept_faces != kept_faces)
-    known.weights = options.weights_file.empty() ? edge_weights(surface, options.weights, kept_faces)
+    known.weights = options.weights_file.empty() ? edge_weights(surface, options.weights, {kept_faces})
                                                  : read_weights(options.weights_file, surface.connectivity);
   known.kept_faces = kept_faces;
-  return sharpened_at_cones(*known.weights, cone_angles(request.orbifold, request.marked_vertices));
+  const UnflippedEdges unflipped = {kept_faces, opposite_vertices(request)};
+  return sharpened_at_cones(kept_apart(*known.weights, surface, options.weights, unflipped),
+                            cone_angles(request.orbifold, request.marked_vertices), unflipped.kept_apart);
 }
 
 void find_cut(const EmbedRequest& request, const EdgeWeights& weights, EmbeddingCache& cache) {

@@ -58,8 +58,8 @@ struct EmbeddingCache {
 /// for weights that its polygons do not have. The surface must outlive the result.
 PreparedSurface prepare(const Surface& surface, const EmbedOptions& options);
 
-/// Throws MeshError if the surface has not the topology that the orbifold needs, or if there are not as many
-/// marked vertices as it has marks.
+/// Throws MeshError if the surface has not the topology that the orbifold needs, if there are not as many
+/// marked vertices as it has marks, or if an edge joins two that have to lie at opposite points.
 void require_fit(const EmbedRequest& request);
 
 /// Throws MeshError unless the surface has the topology that the orbifold needs. The message about a hole

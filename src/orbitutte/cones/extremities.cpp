@@ -40,22 +40,62 @@ void require_enough(int wanted, const std::vector<int>& among) {
     throw MeshError(fmt::format("{} vertices have to be marked, but only {} can be", wanted, among.size()));
 }
 
+// Vertices for marks no two of which an edge joins.
+class Separation {
+ public:
+  Separation(const Neighbors& graph, const std::vector<int>& among)
+      : graph_(graph), among_(among), may_be_marked_(graph.start.size() - 1, 0) {
+    for (const int v : among) may_be_marked_[v] = 1;
+  }
+
+  // Those that no edge joins to any of the marked ones. For the first mark: those that leave one for the
+  // next. All, if there are none such.
+  std::vector<int> apart_from(const std::vector<int>& marked) const {
+    std::vector<int> result;
+    for (const int v : among_)
+      if (marked.empty() ? leaves_others(v) : !touches(v, marked)) result.push_back(v);
+    return result.empty() ? among_ : result;
+  }
+
+ private:
+  template <class Test>
+  std::size_t count_neighbours(int v, const Test& test) const {
+    return static_cast<std::size_t>(std::count_if(graph_.neighbor.begin() + graph_.start[v],
+                                                  graph_.neighbor.begin() + graph_.start[v + 1], test));
+  }
+
+  bool leaves_others(int v) const {
+    return count_neighbours(v, [&](int w) { return may_be_marked_[w] != 0; }) + 1 < among_.size();
+  }
+
+  bool touches(int v, const std::vector<int>& marked) const {
+    const auto is_marked = [&](int w) { return std::find(marked.begin(), marked.end(), w) != marked.end(); };
+    return is_marked(v) || count_neighbours(v, is_marked) > 0;
+  }
+
+  const Neighbors& graph_;
+  const std::vector<int>& among_;
+  std::vector<char> may_be_marked_;
+};
+
 }  // namespace
 
-std::vector<int> extremities(const Surface& surface, int inner, int outer) {
+std::vector<int> extremities(const Surface& surface, const WantedExtremities& wanted) {
   const Places place = places(surface);
-  if (inner > 0 && place.inside.empty())
+  if (wanted.inner > 0 && place.inside.empty())
     throw MeshError("one vertex has to be marked inside the surface, but all are on its boundary");
-  require_enough(inner, place.inside);
-  require_enough(outer, place.on_boundary);
+  require_enough(wanted.inner, place.inside);
+  require_enough(wanted.outer, place.on_boundary);
   const EdgeGraph graph = edge_length_graph(surface);
   std::vector<int> result;
   const auto add = [&](const std::vector<int>& among, const std::vector<int>& first_from) {
-    result.push_back(farthest(among, distances(graph, result.empty() ? first_from : result)));
+    const std::vector<double> distance = distances(graph, result.empty() ? first_from : result);
+    result.push_back(farthest(
+        wanted.no_neighbours ? Separation(graph.neighbors, among).apart_from(result) : among, distance));
   };
-  for (int k = 0; k < inner; ++k)
+  for (int k = 0; k < wanted.inner; ++k)
     add(place.inside, place.on_boundary.empty() ? std::vector<int>{place.inside.front()} : place.on_boundary);
-  for (int k = 0; k < outer; ++k) add(place.on_boundary, {place.on_boundary.front()});
+  for (int k = 0; k < wanted.outer; ++k) add(place.on_boundary, {place.on_boundary.front()});
   return result;
 }
 

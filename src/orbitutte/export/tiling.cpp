@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "orbitutte/export/closed_mesh.h"
+#include "orbitutte/export/tiled_faces.h"
 #include "orbitutte/mesh/disjoint_sets.h"
 #include "orbitutte/orbifold/symmetry_group.h"
 
@@ -42,9 +44,10 @@ void check_embedding(const Embedding& embedding) {
         "an orbifold, not into a fixed polygon");
   const auto corners = static_cast<long long>(embedding.polygons.corners.size());
   const long long largest = std::max<long long>({vertices, embedding.faces.rows(), corners});
-  if (largest * std::max(embedding.target.group_order, 1) > std::numeric_limits<int>::max())
-    throw ArgumentError(fmt::format("{} copies of {} faces are more than 2^31 - 1; tile a coarser mesh",
-                                    embedding.target.group_order, embedding.faces.rows()));
+  if (3 * largest * std::max(embedding.target.group_order, 1) > std::numeric_limits<int>::max())
+    throw ArgumentError(
+        fmt::format("{} copies of {} faces have more than 2^31 - 1 corners; tile a coarser mesh",
+                    embedding.target.group_order, embedding.faces.rows()));
 }
 
 /// across[s][g]: the copy whose right bank of seam s meets the left bank of seam s of copy g.
@@ -104,10 +107,22 @@ struct Welding {
   int vertices = 0;
 };
 
-std::vector<char> vertices_in_faces(const Embedding& embedding) {
-  std::vector<char> used(embedding.positions.rows(), 0);
-  for (Eigen::Index f = 0; f < embedding.faces.rows(); ++f)
-    for (int k = 0; k < 3; ++k) used[embedding.faces(f, k)] = 1;
+/// Mirrors are told apart by their reflections, whose indices in the group are across[s][0].
+MirrorsOfVertices mirrors_of_vertices(const Embedding& embedding,
+                                      const std::vector<std::vector<int>>& across) {
+  MirrorsOfVertices mirrors(embedding.positions.rows(), {-1, -1});
+  for (std::size_t s = 0; s < across.size(); ++s) {
+    if (embedding.seams[s].left != embedding.seams[s].right) continue;
+    const int mirror = across[s].front();
+    for (const int v : embedding.seams[s].left)
+      if (mirrors[v][0] != mirror) mirrors[v][mirrors[v][0] < 0 ? 0 : 1] = mirror;
+  }
+  return mirrors;
+}
+
+std::vector<char> vertices_in_faces(const TiledFaces& tiled, Eigen::Index vertices) {
+  std::vector<char> used(vertices, 0);
+  for (const int v : tiled.triangles.reshaped()) used[v] = 1;
   return used;
 }
 
@@ -133,8 +148,9 @@ void unite_banks(const Seam& seam, const std::vector<int>& across, const Welding
   }
 }
 
-Welding weld(const Embedding& embedding, const std::vector<std::vector<int>>& across) {
-  const std::vector<char> in_face = vertices_in_faces(embedding);
+Welding weld(const Embedding& embedding, const TiledFaces& tiled,
+             const std::vector<std::vector<int>>& across) {
+  const std::vector<char> in_face = vertices_in_faces(tiled, embedding.positions.rows());
   const std::vector<char> in_seam = vertices_in_seams(embedding);
   Welding welding;
   welding.on_seam.assign(in_face.size(), -1);
@@ -208,19 +224,10 @@ class VertexSweep {
   int next_ = 0;
 };
 
-/// The input face of every triangle of the embedding: a polygon of d corners has d - 2 triangles.
-std::vector<int> faces_of_triangles(const Embedding& embedding) {
-  const FaceView faces = embedding.input_faces();
-  std::vector<int> result;
-  result.reserve(embedding.faces.rows());
-  for (int f = 0; f < faces.count(); ++f) result.insert(result.end(), faces[f].size() - 2, f);
-  return result;
-}
-
 /// Appends the polygons of copy g, each from the same corner on; mirrored copies are turned over.
-void place_polygons(const Embedding& embedding, int g, const std::vector<int>& vertex_of, Tiling& tiling) {
+void place_polygons(const TiledFaces& tiled, int g, const std::vector<int>& vertex_of, Tiling& tiling) {
   std::vector<int>& corners = tiling.polygons.corners;
-  const FaceView polygons(embedding.polygons);
+  const FaceView polygons(tiled.polygons);
   for (int f = 0; f < polygons.count(); ++f) {
     const std::size_t begin = corners.size();
     for (const int v : polygons[f]) corners.push_back(vertex_of[v]);
@@ -231,15 +238,23 @@ void place_polygons(const Embedding& embedding, int g, const std::vector<int>& v
 }
 
 /// Sets the triangles of copy g; mirrored copies are turned over.
-void place_faces(const Embedding& embedding, int g, const std::vector<int>& vertex_of, Tiling& tiling) {
-  const Eigen::Index faces = embedding.faces.rows();
+void place_triangles(const TiledFaces& tiled, int g, const std::vector<int>& vertex_of, Tiling& tiling) {
+  const Eigen::Index faces = tiled.triangles.rows();
   const int second = tiling.copies[g].mirrored ? 2 : 1;
   for (Eigen::Index f = 0; f < faces; ++f) {
     const Eigen::Index row = g * faces + f;
-    tiling.mesh.F(row, 0) = vertex_of[embedding.faces(f, 0)];
-    tiling.mesh.F(row, 1) = vertex_of[embedding.faces(f, second)];
-    tiling.mesh.F(row, 2) = vertex_of[embedding.faces(f, 3 - second)];
+    tiling.mesh.F(row, 0) = vertex_of[tiled.triangles(f, 0)];
+    tiling.mesh.F(row, 1) = vertex_of[tiled.triangles(f, second)];
+    tiling.mesh.F(row, 2) = vertex_of[tiled.triangles(f, 3 - second)];
     tiling.tile[row] = g;
+  }
+}
+
+void require_closed(const Tiling& tiling) {
+  if (tiling.polygons.count() > 0) {
+    require_closed_sphere(tiling.mesh.V, tiling.polygons);
+  } else {
+    require_closed_sphere(tiling.mesh);
   }
 }
 
@@ -255,24 +270,27 @@ Tiling tile_sphere(const Embedding& embedding) {
   check_embedding(embedding);
   const SymmetryGroup group = group_of(embedding);
   const std::vector<std::vector<int>> across = copies_across_seams(embedding, group);
-  const Welding welding = weld(embedding, across);
-  const Eigen::Index faces = group.order() * embedding.faces.rows();
+  const TiledFaces tiled = tiled_faces(embedding, mirrors_of_vertices(embedding, across));
+  const Welding welding = weld(embedding, tiled, across);
+  const Eigen::Index faces = group.order() * tiled.triangles.rows();
   check_sphere(welding.vertices, faces);
 
   Tiling tiling;
   tiling.tiles = group.order();
   tiling.copies = tile_copies(group, across);
+  tiling.input_faces = tiled.input_faces;
+  tiling.left_out = tiled.left_out;
   tiling.mesh.F.resize(faces, 3);
   tiling.tile.resize(faces);
-  const std::vector<int> source_face = faces_of_triangles(embedding);
   tiling.source_face.reserve(faces);
   VertexSweep sweep(embedding, welding, tiling);
   for (int g = 0; g < tiling.tiles; ++g) {
     const std::vector<int>& vertex_of = sweep.copy(g);
-    place_faces(embedding, g, vertex_of, tiling);
-    place_polygons(embedding, g, vertex_of, tiling);
-    tiling.source_face.insert(tiling.source_face.end(), source_face.begin(), source_face.end());
+    place_triangles(tiled, g, vertex_of, tiling);
+    place_polygons(tiled, g, vertex_of, tiling);
+    tiling.source_face.insert(tiling.source_face.end(), tiled.face_of.begin(), tiled.face_of.end());
   }
+  require_closed(tiling);
   return tiling;
 }
 

@@ -27,9 +27,9 @@ std::vector<TileCopy> tile_copies(const Embedding& embedding);
 struct Tiling {
   /// Closed, on the unit sphere, every triangle counterclockwise as seen from outside.
   Mesh mesh;
-  /// m |G|: the copy of the tile that holds the triangle, as an index into copies.
+  /// Of every triangle: the copy of the tile that holds it, as an index into copies.
   std::vector<int> tile;
-  /// m |G|: the face of the input mesh.
+  /// Of every triangle: the face of the input mesh.
   std::vector<int> source_face;
   /// The input vertex of every vertex.
   std::vector<int> source_vertex;
@@ -39,16 +39,23 @@ struct Tiling {
   std::vector<TileCopy> copies;
   /// The faces that the triangles make up, tile by tile; empty if all are triangles.
   Polygons polygons;
+  /// The input faces that every tile has, in the order of its faces.
+  std::vector<int> input_faces;
+  /// The input's other faces. All their vertices are on one mirror, so that they are arcs, and their mirror
+  /// images have the same vertices: they are left out, and so are the vertices that are in no other face.
+  std::vector<int> left_out;
 
   /// The faces as in the input: polygons or triangles.
   FaceView faces() const { return polygons.count() > 0 ? FaceView(polygons) : FaceView(mesh.F); }
 };
 
 /// Welds by the combinatorics alone: copy g of left[i] is copy g*transform of right[i]. Positions are never
-/// compared. Vertices that no face uses are left out; faces and vertices come tile by tile. Time and memory
-/// O(m |G|). Throws ArgumentError if the seams do not generate a group of order embedding.group_order, if the
-/// copies do not close up into a sphere (for instance without seams), if the result has more faces than an
-/// int can count, if positions are not finite, or if indices are out of range.
+/// compared. Vertices that no face uses are left out; faces and vertices come tile by tile. Polygons are
+/// divided so that no diagonal coincides with its mirror image. Time and memory O(m |G|). The result is one
+/// closed mesh (require_closed_sphere). Throws ArgumentError if the seams do not generate a group of order
+/// embedding.group_order, if the copies do not close up into a sphere (for instance without seams), if the
+/// result has more corners than an int can count, if positions are not finite, or if indices are out of
+/// range; MeshError if the mesh is not closed, naming the edge or face of the input, as tiled_faces does.
 Tiling tile_sphere(const Embedding& embedding);
 
 /// Writes the format that the path's ending names (any case):
@@ -60,7 +67,8 @@ Tiling tile_sphere(const Embedding& embedding);
 ///
 /// PLY and OBJ have polygons if the input has them; STL and GLB have triangles. Neighbouring tiles differ in
 /// colour; mirrored tiles are a shade darker. The file appears whole or not at all. Throws ArgumentError for
-/// another ending or a tiling too large for the format (GLB: 4 GiB), and FileError.
+/// another ending or a tiling too large for the format (GLB: 4 GiB); MeshError if the triangles of polygons,
+/// in the formats that have no others, are no closed mesh; and FileError.
 void write_tiling(const std::string& path, const Tiling& tiling);
 
 }  // namespace orbitutte

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <iterator>
 
+#include "orbitutte/export/closed_mesh.h"
 #include "orbitutte/export/file_ending.h"
 #include "orbitutte/export/gltf_model.h"
 #include "orbitutte/io/bytes.h"
@@ -28,6 +29,13 @@ std::uint16_t stl_attribute(const Rgb& colour) {
 
 void append_stl_vector(std::string& bytes, const Vector3& vector) {
   for (int k = 0; k < 3; ++k) append_little_endian(bytes, static_cast<float>(vector[k]));
+}
+
+int faces_in_tile(const Tiling& tiling) { return std::max(1, static_cast<int>(tiling.input_faces.size())); }
+
+/// Of polygons the diagonals may coincide where two polygons share two vertices that no edge joins.
+void require_closed_triangles(const Tiling& tiling) {
+  if (tiling.polygons.count() > 0) require_closed_sphere(tiling.mesh);
 }
 
 void write_obj_and_mtl(const std::filesystem::path& path, const Tiling& tiling) {
@@ -56,7 +64,7 @@ TileMaterials tile_materials(const Tiling& tiling) {
 std::string ply_bytes(const Tiling& tiling) {
   const Mesh& mesh = tiling.mesh;
   const FaceView faces = tiling.faces();
-  const int faces_per_tile = std::max(1, faces.count() / std::max(1, tiling.tiles));
+  const int faces_per_tile = faces_in_tile(tiling);
   const PlyType count_type = corner_count_type(faces);
   std::string bytes = fmt::format(
       "ply\nformat binary_little_endian 1.0\ncomment tiling of the sphere by {} copies\n"
@@ -84,7 +92,7 @@ std::string ply_bytes(const Tiling& tiling) {
     for (const std::uint8_t channel : {colour.red, colour.green, colour.blue})
       append_little_endian(bytes, channel);
     append_little_endian(bytes, f / faces_per_tile);
-    append_little_endian(bytes, f % faces_per_tile);
+    append_little_endian(bytes, tiling.input_faces[f % faces_per_tile]);
   }
   return bytes;
 }
@@ -122,7 +130,7 @@ std::string obj_text(const Tiling& tiling, const std::string& library) {
   for (Eigen::Index v = 0; v < mesh.V.rows(); ++v)
     fmt::format_to(out, FMT_COMPILE("v {} {} {}\n"), mesh.V(v, 0), mesh.V(v, 1), mesh.V(v, 2));
   const FaceView faces = tiling.faces();
-  const int faces_per_tile = std::max(1, faces.count() / std::max(1, tiling.tiles));
+  const int faces_per_tile = faces_in_tile(tiling);
   int tile = -1;
   for (int f = 0; f < faces.count(); ++f) {
     if (f / faces_per_tile != tile) {
@@ -159,8 +167,10 @@ std::string glb_bytes(const Tiling& tiling) {
 void write_tiling(const std::string& path, const Tiling& tiling) {
   const std::string ending = lower_case_ending(path);
   if (ending == ".ply") return write_file(path, ply_bytes(tiling));
-  if (ending == ".stl") return write_file(path, stl_bytes(tiling));
-  if (ending == ".glb") return write_file(path, glb_bytes(tiling));
+  if (ending == ".stl" || ending == ".glb") {
+    require_closed_triangles(tiling);
+    return write_file(path, ending == ".stl" ? stl_bytes(tiling) : glb_bytes(tiling));
+  }
   if (ending == ".obj") return write_obj_and_mtl(path, tiling);
   throw ArgumentError(fmt::format("{}: a tiling is written as .ply, .obj, .stl or .glb", path));
 }

@@ -73,6 +73,7 @@ std::string name(DefectKind kind) {
   static constexpr const char* names[] = {"empty_mesh",
                                           "index_out_of_range",
                                           "non_finite_position",
+                                          "size_out_of_range",
                                           "too_few_corners",
                                           "repeated_vertex",
                                           "duplicate_face",
@@ -82,7 +83,8 @@ std::string name(DefectKind kind) {
                                           "several_components",
                                           "holes",
                                           "genus",
-                                          "not_orientable"};
+                                          "not_orientable",
+                                          "no_area"};
   return names[static_cast<int>(kind)];
 }
 

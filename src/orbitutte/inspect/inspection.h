@@ -11,19 +11,21 @@ namespace orbitutte {
 
 /// In the order in which defects are reported and should be mended.
 enum class DefectKind {
-  empty_mesh,                ///< no vertices or no faces
-  index_out_of_range,        ///< a face names a vertex that the mesh does not have
-  non_finite_position,       ///< a coordinate is infinite or no number
-  too_few_corners,           ///< a face with fewer than three corners
-  repeated_vertex,           ///< a face that names a vertex twice
-  duplicate_face,            ///< a face with the same vertices as an earlier one
-  non_manifold_edge,         ///< more than two faces on an edge
-  non_manifold_vertex,       ///< the faces of a vertex are not one fan
+  empty_mesh,           ///< no vertices or no faces
+  index_out_of_range,   ///< a face names a vertex that the mesh does not have
+  non_finite_position,  ///< a coordinate is infinite or no number
+  size_out_of_range,    ///< coordinates so large, or a mesh so small, that squared lengths are no doubles
+  too_few_corners,      ///< a face with fewer than three corners
+  repeated_vertex,      ///< a face that names a vertex twice
+  duplicate_face,       ///< a face with the same vertices as an earlier one
+  non_manifold_edge,    ///< more than two faces on an edge
+  non_manifold_vertex,  ///< the faces of a vertex are not one fan
   inconsistent_orientation,  ///< two faces run through an edge in the same direction; turning faces mends it
   several_components,
-  holes,          ///< more than one boundary curve
-  genus,          ///< handles
-  not_orientable  ///< and no projective plane: no turning of faces makes them agree
+  holes,           ///< more than one boundary curve
+  genus,           ///< handles
+  not_orientable,  ///< and no projective plane: no turning of faces makes them agree
+  no_area          ///< no face has any: all vertices at one point, say
 };
 
 /// The name of a defect, as in the JSON of `orbitutte info`: "non_manifold_edge" and so on.
@@ -60,18 +62,21 @@ struct Inspection {
   std::vector<std::vector<int>> boundary;  ///< boundary curves as vertex loops along the faces' half-edges,
                                            ///< each from its smallest vertex, longest first
   Topology topology = Topology::other;     ///< other, wherever a defect stands in the way
+  /// Of a disk: that vertices of its boundary are at the same point, or nearly, as along a texture's seam,
+  /// and what to do if a sphere is meant; empty if there are none.
+  std::string welding_advice;
 
-  // Quality of the triangles, zero-area faces and polygons left out; all zero where a coordinate is not
-  // finite.
-  int zero_area_faces = 0;  ///< triangles with no area but rounding errors; allowed
+  // Quality of the faces, those without area left out; all zero if a coordinate is not finite or out of
+  // range. The area of a polygon is that of its vector, half the sum of its corners' cross products.
+  int zero_area_faces = 0;  ///< with no area but rounding errors; allowed, if not all are
   double area = 0;
-  double min_angle = 0;  ///< radians
-  double max_angle = 0;  ///< radians
+  double min_angle = 0;  ///< of a face at a corner: radians
+  double max_angle = 0;  ///< radians; above pi where a polygon bends inwards
   double min_edge_length = 0;
   double max_edge_length = 0;
-  int negative_cotangent_edges =
-      0;  ///< cotangent weight (cot a + cot b)/2 below zero: clamped by the default weights
-  int zero_cotangent_edges = 0;  ///< cotangent weight zero up to rounding errors
+  int negative_cotangent_edges = 0;  ///< between triangles: cotangent weight (cot a + cot b)/2 below zero,
+                                     ///< clamped by the weights `cotan`
+  int zero_cotangent_edges = 0;      ///< between triangles: cotangent weight zero up to rounding errors
 
   std::vector<Defect>
       defects;  ///< all of them, in the order in which they should be mended; one of each kind

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "orbitutte/inspect/inspection_steps.h"
+#include "orbitutte/inspect/recognition.h"
 
 namespace orbitutte::inspection {
 namespace {
@@ -37,6 +38,30 @@ void report_positions(const PolygonMesh& mesh, Inspection& result) {
   add(result, DefectKind::non_finite_position, vertices,
       fmt::format("vertex {} is at ({}, {}, {}){}; give it finite coordinates", first, p[0], p[1], p[2],
                   such(vertices, "vertices")));
+}
+
+// Squared lengths have to be doubles.
+void report_size(const PolygonMesh& mesh, Inspection& result) {
+  if (has(result, DefectKind::non_finite_position)) return;
+  int vertices = 0, first = -1;
+  for (int v = 0; v < mesh.vertex_count(); ++v) {
+    if (mesh.V.row(v).cwiseAbs().maxCoeff() <= largest_coordinate) continue;
+    if (vertices++ == 0) first = v;
+  }
+  if (vertices > 0) {
+    const auto p = mesh.V.row(first);
+    add(result, DefectKind::size_out_of_range, vertices,
+        fmt::format(
+            "vertex {} is at ({}, {}, {}){}, too far out to compute with in double precision; scale the "
+            "mesh down",
+            first, p[0], p[1], p[2], such(vertices, "vertices")));
+    return;
+  }
+  const double size = (mesh.V.colwise().maxCoeff() - mesh.V.colwise().minCoeff()).maxCoeff();
+  if (size == 0 || size >= smallest_size) return;
+  add(result, DefectKind::size_out_of_range, 1,
+      fmt::format("the mesh is only {:.3g} wide, too small to compute with in double precision; scale it up",
+                  size));
 }
 
 void report_corner_counts(Surface& s, Inspection& result) {
@@ -123,6 +148,7 @@ void inspect_faces(Surface& surface, Inspection& result) {
   const std::vector<int> sorted = sorted_corners(surface.mesh);
   report_indices(surface, result);
   report_positions(surface.mesh, result);
+  report_size(surface.mesh, result);
   report_corner_counts(surface, result);
   report_repeated_vertices(surface, sorted, result);
   report_duplicates(surface, sorted, result);

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <array>
-#include <tuple>
 #include <utility>
 
+#include "orbitutte/inspect/coincidence.h"
 #include "orbitutte/inspect/inspection_steps.h"
 #include "orbitutte/mesh/disjoint_sets.h"
 
@@ -163,25 +163,11 @@ std::string subject(const Components& components, const Component& component) {
                                      : fmt::format("the component of vertex {}", component.vertex);
 }
 
-// Two vertices of the boundary at the same point tell that the faces were never welded together.
 std::string welding_advice(const Surface& s) {
-  std::vector<int> vertices;
-  for (int e = 0; e < s.edge_count(); ++e) {
-    if (s.faces_on(e) == 1)
-      vertices.insert(vertices.end(), {s.lower(s.half_edge(e, 0)), s.upper(s.half_edge(e, 0))});
-  }
-  const auto place = [&](int v) { return std::tuple(s.mesh.V(v, 0), s.mesh.V(v, 1), s.mesh.V(v, 2)); };
-  std::erase_if(vertices, [&](int v) { return !s.mesh.V.row(v).allFinite(); });
-  std::sort(vertices.begin(), vertices.end(),
-            [&](int v, int w) { return std::pair(place(v), v) < std::pair(place(w), w); });
-  std::pair<int, int> first = {s.mesh.vertex_count(), s.mesh.vertex_count()};
-  for (std::size_t i = 1; i < vertices.size(); ++i) {
-    const int v = vertices[i - 1], w = vertices[i];
-    if (v != w && place(v) == place(w)) first = std::min(first, {v, w});
-  }
-  if (first.first == s.mesh.vertex_count()) return {};
-  return fmt::format(" (vertices {} and {} are at the same point: weld such vertices first)", first.first,
-                     first.second);
+  std::vector<std::array<int, 2>> boundary;
+  for (int e = 0; e < s.edge_count(); ++e)
+    if (s.faces_on(e) == 1) boundary.push_back({s.lower(s.half_edge(e, 0)), s.upper(s.half_edge(e, 0))});
+  return orbitutte::welding_advice(find_coincidence(s.mesh.V, boundary));
 }
 
 void report_components(const Surface& s, Components components, Inspection& result) {
@@ -197,7 +183,8 @@ void report_components(const Surface& s, Components components, Inspection& resu
       fmt::format("the surface has {} components, of {} faces, the first around vertex {}, the second around "
                   "vertex {}; keep "
                   "one of them or join them{}",
-                  result.components, listed(sizes), list[0].vertex, list[1].vertex, welding_advice(s)));
+                  result.components, listed(sizes), list[0].vertex, list[1].vertex,
+                  in_brackets(welding_advice(s))));
 }
 
 // The two sides of every face, f and f + m, united where one passes into the other across an edge of two
@@ -315,7 +302,7 @@ void report_holes(const Surface& s, const Components& components, Inspection& re
                   "but one for a "
                   "disk{}",
                   subject(components, *first), lengths.size(), listed(lengths), listed(vertices),
-                  welding_advice(s)));
+                  in_brackets(welding_advice(s))));
 }
 
 void report_genus(const Components& components, Inspection& result) {
@@ -379,7 +366,9 @@ void classify(const Surface& s, Components& components, Inspection& result) {
   report_holes(s, components, result);
   report_genus(components, result);
   report_non_orientability(s, components, result);
-  if (result.defects.empty()) result.topology = topology_of(components.list[0]);
+  if (!result.defects.empty()) return;
+  result.topology = topology_of(components.list[0]);
+  if (result.topology == Topology::disk) result.welding_advice = welding_advice(s);
 }
 
 }  // namespace

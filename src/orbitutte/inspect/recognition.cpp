@@ -34,6 +34,12 @@ bool names_a_triangle(const Mesh& mesh, int f) {
          v[1] != v[2] && v[2] != v[0];
 }
 
+// Finite, too.
+bool is_in_range(const Vector3& position) { return (position.array().abs() <= largest_coordinate).all(); }
+
+// The longest side of the box around the points.
+double size_of(const Points& V) { return (V.colwise().maxCoeff() - V.colwise().minCoeff()).maxCoeff(); }
+
 // Is the edge of half-edge h on the boundary, or between two faces that run along it in opposite directions?
 bool is_manifold(const Faces& F, const Connectivity& connectivity, int h) {
   const int other = connectivity.opposite[h];
@@ -124,7 +130,8 @@ std::optional<Surface> judge_quickly(const Mesh& mesh) {
   const int n = static_cast<int>(mesh.V.rows()), m = static_cast<int>(mesh.F.rows());
   if (m == 0) return std::nullopt;
   if (!all_of(m, [&](int f) { return names_a_triangle(mesh, f); })) return std::nullopt;
-  if (!all_of(n, [&](int v) { return mesh.V.row(v).allFinite(); })) return std::nullopt;
+  if (!all_of(n, [&](int v) { return is_in_range(mesh.V.row(v)); }) || size_of(mesh.V) < smallest_size)
+    return std::nullopt;
 
   Surface result;
   result.connectivity = connect(mesh.F, n);
@@ -146,6 +153,7 @@ std::optional<Surface> judge_quickly(const Mesh& mesh) {
     return is_degenerate(mesh.V.row(mesh.F(f, 0)), mesh.V.row(mesh.F(f, 1)), mesh.V.row(mesh.F(f, 2))) ? 1.0
                                                                                                        : 0.0;
   }));
+  if (result.zero_area_faces == m) return std::nullopt;
   return result;
 }
 
@@ -172,6 +180,11 @@ std::optional<Surface> recognize(Mesh&& mesh) {
   std::optional<Surface> surface = judge_quickly(mesh);
   if (surface) take(std::move(mesh), *surface);
   return surface;
+}
+
+bool is_sound_sphere(const Mesh& mesh) {
+  const std::optional<Surface> surface = judge_quickly(mesh);
+  return surface && surface->topology == Topology::sphere && surface->unreferenced_vertices == 0;
 }
 
 Surface make_surface(Mesh&& mesh) {

@@ -9,6 +9,10 @@
 
 namespace orbitutte {
 
+// The sizes of meshes whose squared lengths are doubles.
+inline constexpr double largest_coordinate = 1e150;
+inline constexpr double smallest_size = 1e-150;
+
 /// The surface that a mesh is: a sphere, a disk or a projective plane. Throws MeshError with the first defect
 /// that `inspect` finds. If a mesh is moved in, its memory becomes the surface's; a mesh with a defect stays
 /// as it was.
@@ -23,6 +27,9 @@ Surface make_surface(const PolygonMesh& mesh);
 /// The mesh as a sphere or disk, in a few linear sweeps. Nothing if it is another surface, or has a defect of
 /// any kind; then the mesh stays as it was.
 std::optional<Surface> recognize(Mesh&& mesh);
+
+/// Is the mesh a sphere without a defect, and every vertex in some face? In a few linear sweeps.
+bool is_sound_sphere(const Mesh& mesh);
 
 /// Has the triangle no area but rounding errors, for the largest coordinate of its edges as the unit?
 bool is_degenerate(const Vector3& a, const Vector3& b, const Vector3& c);

@@ -26,6 +26,15 @@ constexpr FormatRow formats[] = {{MeshFormat::obj, ".obj", read_obj, write_obj},
 
 const FormatRow& row(MeshFormat format) { return formats[static_cast<int>(format)]; }
 
+/// Has the text two bytes a character, one of them zero in all that the formats know? Tells it by the byte
+/// order mark, or by the first two characters.
+bool is_utf16(std::string_view bytes) {
+  if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF")) return true;
+  if (bytes.size() < 4) return false;
+  const bool zero[] = {bytes[0] == 0, bytes[1] == 0, bytes[2] == 0, bytes[3] == 0};
+  return zero[0] == zero[2] && zero[1] == zero[3] && zero[0] != zero[1];
+}
+
 std::string lower_case(std::string text) {
   for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   return text;
@@ -44,7 +53,12 @@ MeshFormat mesh_format(const std::string& path) {
 
 PolygonMesh parse_mesh(std::string_view bytes, MeshFormat format) {
   if (bytes.empty()) throw MeshError("the file is empty; export it again");
-  return row(format).read(bytes);
+  try {
+    return row(format).read(bytes);
+  } catch (const MeshError&) {
+    if (is_utf16(bytes)) throw MeshError("the file is UTF-16 text; save it as UTF-8");
+    throw;
+  }
 }
 
 PolygonMesh read_mesh(const std::string& path) {

@@ -18,22 +18,25 @@ MeshFormat mesh_format(const std::string& path);
 ///
 /// - OBJ: `v`, `f` with v, v/vt, v//vn, v/vt/vn, negative indices; three numbers behind the coordinates are
 ///   the vertex's colour; `l`, `p` and all else are passed over.
-/// - OFF: the keyword (OFF, behind any of ST, C, N) may be missing, and behind it the count of edges; with C,
-///   vertices may have colours; other columns and comments are passed over; binary files and other dimensions
+/// - OFF: the keyword (OFF, behind any of ST, C, N) may be missing, and behind it the count of edges, or the
+///   blank before the counts; with C, vertices may have colours; other columns and comments are passed over;
+///   where there are no other columns, the numbers may stand in any lines; binary files and other dimensions
 ///   than three are refused.
 /// - PLY: ASCII, binary of both byte orders, `face` (vertex_indices or vertex_index) and `tristrips`; colours
 ///   are `red`, `green` and `blue` of the vertices; other elements and properties are passed over.
 /// - STL: ASCII with any number of solids, and binary; corners with the same three coordinates are one
-///   vertex, numbered in order of first use.
+///   vertex, numbered in order of first use. Facets with two corners at the same point are left out, with a
+///   warning, as are bytes behind the last facet, unless they may be facets.
 ///
-/// Colours are numbers of 0 .. 1 or bytes: the integers of a PLY, and the whole numbers of a text where one
-/// is above 1. The mesh has none where some vertices have none.
+/// Colours are numbers of 0 .. 1 or 0 .. 255: the latter if they are integers of a PLY or one is above 1. The
+/// mesh has none if some vertices have none, and none, with a warning, if one makes no sense.
 ///
 /// Indices are not compared with the number of vertices, nor coordinates with infinity: `inspect` does both.
+/// What was passed over that may matter is in PolygonMesh::warnings.
 /// Throws MeshError naming the line, element or byte where the data are empty, cut short or make no sense.
 PolygonMesh parse_mesh(std::string_view bytes, MeshFormat format);
 
-/// parse_mesh of a file in the format that the path's ending names; messages begin with the path.
+/// parse_mesh of a file in the format that the path's ending names; messages of errors begin with the path.
 /// Throws FileError when it cannot be read, ArgumentError and MeshError.
 PolygonMesh read_mesh(const std::string& path);
 

@@ -114,7 +114,7 @@ PolygonMesh read_obj(std::string_view text) {
     throw MeshError("no line begins with 'v', so there are no vertices; check that it is an OBJ file");
   }
   mesh.V = to_points(coordinates);
-  mesh.colours = colours.colours(mesh.V.rows());
+  give_colours(colours.colours(mesh.V.rows()), mesh);
   return mesh;
 }
 

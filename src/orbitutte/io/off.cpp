@@ -34,15 +34,25 @@ bool take_prefix(std::string_view& word, std::string_view prefix) {
   return true;
 }
 
-/// The keyword is OFF behind any of the prefixes ST (texture), C (colour) and N (normal), in this order; none
-/// where the word is something else.
-std::optional<Columns> parse_keyword(std::string_view word) {
-  take_prefix(word, "ST");
+/// What the first word says.
+struct Keyword {
   Columns columns;
-  columns.has_colours = take_prefix(word, "C");
-  columns.has_normals = take_prefix(word, "N");
-  if (word != "OFF" && word != "off") return std::nullopt;
-  return columns;
+  std::string_view count;  ///< of vertices, if no blank stands before it, as in ModelNet's "OFF6 8 0"
+};
+
+bool is_digits(std::string_view word) { return word.find_first_not_of("0123456789") == word.npos; }
+
+/// The keyword is OFF behind any of the prefixes ST (texture), C (colour) and N (normal), in this order; none
+/// if the word is something else.
+std::optional<Keyword> parse_keyword(std::string_view word) {
+  take_prefix(word, "ST");
+  Keyword keyword;
+  keyword.columns.has_colours = take_prefix(word, "C");
+  keyword.columns.has_normals = take_prefix(word, "N");
+  if (!take_prefix(word, "OFF") && !take_prefix(word, "off")) return std::nullopt;
+  if (!is_digits(word)) return std::nullopt;
+  keyword.count = word;
+  return keyword;
 }
 
 bool names_other_dimension(std::string_view word) {
@@ -74,27 +84,41 @@ Header read_header(TextScanner& in) {
   if (names_other_dimension(word)) {
     in.refuse(fmt::format("{} announces points of another dimension than three", in_quotes(word)));
   }
-  const std::optional<Columns> columns = parse_keyword(word);
-  if (columns) {
+  const std::optional<Keyword> keyword = parse_keyword(word);
+  if (keyword) word = keyword->count;
+  if (word.empty()) {
     in.find_word();
     word = in.word();
   }
   if (word == "BINARY") in.refuse("binary OFF is not supported, only ASCII");
   Header counts;
-  counts.columns = columns.value_or(Columns());
+  if (keyword) counts.columns = keyword->columns;
   counts.vertices = to_count(in, word, "vertices");
   counts.faces = to_count(in, in.word(), "faces");
   const std::string_view edges = in.word();
-  if (!columns || !edges.empty()) to_count(in, edges, "edges");
+  if (!keyword || !edges.empty()) to_count(in, edges, "edges");
   if (in.find_word_in_line()) in.refuse("the header has more than three counts");
   check_promise(in, counts);
   return counts;
 }
 
-/// Goes to the line that holds the item, one of `count`.
-void find_line(TextScanner& in, const TextItem& item, int count) {
+/// Goes to where the item, one of `count`, begins.
+void find_item(TextScanner& in, const TextItem& item, int count) {
   if (in.find_word()) return;
   in.refuse(fmt::format("the text ends before {}, but the header promises {}", shown(item), count));
+}
+
+/// Where one item ends and the next begins.
+enum class Layout {
+  lines,  ///< every item has a line: what stands behind it are columns, which may be passed over
+  stream  ///< numbers without any such columns, in lines as it happens
+};
+
+/// Takes a number of the item, in a stream from wherever the next one stands.
+template <class T>
+T next_number(TextScanner& in, Layout layout, const TextItem& item, std::string_view what) {
+  if (layout == Layout::stream) in.find_word();
+  return in.number<T>(item, what);
 }
 
 /// What stands behind the coordinates. Texture coordinates are passed over, as is all that the keyword does
@@ -106,29 +130,53 @@ void read_columns(TextScanner& in, const TextItem& vertex, const Columns& column
   if (columns.has_colours && !further[0].empty()) colours.add(in, vertex, further);
 }
 
-void read_vertices(TextScanner& in, const Header& header, PolygonMesh& mesh) {
+void read_vertices(TextScanner& in, const Header& header, Layout layout, PolygonMesh& mesh) {
   mesh.V.resize(header.vertices, 3);
   TextColours colours;
   for (int v = 0; v < header.vertices; ++v) {
     const TextItem vertex = {"vertex", static_cast<std::size_t>(v)};
-    find_line(in, vertex, header.vertices);
-    for (int axis = 0; axis < 3; ++axis) mesh.V(v, axis) = in.number<double>(vertex, "coordinate");
-    read_columns(in, vertex, header.columns, colours);
+    find_item(in, vertex, header.vertices);
+    for (int axis = 0; axis < 3; ++axis)
+      mesh.V(v, axis) = next_number<double>(in, layout, vertex, "coordinate");
+    if (layout == Layout::lines) read_columns(in, vertex, header.columns, colours);
   }
-  mesh.colours = colours.colours(header.vertices);
+  give_colours(colours.colours(header.vertices), mesh);
 }
 
-void read_faces(TextScanner& in, int count, PolygonMesh& mesh) {
+void read_faces(TextScanner& in, int count, Layout layout, PolygonMesh& mesh) {
   mesh.face_start.reserve(count + std::size_t{1});
   mesh.corners.reserve(3 * static_cast<std::size_t>(count));
   for (int f = 0; f < count; ++f) {
     const TextItem face = {"face", static_cast<std::size_t>(f)};
-    find_line(in, face, count);
+    find_item(in, face, count);
     const int degree = in.number<int>(face, "number of corners");
     if (degree < 0) in.refuse(fmt::format("face {} has {} corners", f, degree));
-    for (int corner = 0; corner < degree; ++corner) mesh.corners.push_back(in.number<int>(face, "index"));
-    in.skip_words();  // colours
+    for (int corner = 0; corner < degree; ++corner)
+      mesh.corners.push_back(next_number<int>(in, layout, face, "index"));
+    if (layout == Layout::lines) in.skip_words();  // colours
     end_face(mesh);
+  }
+}
+
+/// What follows behind the header, to the end of the text.
+PolygonMesh read_items(TextScanner in, const Header& header, Layout layout) {
+  PolygonMesh mesh;
+  read_vertices(in, header, layout, mesh);
+  read_faces(in, header.faces, layout, mesh);
+  if (in.find_word()) {
+    in.refuse(fmt::format("{} follows behind the {} vertices and {} faces that the header promises",
+                          in_quotes(in.word()), header.vertices, header.faces));
+  }
+  return mesh;
+}
+
+/// None if the text is no such stream, to its last number.
+std::optional<PolygonMesh> read_stream(const TextScanner& in, const Header& header) {
+  if (header.columns.has_normals || header.columns.has_colours) return std::nullopt;
+  try {
+    return read_items(in, header, Layout::stream);
+  } catch (const MeshError&) {
+    return std::nullopt;
   }
 }
 
@@ -137,14 +185,12 @@ void read_faces(TextScanner& in, int count, PolygonMesh& mesh) {
 PolygonMesh read_off(std::string_view text) {
   TextScanner in(text, off_syntax);
   const Header header = read_header(in);
-  PolygonMesh mesh;
-  read_vertices(in, header, mesh);
-  read_faces(in, header.faces, mesh);
-  if (in.find_word()) {
-    in.refuse(fmt::format("{} follows behind the {} vertices and {} faces that the header promises",
-                          in_quotes(in.word()), header.vertices, header.faces));
+  try {
+    return read_items(in, header, Layout::lines);
+  } catch (const MeshError&) {
+    if (std::optional<PolygonMesh> mesh = read_stream(in, header)) return std::move(*mesh);
+    throw;
   }
-  return mesh;
 }
 
 std::string write_off(const Mesh& mesh) {

@@ -34,7 +34,7 @@ class AsciiValues {
     return visit_type(type, [&](auto number) -> double {
       using T = decltype(number);
       using Read = std::conditional_t<std::is_integral_v<T>, T, double>;  // floats with all their digits
-      return in_.number<Read>(item, property);
+      return static_cast<double>(in_.number<Read>(item, property));
     });
   }
 
@@ -70,7 +70,7 @@ class BinaryValues {
 
   double next(PlyType type, const TextItem& item, std::string_view property) {
     return visit_type(type, [&](auto number) -> double {
-      return load<decltype(number)>(take(sizeof(number), item, property), order_);
+      return static_cast<double>(load<decltype(number)>(take(sizeof(number), item, property), order_));
     });
   }
 
@@ -79,7 +79,7 @@ class BinaryValues {
     visit_type(type, [&](auto number) {
       const char* bytes = take(length * sizeof(number), item, property);
       for (std::size_t i = 0; i < length; ++i) {
-        values.push_back(load<decltype(number)>(bytes + i * sizeof(number), order_));
+        values.push_back(static_cast<double>(load<decltype(number)>(bytes + i * sizeof(number), order_)));
       }
     });
   }
@@ -112,8 +112,9 @@ class BinaryValues {
 
 template <class Values>
 void read_list(Values& in, const TextItem& item, PlyProperty& property) {
+  constexpr double longest = std::numeric_limits<int>::max();
   const double length = in.next(property.count_type, item, "list length");
-  if (length < 0) {
+  if (length < 0 || length > longest) {
     in.refuse(fmt::format("{} has a list {} of length {}", shown(item), in_quotes(property.name), length));
   }
   in.append_list(property.values, static_cast<std::size_t>(length), property.type, item, property.name);
@@ -168,8 +169,10 @@ void check_size(const PlyElement& element, const PlyProperty& property) {
 template <class T>
 bool holds(double value) {
   if (!std::is_integral_v<T>) return true;
-  return value == std::trunc(value) && value >= std::numeric_limits<T>::min() &&
-         value <= std::numeric_limits<T>::max();
+  // The largest integer of 64 bits is no double, but one more than it is, as of all others.
+  const double one_too_many = std::ldexp(1.0, std::numeric_limits<T>::digits);
+  return value == std::trunc(value) && value < one_too_many &&
+         value >= static_cast<double>(std::numeric_limits<T>::min());
 }
 
 void append(std::string& bytes, PlyType type, double value, const PlyProperty& property) {

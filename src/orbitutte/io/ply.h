@@ -9,10 +9,10 @@
 
 namespace orbitutte {
 
-enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+enum class PlyType { int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
 
-/// One property of an element: `count` numbers, or `count` lists of numbers. Every PLY type fits into a
-/// double.
+/// One property of an element: `count` numbers, or `count` lists of numbers, as doubles. Those of the types
+/// of 64 bits, which Turk's format does not have but programs write, are rounded if they are beyond 2^53.
 struct PlyProperty {
   std::string name;
   PlyType type = PlyType::float64;

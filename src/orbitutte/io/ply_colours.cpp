@@ -6,28 +6,25 @@
 #include <algorithm>
 
 #include "orbitutte/io/ply_header.h"
-#include "orbitutte/types.h"
 
 namespace orbitutte {
 
-std::optional<PlyChannels> find_channels(const PlyElement& vertex) {
+PlyChannels find_channels(const PlyElement& vertex) {
   constexpr std::array names = {"red", "green", "blue"};
-  PlyChannels channels;
-  for (std::size_t k = 0; k < names.size(); ++k) channels[k] = vertex.find(names[k]);
-  if (std::count(channels.begin(), channels.end(), nullptr) == 3) return std::nullopt;
+  PlyChannels result;
+  for (std::size_t k = 0; k < names.size(); ++k) result.channel[k] = vertex.find(names[k]);
+  if (std::count(result.channel.begin(), result.channel.end(), nullptr) == 3) return result;
   for (std::size_t k = 0; k < names.size(); ++k) {
-    if (channels[k] != nullptr && !channels[k]->is_list) continue;
-    throw MeshError(fmt::format(
-        "the element 'vertex' has colours without a number '{}'; export the file again", names[k]));
+    if (result.channel[k] != nullptr && !result.channel[k]->is_list) continue;
+    return {{}, fmt::format("the element 'vertex' has colours without a number '{}'", names[k])};
   }
-  return channels;
+  return result;
 }
 
-double channel_value(const PlyProperty& channel, double value, std::size_t vertex) {
-  const double full = is_integer(channel.type) ? 255 : 1;
-  if (value >= 0 && value <= full) return value / full;
-  throw MeshError(fmt::format("vertex {} has the {} {}, which is not within 0 .. {}; export the file again",
-                              vertex, channel.name, value, full));
+VertexColours colours_of_channels(const PlyChannels& channels, const Points& values) {
+  const bool are_bytes = std::all_of(channels.channel.begin(), channels.channel.end(),
+                                     [](const PlyProperty* channel) { return is_integer(channel->type); });
+  return are_bytes ? colours_of_bytes(values) : colours_of_numbers(values);
 }
 
 }  // namespace orbitutte

@@ -3,21 +3,23 @@
 #pragma once
 
 #include <array>
-#include <optional>
 
 #include "orbitutte/io/ply.h"
+#include "orbitutte/io/vertex_colours.h"
 
 namespace orbitutte {
 
-/// Red, green, blue.
-using PlyChannels = std::array<const PlyProperty*, 3>;
+/// Red, green and blue of an element. They are all there, or none is.
+struct PlyChannels {
+  std::array<const PlyProperty*, 3> channel = {};
+  std::string problem;  ///< why none is, if the element has one of them; otherwise empty
 
-/// The channels of an element; none where it has none of them. Throws MeshError where it has one or two of
-/// them, or a list.
-std::optional<PlyChannels> find_channels(const PlyElement& vertex);
+  bool are_there() const { return channel[0] != nullptr; }
+};
 
-/// A channel's value as 0 .. 1: integers are bytes, of which 255 is full. Throws MeshError naming the vertex
-/// where the value is out of range.
-double channel_value(const PlyProperty& channel, double value, std::size_t vertex);
+PlyChannels find_channels(const PlyElement& vertex);
+
+/// The colours from the values of the channels, n x 3: bytes if all three have integer types.
+VertexColours colours_of_channels(const PlyChannels& channels, const Points& values);
 
 }  // namespace orbitutte

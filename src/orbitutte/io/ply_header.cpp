@@ -19,6 +19,7 @@ struct TypeRow {
 constexpr TypeRow types[] = {{PlyType::int8, "char", "int8"},        {PlyType::uint8, "uchar", "uint8"},
                              {PlyType::int16, "short", "int16"},     {PlyType::uint16, "ushort", "uint16"},
                              {PlyType::int32, "int", "int32"},       {PlyType::uint32, "uint", "uint32"},
+                             {PlyType::int64, "int64", "longlong"},  {PlyType::uint64, "uint64", "ulonglong"},
                              {PlyType::float32, "float", "float32"}, {PlyType::float64, "double", "float64"}};
 
 std::string_view trimmed(std::string_view text) {

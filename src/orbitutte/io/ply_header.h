@@ -40,6 +40,10 @@ auto visit_type(PlyType type, Visit visit) {
       return visit(std::int32_t{});
     case PlyType::uint32:
       return visit(std::uint32_t{});
+    case PlyType::int64:
+      return visit(std::int64_t{});
+    case PlyType::uint64:
+      return visit(std::uint64_t{});
     case PlyType::float32:
       return visit(float{});
     case PlyType::float64:

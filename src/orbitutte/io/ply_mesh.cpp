@@ -34,13 +34,14 @@ Points positions(const PlyElement& vertex) {
   return V;
 }
 
-Points colours(const PlyElement& vertex) {
-  const std::optional<PlyChannels> channels = find_channels(vertex);
-  if (!channels) return Points(0, 3);
-  Points result(static_cast<Eigen::Index>(vertex.count), 3);
-  for (Eigen::Index v = 0; v < result.rows(); ++v)
-    for (int k = 0; k < 3; ++k) result(v, k) = channel_value(*(*channels)[k], (*channels)[k]->values[v], v);
-  return result;
+VertexColours colours(const PlyElement& vertex) {
+  const PlyChannels channels = find_channels(vertex);
+  if (!channels.problem.empty()) return no_colours(channels.problem);
+  if (!channels.are_there()) return {};
+  Points values(static_cast<Eigen::Index>(vertex.count), 3);
+  for (int k = 0; k < 3; ++k)
+    for (Eigen::Index v = 0; v < values.rows(); ++v) values(v, k) = channels.channel[k]->values[v];
+  return colours_of_channels(channels, values);
 }
 
 const PlyProperty& index_lists(const PlyElement& element) {
@@ -100,7 +101,7 @@ PolygonMesh to_mesh(const PlyFile& file) {
   if (vertex == nullptr) throw MeshError("there is no element 'vertex'; check that the file holds a mesh");
   PolygonMesh mesh;
   mesh.V = positions(*vertex);
-  mesh.colours = colours(*vertex);
+  give_colours(colours(*vertex), mesh);
   const PlyElement* faces = file.find("face");
   const PlyElement* strips = file.find("tristrips");
   if (faces != nullptr && faces->count > 0) append_faces(*faces, mesh);

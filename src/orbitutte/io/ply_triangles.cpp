@@ -96,19 +96,19 @@ Points load_points(const TriangleFile& file) {
 }
 
 /// The colours of the vertices; none where they have none.
-Points load_colours(const TriangleFile& file, const PlyElement& vertex) {
-  const std::optional<PlyChannels> channels = find_channels(vertex);
-  if (!channels) return Points(0, 3);
-  Points colours(file.vertex_count, 3);
+VertexColours load_colours(const TriangleFile& file, const PlyElement& vertex) {
+  const PlyChannels channels = find_channels(vertex);
+  if (!channels.problem.empty()) return no_colours(channels.problem);
+  if (!channels.are_there()) return {};
+  Points values(file.vertex_count, 3);
   for (int k = 0; k < 3; ++k) {
-    const PlyProperty& channel = *(*channels)[k];
-    visit_type(channel.type, [&](auto number) {
-      const char* at = file.vertices + size_before(vertex, &channel);
+    visit_type(channels.channel[k]->type, [&](auto number) {
+      const char* at = file.vertices + size_before(vertex, channels.channel[k]);
       for (std::size_t v = 0; v < file.vertex_count; ++v, at += file.vertex.size)
-        colours(v, k) = channel_value(channel, load<decltype(number)>(at, file.order), v);
+        values(v, k) = static_cast<double>(load<decltype(number)>(at, file.order));
     });
   }
-  return colours;
+  return colours_of_channels(channels, values);
 }
 
 /// None where a face is no triangle or an index does not fit into an int.
@@ -186,7 +186,7 @@ std::optional<PolygonMesh> read_ply_triangles(std::string_view bytes, const PlyH
   if (!file) return std::nullopt;
   std::optional<PolygonMesh> mesh = file->order == std::endian::little ? load_mesh<std::endian::little>(*file)
                                                                        : load_mesh<std::endian::big>(*file);
-  if (mesh) mesh->colours = load_colours(*file, header.file.elements.front());
+  if (mesh) give_colours(load_colours(*file, header.file.elements.front()), *mesh);
   return mesh;
 }
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Colours of vertices in the lines of a text: three numbers of 0 .. 1, or three whole ones of 0 .. 255.
+// Colours of vertices in the lines of a text: three numbers of 0 .. 1, or of 0 .. 255.
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "orbitutte/io/text_scanner.h"
-#include "orbitutte/types.h"
+#include "orbitutte/io/vertex_colours.h"
 
 namespace orbitutte {
 
@@ -17,16 +18,18 @@ NextWords take_next_words(TextScanner& in);
 /// Gathers the colours of vertices, which come in their order.
 class TextColours {
  public:
-  /// The first three words as red, green and blue of the next vertex. Throws MeshError naming the line where
-  /// one is missing, no number, or not within 0 .. 255.
+  /// The first three words as red, green and blue of the next vertex.
   void add(const TextScanner& in, const TextItem& vertex, const NextWords& words);
 
-  /// n x 3, 0 .. 1; none where not every one of the n vertices has a colour. Where a channel is above 1, all
-  /// are whole numbers and 255 is full. Throws MeshError naming the first vertex of which that does not hold.
-  Points colours(Eigen::Index vertices) const;
+  /// As colours_of_numbers has them. None if not every one of the n vertices has a colour; none, with a
+  /// warning that names the line, if a word was missing or no number.
+  VertexColours colours(Eigen::Index vertices) const;
 
  private:
+  double channel(const TextScanner& in, const TextItem& vertex, std::string_view word);
+
   std::vector<double> channels_;
+  std::string problem_;  // the first word that is no number
 };
 
 }  // namespace orbitutte

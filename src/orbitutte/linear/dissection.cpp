@@ -8,6 +8,7 @@
 #include <array>
 #include <new>
 #include <numeric>
+#include <utility>
 
 #include "orbitutte/parallel.h"
 
@@ -86,20 +87,83 @@ ClusterGraph graph_of(const Clusters& clusters, const Neighbors& graph) {
   return result;
 }
 
-// The part of every cluster by recursive bisection. The highest bit of its number belongs to the first
-// bisection, and so on.
-std::vector<idx_t> bisected(ClusterGraph& graph, int levels) {
-  idx_t count = static_cast<idx_t>(graph.vertex_weight.size()), constraints = 1, parts = 1 << levels, cut = 0;
-  std::vector<idx_t> part(count, 0);
-  if (levels == 0) return part;
+// The side of every vertex, 0 or 1, of about the same weight, in the order in which they come.
+std::vector<idx_t> halves_of_sequence(const ClusterGraph& graph) {
+  const idx_t total = std::accumulate(graph.vertex_weight.begin(), graph.vertex_weight.end(), idx_t{0});
+  std::vector<idx_t> half;
+  idx_t before = 0;
+  for (const idx_t weight : graph.vertex_weight) {
+    half.push_back(2 * before + weight > total ? 1 : 0);
+    before += weight;
+  }
+  return half;
+}
+
+// The same, with few edges between the sides.
+std::vector<idx_t> halves(ClusterGraph& graph) {
+  if (graph.neighbor.empty()) return halves_of_sequence(graph);
+  idx_t count = static_cast<idx_t>(graph.vertex_weight.size()), constraints = 1, parts = 2, cut = 0;
+  std::vector<idx_t> half(count, 0);
   idx_t options[METIS_NOPTIONS];
   METIS_SetDefaultOptions(options);
   options[METIS_OPTION_SEED] = 0;
   const int status = METIS_PartGraphRecursive(&count, &constraints, graph.start.data(), graph.neighbor.data(),
                                               graph.vertex_weight.data(), nullptr, graph.edge_weight.data(),
-                                              &parts, nullptr, nullptr, options, &cut, part.data());
+                                              &parts, nullptr, nullptr, options, &cut, half.data());
   if (status == METIS_ERROR_MEMORY) throw std::bad_alloc();
   if (status != METIS_OK) throw Error("METIS could not partition the mesh");
+  return half;
+}
+
+// A graph, and the clusters that its vertices are.
+struct Portion {
+  ClusterGraph graph;
+  std::vector<int> cluster;
+};
+
+// The vertices of one side, and the edges between them.
+Portion portion_of(const Portion& whole, const std::vector<idx_t>& half, idx_t side) {
+  std::vector<idx_t> number(half.size(), -1);
+  Portion result;
+  for (std::size_t v = 0; v < half.size(); ++v) {
+    if (half[v] != side) continue;
+    number[v] = static_cast<idx_t>(result.cluster.size());
+    result.cluster.push_back(whole.cluster[v]);
+    result.graph.vertex_weight.push_back(whole.graph.vertex_weight[v]);
+  }
+  for (std::size_t v = 0; v < half.size(); ++v) {
+    if (half[v] != side) continue;
+    for (idx_t k = whole.graph.start[v]; k < whole.graph.start[v + 1]; ++k) {
+      if (number[whole.graph.neighbor[k]] < 0) continue;
+      result.graph.neighbor.push_back(number[whole.graph.neighbor[k]]);
+      result.graph.edge_weight.push_back(whole.graph.edge_weight[k]);
+    }
+    result.graph.start.push_back(static_cast<idx_t>(result.graph.neighbor.size()));
+  }
+  return result;
+}
+
+// Appends a bit for every level to the part of each cluster of the portion. METIS would do the recursion
+// itself, but it prints to standard output if one of its parts is left without vertices, as where a cluster
+// holds most of the mesh.
+void bisect(Portion portion, int levels, std::vector<int>& part) {
+  if (levels == 0 || portion.cluster.empty()) return;
+  const std::vector<idx_t> half = halves(portion.graph);
+  for (std::size_t v = 0; v < half.size(); ++v)
+    part[portion.cluster[v]] += static_cast<int>(half[v]) << (levels - 1);
+  Portion left = portion_of(portion, half, 0), right = portion_of(portion, half, 1);
+  portion = {};
+  bisect(std::move(left), levels - 1, part);
+  bisect(std::move(right), levels - 1, part);
+}
+
+// The part of every cluster by recursive bisection: the highest bit of its number is the first bisection's,
+// and so on.
+std::vector<int> bisected(ClusterGraph graph, int levels) {
+  const int count = static_cast<int>(graph.vertex_weight.size());
+  std::vector<int> part(count, 0), all(count);
+  std::iota(all.begin(), all.end(), 0);
+  bisect({std::move(graph), std::move(all)}, levels, part);
   return part;
 }
 
@@ -223,8 +287,7 @@ Dissection dissect(const Neighbors& graph) {
   std::vector<int> part(n, 0);
   if (levels > 0) {
     const Clusters clusters = clustered(graph);
-    ClusterGraph coarse = graph_of(clusters, graph);
-    const std::vector<idx_t> part_of_cluster = bisected(coarse, levels);
+    const std::vector<int> part_of_cluster = bisected(graph_of(clusters, graph), levels);
     for (int v = 0; v < n; ++v) part[v] = part_of_cluster[clusters.of[v]];
     smooth_interfaces(graph, part);
   }

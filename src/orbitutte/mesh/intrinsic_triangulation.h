@@ -2,6 +2,7 @@
 // Triangulations of a surface by geodesics, known by their edge lengths alone.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "orbitutte/mesh/connectivity.h"
@@ -23,12 +24,13 @@ struct Flip {
 /// face has its own unit of length: two faces beside an edge need not agree on its length, only on what is
 /// similar, and angles, flips and cotangents know no more.
 struct IntrinsicTriangulation {
-  Faces F;                             ///< m x 3
-  Connectivity connectivity;           ///< of F
-  std::vector<double> length;          ///< 3 m: of every half-edge, in its face's unit
-  std::vector<double> half_cotangent;  ///< 3 m: of the angle opposite to every half-edge
-  std::vector<Flip> flips;             ///< that lead here from the mesh, in this order
-  std::vector<int> kept_faces;         ///< of the mesh: none of their edges is flipped
+  Faces F;                                          ///< m x 3
+  Connectivity connectivity;                        ///< of F
+  std::vector<double> length;                       ///< 3 m: of every half-edge, in its face's unit
+  std::vector<double> half_cotangent;               ///< 3 m: of the angle opposite to every half-edge
+  std::vector<Flip> flips;                          ///< that lead here from the mesh, in this order
+  std::vector<int> kept_faces;                      ///< of the mesh: none of their edges is flipped
+  std::vector<std::array<int, 2>> kept_apart = {};  ///< vertices that no flip joins by an edge
 };
 
 }  // namespace orbitutte

@@ -2,6 +2,7 @@
 // What a mesh file holds: polygons, in the order of the file, not yet judged.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "orbitutte/types.h"
@@ -15,6 +16,8 @@ struct PolygonMesh {
   std::vector<int> corners;           ///< the vertices of all faces, one face after the other
   std::vector<int> face_start = {0};  ///< face f is corners[face_start[f]] .. corners[face_start[f + 1] - 1]
   Points colours = Points(0, 3);      ///< n x 3, of the vertices: sRGB, 0 .. 1; or none
+  /// What the reader of the file passed over or took for something else, one sentence each.
+  std::vector<std::string> warnings = {};
 
   int vertex_count() const { return static_cast<int>(V.rows()); }
   int face_count() const { return static_cast<int>(face_start.size()) - 1; }

@@ -244,8 +244,13 @@ Target parse_orbifold(const std::string& signature) {
   return target;
 }
 
+bool are_opposite(const std::vector<Mark>& marks) {
+  return marks.size() == 2 && marks[0].angle == marks[1].angle && marks[0].kind == marks[1].kind &&
+         marks[0].kind != ConeKind::fixed;
+}
+
 std::vector<double> metric_angles(const std::vector<Mark>& marks) {
-  const bool slides = marks.size() == 2 && marks[0].angle == marks[1].angle && marks[0].kind == marks[1].kind;
+  const bool slides = are_opposite(marks);
   std::vector<double> angles;
   for (const Mark& mark : marks) angles.push_back((slides ? 2 : 1) * mark.angle);
   return angles;

@@ -15,6 +15,9 @@ namespace orbitutte {
 /// spindles, order one), and Euclidean ones that have no tile here.
 Target parse_orbifold(const std::string& signature);
 
+/// Do the marks lie at opposite points of the sphere? Two alike do, if they are all there are.
+bool are_opposite(const std::vector<Mark>& marks);
+
 /// The angle of each mark in the metric that weights take at cones (sharpened_at_cones), radians; 0 where the
 /// mark is no cone. It is the mark's own, but twice that where two alike are all there are: these lie
 /// opposite to each other, and the map may slide along their axis at no cost but the error of the elements

@@ -17,7 +17,7 @@ namespace {
 
 /// One device for the process, never released: Embree's threads may outlive the program's statics.
 RTCDevice device() {
-  static RTCDevice shared = rtcNewDevice(nullptr);
+  static RTCDevice shared = rtcNewDevice("verbose=0");
   if (!shared) throw Error("Embree does not start");
   return shared;
 }

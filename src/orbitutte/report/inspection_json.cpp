@@ -61,9 +61,12 @@ std::vector<WeakPlace> weak_places(const PolygonMesh& mesh, const Inspection& in
   return inspection.defects.empty() ? find_weak_places(mesh) : std::vector<WeakPlace>();
 }
 
-std::string inspection_json(const std::string& path, const Inspection& inspection,
+std::string inspection_json(const std::string& path, const PolygonMesh& mesh, const Inspection& inspection,
                             const std::vector<WeakPlace>& places) {
   Json json = to_json(path, inspection);
+  json["warnings"] = mesh.warnings;
+  json["hints"] = Json::array();
+  if (!inspection.welding_advice.empty()) json["hints"].push_back(inspection.welding_advice);
   json["weak_places"] = to_json(places);
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -17,8 +17,8 @@ std::vector<std::string> families_for(const Inspection& inspection);
 std::vector<WeakPlace> weak_places(const PolygonMesh& mesh, const Inspection& inspection);
 
 /// Topology, quality, defects and weak places of a mesh, and what it embeds into, as JSON
-/// (docs/file-formats.md).
-std::string inspection_json(const std::string& path, const Inspection& inspection,
+/// (docs/file-formats.md). `path`: of the file that the mesh was read from.
+std::string inspection_json(const std::string& path, const PolygonMesh& mesh, const Inspection& inspection,
                             const std::vector<WeakPlace>& places);
 
 /// All families, as JSON: a list of objects with `family`, `group_order`, `input` and `marked_points`.

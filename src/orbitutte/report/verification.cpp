@@ -153,7 +153,12 @@ EdgeWeights weights_of(const Surface& surface, const Embedding& embedding, const
   std::vector<ConeAngle> cones;
   for (std::size_t k = 0; k < angles.size(); ++k)
     if (angles[k] > 0) cones.push_back({embedding.cones[k].vertex, angles[k]});
-  return sharpened_at_cones(edge_weights(surface, report.weights, report.kept_faces), cones);
+  UnflippedEdges unflipped = {report.kept_faces};
+  if (are_opposite(marks))
+    unflipped.kept_apart.push_back({embedding.cones[0].vertex, embedding.cones[1].vertex});
+  const EdgeWeights weights = edge_weights(surface, report.weights, {report.kept_faces});
+  return sharpened_at_cones(kept_apart(weights, surface, report.weights, unflipped), cones,
+                            unflipped.kept_apart);
 }
 
 }  // namespace orbitutte

@@ -42,11 +42,22 @@ void flatten(IntrinsicTriangulation& T, int h, double b) {
   measure_angles(T, h / 3);
 }
 
+bool joins_any(const IntrinsicTriangulation& T, const std::vector<std::array<int, 2>>& pairs) {
+  const std::vector<std::array<int, 2>>& edges = T.connectivity.edges;
+  return std::any_of(pairs.begin(), pairs.end(), [&](const std::array<int, 2>& pair) {
+    return std::any_of(edges.begin(), edges.end(), [&](const std::array<int, 2>& edge) {
+      return edge == pair || edge == std::array{pair[1], pair[0]};
+    });
+  });
+}
+
 }  // namespace
 
-EdgeWeights sharpened_at_cones(const EdgeWeights& weights, const std::vector<ConeAngle>& cones) {
+EdgeWeights sharpened_at_cones(const EdgeWeights& weights, const std::vector<ConeAngle>& cones,
+                               const std::vector<std::array<int, 2>>& apart) {
   if (!weights.triangulation) return weights;
   IntrinsicTriangulation T = *weights.triangulation;
+  T.kept_apart = apart;
   const std::vector<std::vector<int>> halfedges = leaving(T, cones);
   std::vector<char> cones_of_face(T.F.rows(), 0);
   for (const std::vector<int>& of_cone : halfedges)
@@ -64,6 +75,12 @@ EdgeWeights sharpened_at_cones(const EdgeWeights& weights, const std::vector<Con
   }
   make_delaunay(T, changed);
   return intrinsic_weights(std::move(T), weights.clamp);
+}
+
+EdgeWeights kept_apart(const EdgeWeights& weights, const Surface& surface, const WeightOptions& options,
+                       const UnflippedEdges& unflipped) {
+  if (!weights.triangulation || !joins_any(*weights.triangulation, unflipped.kept_apart)) return weights;
+  return edge_weights(surface, options, unflipped);
 }
 
 }  // namespace orbitutte

@@ -2,6 +2,7 @@
 // Weights around cones, where a conformal map is a power, which piecewise linear maps approximate badly.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "orbitutte/weights/weights.h"
@@ -25,7 +26,15 @@ struct ConeAngle {
 /// elements there approximate it badly, and the error falls with the distance r only as (h/r)^(2b), where h
 /// is the length of an edge: on a mesh of 270,000 triangles it causes most of the mean angle distortion.
 ///
-/// A face with two cones stays as it is. Flips make the triangulation Delaunay in the new metric.
-EdgeWeights sharpened_at_cones(const EdgeWeights& weights, const std::vector<ConeAngle>& cones);
+/// A face with two cones stays as it is. Flips make the triangulation Delaunay in the new metric, but join no
+/// two vertices of `apart`.
+EdgeWeights sharpened_at_cones(const EdgeWeights& weights, const std::vector<ConeAngle>& cones,
+                               const std::vector<std::array<int, 2>>& apart = {});
+
+/// edge_weights(surface, options, unflipped), if the triangulation of `weights`, which were found without
+/// unflipped.kept_apart, joins such a pair; otherwise these. A map puts the pairs at opposite points of the
+/// sphere, where every arc between them is as short as any other.
+EdgeWeights kept_apart(const EdgeWeights& weights, const Surface& surface, const WeightOptions& options,
+                       const UnflippedEdges& unflipped);
 
 }  // namespace orbitutte

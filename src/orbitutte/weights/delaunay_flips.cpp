@@ -105,7 +105,14 @@ class DelaunayFlips {
     const bool leaves_an_ear =
         (opposite_[ka] < 0 && flip.beyond_al < 0) || (opposite_[bk] < 0 && flip.beyond_lb < 0);
     const int l = origin(T_.F, previous_halfedge(flip.g));
-    return leaves_an_ear || origin(T_.F, ka) == l || are_joined(ka, l);
+    const int k = origin(T_.F, ka);
+    return leaves_an_ear || k == l || are_kept_apart(k, l) || are_joined(ka, l);
+  }
+
+  bool are_kept_apart(int k, int l) const {
+    return std::any_of(T_.kept_apart.begin(), T_.kept_apart.end(), [&](const std::array<int, 2>& pair) {
+      return pair == std::array{k, l} || pair == std::array{l, k};
+    });
   }
 
   // Does an edge join the origin of half-edge `out` to w? w is not a vertex of the face of `out`. Walks

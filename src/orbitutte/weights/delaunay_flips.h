@@ -32,9 +32,9 @@ IntrinsicTriangulation intrinsic_triangulation(const Surface& surface);
 
 /// Flips edges until each is Delaunay: its opposite angles add up to at most pi, up to rounding. All edges
 /// but the given ones must be Delaunay before. An edge is not flipped if it is on the boundary or belongs to
-/// a kept face, if the flip would join two vertices by a second edge, or if it would leave a boundary vertex
-/// with a single face: a vertex of degree two has no place of its own in a Tutte embedding. Takes O(n) time
-/// on practical meshes. The faces need not be consistently oriented.
+/// a kept face, if the flip would join two vertices by a second edge or two that are kept apart by any, or if
+/// it would leave a boundary vertex with a single face: a vertex of degree two has no place of its own in a
+/// Tutte embedding. Takes O(n) time on practical meshes. The faces need not be consistently oriented.
 void make_delaunay(IntrinsicTriangulation& triangulation, const std::vector<int>& edges);
 
 }  // namespace orbitutte

@@ -70,13 +70,14 @@ EdgeWeights cotangent_weights(const Surface& surface, double clamp) {
   return result;
 }
 
-EdgeWeights delaunay_weights(const Surface& surface, double clamp, const std::vector<int>& kept_faces) {
-  for (const int f : kept_faces)
+EdgeWeights delaunay_weights(const Surface& surface, double clamp, const UnflippedEdges& unflipped) {
+  for (const int f : unflipped.kept_faces)
     if (f < 0 || f >= surface.triangle_count())
       throw MeshError(fmt::format("there is no face {} to keep; the mesh has the faces 0 to {}", f,
                                   surface.triangle_count() - 1));
   IntrinsicTriangulation triangulation = intrinsic_triangulation(surface);
-  triangulation.kept_faces = kept_faces;
+  triangulation.kept_faces = unflipped.kept_faces;
+  triangulation.kept_apart = unflipped.kept_apart;
   std::vector<int> all(surface.connectivity.edges.size());
   std::iota(all.begin(), all.end(), 0);
   make_delaunay(triangulation, all);
@@ -219,7 +220,7 @@ WeightKind weight_kind(const Surface& surface, WeightKind asked) {
 }
 
 EdgeWeights edge_weights(const Surface& surface, const WeightOptions& options,
-                         const std::vector<int>& kept_faces) {
+                         const UnflippedEdges& unflipped) {
   if (!(options.clamp > 0) || !std::isfinite(options.clamp))
     throw ArgumentError(
         fmt::format("the clamp of the weights is {}; it must be positive and finite", options.clamp));
@@ -228,7 +229,7 @@ EdgeWeights edge_weights(const Surface& surface, const WeightOptions& options,
   if (options.kind == WeightKind::file) return given_weights(options.given, surface.connectivity);
   const WeightKind kind = weight_kind(surface, options.kind);
   EdgeWeights result = kind == WeightKind::cotan        ? cotangent_weights(surface, options.clamp)
-                       : kind == WeightKind::delaunay   ? delaunay_weights(surface, options.clamp, kept_faces)
+                       : kind == WeightKind::delaunay   ? delaunay_weights(surface, options.clamp, unflipped)
                        : kind == WeightKind::mean_value ? mean_value_weights(surface)
                                                         : uniform_weights(surface);
   result.kind = kind;

@@ -2,6 +2,7 @@
 // Edge weights of the discrete Dirichlet energy (section 4), on the uncut mesh.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,14 @@ struct WeightOptions {
   std::vector<WeightedEdge> given = {};
 };
 
+/// What the flips of kind `delaunay` leave as it is.
+struct UnflippedEdges {
+  /// Triangles of the surface, none of whose edges is flipped.
+  std::vector<int> kept_faces;
+  /// Pairs of vertices that no flip joins by an edge.
+  std::vector<std::array<int, 2>> kept_apart = {};
+};
+
 /// The kind of weights that a surface gets if this kind is asked for. `standard` stands for `delaunay`, or
 /// for `cotan` if some faces have more than three corners. Throws ArgumentError if such faces are to have
 /// `delaunay` or `mean_value` weights, which are defined on triangles only.
@@ -35,11 +44,11 @@ WeightKind weight_kind(const Surface& surface, WeightKind asked);
 /// Weights on the uncut mesh, so that no cut can change them. Zero-area triangles have no cotangents and add
 /// nothing to `cotan`; `delaunay` and `mean_value` use mollified_lengths. Mean value weights are made
 /// symmetric, since weights of an energy must be; they are positive, but no longer reproduce linear maps (M.
-/// Floater, "Mean value coordinates", CAGD 20 (2003)). For kind `delaunay`, no edge of the kept faces
-/// (triangles of the surface) is flipped. Throws ArgumentError if the clamp is not positive and finite, and
-/// as weight_kind does; MeshError as given_weights does, and if a kept face does not exist.
+/// Floater, "Mean value coordinates", CAGD 20 (2003)). For kind `delaunay`, `unflipped` limits the flips.
+/// Throws ArgumentError if the clamp is not positive and finite, and as weight_kind does; MeshError as
+/// given_weights does, and if a kept face does not exist.
 EdgeWeights edge_weights(const Surface& surface, const WeightOptions& options,
-                         const std::vector<int>& kept_faces = {});
+                         const UnflippedEdges& unflipped = {});
 
 /// Cotangent weights of an intrinsic triangulation: see WeightKind::delaunay.
 EdgeWeights intrinsic_weights(IntrinsicTriangulation triangulation, double clamp);

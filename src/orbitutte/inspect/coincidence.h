@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// Vertices of the boundary at the same point: they tell that a surface was never welded together, as along
+// the seams of a texture.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "orbitutte/types.h"
+
+namespace orbitutte {
+
+/// Two vertices of the boundary that no edge of the boundary joins.
+struct Coincidence {
+  int vertex = -1, other = -1;  ///< vertex < other
+  double distance = 0;          ///< 0: at the same point
+};
+
+/// The first two vertices at the same point, or, if there are none, nearly so: a millionth of the boundary's
+/// size apart. `boundary`: its edges, in any order; positions that are not finite are left out. O(n log n).
+std::optional<Coincidence> find_coincidence(const Points& V, const std::vector<std::array<int, 2>>& boundary);
+
+/// "vertices 2 and 14 are at the same point: weld such vertices first"; empty if there are none.
+std::string welding_advice(const std::optional<Coincidence>& coincidence);
+
+/// " (the sentence)", or nothing if it is empty.
+std::string in_brackets(const std::string& sentence);
+
+}  // namespace orbitutte
