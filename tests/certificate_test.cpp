@@ -316,7 +316,8 @@ TEST_P(WrappedLune, IsSeenByItsAreaAndItsAngles) {
   ASSERT_TRUE(certify(test::unjudged(mesh), embedding).bijective);
   wrap(embedding, times);
   EXPECT_THAT(rejection(mesh, embedding), UnorderedElementsAre("signed_area", "cone_angles"));
-  EXPECT_NEAR(certify(test::unjudged(mesh), embedding).signed_area, times * 4 * pi / embedding.target.group_order, 1e-9);
+  EXPECT_NEAR(certify(test::unjudged(mesh), embedding).signed_area,
+              times * 4 * pi / embedding.target.group_order, 1e-9);
 }
 
 INSTANTIATE_TEST_SUITE_P(Certificate, WrappedLune,
@@ -341,7 +342,8 @@ TEST(Certificate, SectorOfNWrappedTwiceIsSeenByItsAreaAndItsAngle) {
   ASSERT_TRUE(certify(test::unjudged(mesh), embedding).bijective);
   wrap(embedding, 2);
   EXPECT_THAT(rejection(mesh, embedding), UnorderedElementsAre("signed_area", "cone_angles"));
-  EXPECT_NEAR(certify(test::unjudged(mesh), embedding).signed_area, 2 * 4 * pi / embedding.target.group_order, 1e-9);
+  EXPECT_NEAR(certify(test::unjudged(mesh), embedding).signed_area, 2 * 4 * pi / embedding.target.group_order,
+              1e-9);
 }
 
 TEST(Certificate, ConeClaimedOnTheWrongSideOfTheStarIsSeen) {

@@ -323,7 +323,8 @@ TEST(Embed, RenumberingVerticesAndFacesChangesNothing) {
     const EmbedResult other = embedded(mesh, signature, marks);
     expect_certified(other, signature);
     const auto length = [](const Embedding& e, int f, int k) {
-      return Space::sphere().distance(e.positions.row(e.faces(f, k)), e.positions.row(e.faces(f, (k + 1) % 3)));
+      return Space::sphere().distance(e.positions.row(e.faces(f, k)),
+                                      e.positions.row(e.faces(f, (k + 1) % 3)));
     };
     double worst = 0;
     for (int f = 0; f < test::face_count(mesh); ++f)

@@ -168,7 +168,8 @@ TEST(Plane, PlantedFaultsAreSeen) {
   EXPECT_FALSE(certify(test::unjudged(s.mesh), sheared).bijective);
   Embedding round = s.result.embedding;
   round.target = parse_orbifold("432");
-  EXPECT_FALSE(certify(test::unjudged(s.mesh), round).bijective) << "a map into the plane taken for one into the sphere";
+  EXPECT_FALSE(certify(test::unjudged(s.mesh), round).bijective)
+      << "a map into the plane taken for one into the sphere";
 }
 
 // ----------------------------------------------------------------------------------------------- exact

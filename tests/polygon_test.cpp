@@ -391,8 +391,8 @@ class PolygonCertificate : public testing::Test {
 TEST_F(PolygonCertificate, ExpectsTheAreaOfThePolygon) {
   const Points& X = result.embedding.positions;
   const auto corner = [&](int k) -> Vector3 { return X.row(result.embedding.cones[k].vertex); };
-  const double two_triangles =
-      Space::sphere().area(corner(0), corner(1), corner(2)) + Space::sphere().area(corner(0), corner(2), corner(3));
+  const double two_triangles = Space::sphere().area(corner(0), corner(1), corner(2)) +
+                               Space::sphere().area(corner(0), corner(2), corner(3));
   EXPECT_NEAR(result.certificate.expected_area, two_triangles, 1e-14);
   EXPECT_NEAR(result.certificate.signed_area, two_triangles, 1e-12);
 }

@@ -122,9 +122,9 @@ TEST_P(EveryFamily, EnergyDoesNotKnowWhereTheCutRuns) {
   const auto second = solve_case(GetParam(), {5});
   const LaplacianSolver other(second->cut, second->glued, second->weights, second->boundary);
   const DirichletEnergy other_energy(second->glued, second->weights, second->boundary);
-  const Minimum two =
-      minimize(other_energy, other,
-               initial_embedding(test::unjudged(second->mesh), second->cut, second->tile, second->boundary, other));
+  const Minimum two = minimize(
+      other_energy, other,
+      initial_embedding(test::unjudged(second->mesh), second->cut, second->tile, second->boundary, other));
   EXPECT_NEAR(one.energy, two.energy, 1e-12 * one.energy);
 }
 
@@ -286,8 +286,8 @@ TEST_P(EveryFamily, OptimiserConvergesWithEnergyThatNeverRises) {
   const auto c = solve_case(GetParam());
   const LaplacianSolver laplacian(c->cut, c->glued, c->weights, c->boundary);
   const DirichletEnergy energy(c->glued, c->weights, c->boundary);
-  const Minimum minimum =
-      minimize(energy, laplacian, initial_embedding(test::unjudged(c->mesh), c->cut, c->tile, c->boundary, laplacian));
+  const Minimum minimum = minimize(
+      energy, laplacian, initial_embedding(test::unjudged(c->mesh), c->cut, c->tile, c->boundary, laplacian));
   EXPECT_EQ(minimum.termination, Termination::converged);
   EXPECT_LE(minimum.gradient_norm, 1e-9);
   EXPECT_LE(minimum.iterations, 60);
@@ -305,8 +305,8 @@ TEST_P(EveryFamily, MinimumDoesNotDependOnTheStart) {
   const auto c = solve_case(GetParam());
   const LaplacianSolver laplacian(c->cut, c->glued, c->weights, c->boundary);
   const DirichletEnergy energy(c->glued, c->weights, c->boundary);
-  const Minimum one =
-      minimize(energy, laplacian, initial_embedding(test::unjudged(c->mesh), c->cut, c->tile, c->boundary, laplacian));
+  const Minimum one = minimize(
+      energy, laplacian, initial_embedding(test::unjudged(c->mesh), c->cut, c->tile, c->boundary, laplacian));
   const Minimum two = minimize(energy, laplacian, feasible_positions(*c, 20));
   EXPECT_NEAR(one.energy, two.energy, 1e-12 * one.energy);
 }

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "orbitutte/orbifold/signature.h"
 #include "orbitutte/orbifold/symmetry_group.h"
 
 #include <gtest/gtest.h>
@@ -10,6 +9,7 @@
 #include <set>
 
 #include "hand_made.h"
+#include "orbitutte/orbifold/signature.h"
 #include "orbitutte/orbifold/tile.h"
 #include "planar_families.h"
 
