@@ -9,12 +9,16 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd -P)
 case "${1-}" in -h | --help) sed -n '3,6s/^# //p' "$root/demo.sh"; exit 0 ;; esac
 
 "$root/setup"
-"$root/cmake/build.sh" orbitutte_cli
+"$root/cmake/build.sh" orbitutte_product
 
 orbitutte=$root/build/orbitutte
 out=$root/out
 mkdir -p "$out"
-rm -f "$out"/embedding.ply "$out"/report.json "$out"/tiling.{ply,glb} "$out"/picture.png "$out"/page.html
+written=("$out"/embedding.ply "$out"/report.json "$out"/tiling.{ply,glb} "$out"/picture.png "$out"/page.html)
+for file in "${written[@]}"; do
+  [ $# = 0 ] || ! [ "$1" -ef "$file" ] || { echo "demo.sh: $1 is a file that the demo itself writes; copy it and give the copy" >&2; exit 2; }
+done
+rm -f "${written[@]}"
 
 if [ $# = 0 ]; then
   mesh=$out/sample.ply
@@ -79,7 +83,11 @@ print(f"{sys.argv[2]}: {mesh['vertices']} vertices, {mesh['faces']} triangles, a
 print(f"embedded into {orbifold['signature']}, whose group has {orbifold['group_order']} elements, "
       f"cones at {', '.join(str(cone['vertex']) for cone in report['cones'])}")
 print(f"energy {report['energy']:.6g}, {report['iterations']} iterations ({report['termination']}), "
-      f"{report['timings']['total']:.2f} s; angle distortion {report['distortion']['angle']['mean']:.4g} in the mean")
+      f"{report['timings']['total']:.2f} s")
+distortion = report['distortion']
+print(f"area: {distortion['within_4']:.1%} of the surface within a factor of 4 of its share, "
+      f"{distortion['below_64']:.1%} shrunk by more than 64")
+print(f"angles: median distortion {distortion['angle']['median']:.4g}, where 1 is none")
 if report['certificate']['bijective']:
     print('certified: the map is a bijection onto the orbifold')
 else:

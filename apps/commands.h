@@ -37,7 +37,10 @@ struct InfoArguments {
 };
 int info_command(const InfoArguments& arguments);
 
-int types_command(bool json);
+struct TypesArguments {
+  bool json = false;
+};
+int types_command(const TypesArguments& arguments);
 
 struct VerifyArguments {
   std::string embedding, report, mesh, weights_file;

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <cstdio>
 
 #include "command_arguments.h"
 #include "commands.h"
@@ -16,6 +15,7 @@
 #include "orbitutte/orbifold/polygon.h"
 #include "orbitutte/report/embedding_file.h"
 #include "orbitutte/report/report.h"
+#include "standard_streams.h"
 
 namespace orbitutte::cli {
 namespace {
@@ -47,16 +47,15 @@ class ProgressLine {
   void show(const Progress& progress) const {
     if (!shown_) return;
     if (progress.stage == "optimize" && progress.energy > 0) {
-      fmt::print(stderr, "\r\033[Koptimize: iteration {}, energy {:.9g}, gradient {:.1e}", progress.iteration,
-                 progress.energy, progress.gradient_norm);
+      tell("\r\033[Koptimize: iteration {}, energy {:.9g}, gradient {:.1e}", progress.iteration,
+           progress.energy, progress.gradient_norm);
     } else {
-      fmt::print(stderr, "\r\033[K{} ...", progress.stage);
+      tell("\r\033[K{} ...", progress.stage);
     }
-    std::fflush(stderr);
   }
 
   void clear() const {
-    if (shown_) fmt::print(stderr, "\r\033[K");
+    if (shown_) tell("\r\033[K");
   }
 
  private:
@@ -73,17 +72,18 @@ Spread parse_spread(const std::string& text) {
 Target orbifold_from(const EmbedArguments& arguments) {
   const bool polygon = arguments.orbifold == polygon_signature;
   if (!polygon && !arguments.polygon.empty())
-    throw ArgumentError(fmt::format(
-        "--polygon gives the corners of a fixed boundary, which {} has not; give --orbifold polygon",
-        arguments.orbifold));
+    throw ArgumentError(
+        fmt::format("--polygon gives the corners of a fixed boundary, but {} has no such boundary; give "
+                    "--orbifold polygon",
+                    arguments.orbifold));
   if (!polygon && arguments.cones.empty())
-    throw ArgumentError("--cones is missing; mark vertices, or 'auto'");
+    throw ArgumentError("--cones is missing; give the vertices to be marked, as in 12,40,7, or 'auto'");
   if (!polygon) return parse_orbifold(arguments.orbifold);
   if (arguments.polygon.empty())
     throw ArgumentError(
-        "--polygon is missing: the file with the corners of the polygon, 'vertex x y z' each");
+        "--polygon is missing; give the file with the corners of the polygon, a line 'vertex x y z' each");
   if (!arguments.cones.empty())
-    throw ArgumentError("--cones is not for polygons: the lines of --polygon name the vertices");
+    throw ArgumentError("leave out --cones: the lines of the file of --polygon name the marked vertices");
   return polygon_target(read_corners(arguments.polygon));
 }
 
@@ -122,27 +122,62 @@ std::string group_text(const Target& target) {
   return target.group_order > 0 ? fmt::format("group of order {}", target.group_order) : "infinite group";
 }
 
+// "12.3 %"
+std::string percent(double share) { return fmt::format("{:.1f} %", 100 * share); }
+
 void summarize(const EmbedArguments& arguments, const EmbedResult& result) {
   const Minimum& minimum = result.minimum;
+  const Distortion& distortion = result.distortion;
   std::vector<int> cones;
   for (const ConeCopies& cone : result.embedding.cones) cones.push_back(cone.vertex);
-  fmt::print(stderr, "{}: {} vertices, {} faces, a {}, onto {} ({}), cones {}\n", arguments.mesh,
-             minimum.positions.rows(), result.embedding.input_faces().count(), name(result.topology),
-             result.embedding.target.signature, group_text(result.embedding.target), fmt::join(cones, ","));
-  fmt::print(stderr, "energy {:.12g} after {} iterations, gradient {:.1e}: {}\n", minimum.energy,
-             minimum.iterations, minimum.gradient_norm, name(minimum.termination));
-  fmt::print(stderr, "area distortion: mean {:.4g}, max {:.4g}; angle distortion: mean {:.4g}, max {:.4g}\n",
-             result.distortion.area.mean, result.distortion.area.max, result.distortion.angle.mean,
-             result.distortion.angle.max);
-  if (result.certificate.bijective) {
-    fmt::print(stderr, "certified: bijective\n");
-    return;
+  tell("{}: {} vertices, {} faces, a {}, onto {} ({}), cones {}\n", arguments.mesh, minimum.positions.rows(),
+       result.embedding.input_faces().count(), name(result.topology), result.embedding.target.signature,
+       group_text(result.embedding.target), fmt::join(cones, ","));
+  tell("energy {:.12g} after {} iterations, gradient {:.1e}: {}\n", minimum.energy, minimum.iterations,
+       minimum.gradient_norm, name(minimum.termination));
+  tell("area: {} of the surface within a factor of 4 of its share, {} shrunk by more than 64\n",
+       percent(distortion.within_4), percent(distortion.below_64));
+  tell("angles: median distortion {:.4g}, where 1 is none\n", distortion.angle.median);
+  if (result.certificate.bijective) tell("certified: bijective\n");
+}
+
+// Other weights than these, which know less of lengths and angles; none if nothing is left to try.
+std::string other_weights(WeightKind kind) {
+  if (kind == WeightKind::delaunay) return "take other weights (--weights cotan or uniform)";
+  if (kind == WeightKind::uniform || kind == WeightKind::file) return "";
+  return "take other weights (--weights uniform)";
+}
+
+// What may help where the result is not certified, in one sentence.
+std::string remedy(const EmbedArguments& arguments, const EmbedResult& result) {
+  std::vector<std::string> ways;
+  const Termination termination = result.minimum.termination;
+  if (termination == Termination::max_iterations) ways.push_back("allow more iterations (--max-iterations)");
+  if (termination == Termination::line_search_failed)
+    ways.push_back("ask for less accuracy (--tolerance 1e-8)");
+  if (termination == Termination::converged && arguments.orbifold != polygon_signature)
+    ways.push_back("mark the tips of the longest limbs (--cones)");
+  if (arguments.orbifold == polygon_signature)
+    ways.push_back("take an orbifold such as *432, along whose mirrors the boundary may slide");
+  if (const std::string way = other_weights(result.weights.kind); !way.empty()) ways.push_back(way);
+  ways.push_back("make the mesh coarser or more even where the faces are smallest");
+  return fmt::format("What may help: {}.", fmt::join(ways, "; "));
+}
+
+// What failed, one line for each check, and what may help.
+void explain(const EmbedArguments& arguments, const EmbedResult& result) {
+  const std::size_t turned = result.certificate.nonpositive_faces.size();
+  if (turned > 0) {
+    tell("orbitutte: not certified: {} of {} faces are not positive on the sphere, the first face {}\n",
+         turned, result.embedding.input_faces().count(), result.certificate.nonpositive_faces.front());
+  } else {
+    tell("orbitutte: not certified, although every face is positive on the sphere\n");
   }
-  fmt::print(stderr, "not certified:\n");
   for (const Check& check : result.certificate.checks)
-    if (!check.passed) fmt::print(stderr, "  {}: {}\n", check.name, check.detail);
+    if (!check.passed) tell("  {}: {}\n", check.name, check.detail);
   if (result.intrinsic_certificate && result.intrinsic_certificate->bijective)
-    fmt::print(stderr, "certified of the intrinsic Delaunay triangulation: bijective\n");
+    tell("  the intrinsic Delaunay triangulation, which has the weights, is certified: bijective\n");
+  tell("{}\n", remedy(arguments, result));
 }
 
 }  // namespace
@@ -160,7 +195,7 @@ int embed_command(const EmbedArguments& arguments) {
 
   if (automatic) {
     cones = choose_marked_vertices(surface, orbifold);
-    if (!arguments.quiet) fmt::print(stderr, "--cones {}\n", fmt::join(cones, ","));
+    if (!arguments.quiet) tell("--cones {}\n", fmt::join(cones, ","));
   }
   const ProgressLine line(arguments.quiet);
   options.progress = [&](const Progress& progress) {
@@ -169,7 +204,7 @@ int embed_command(const EmbedArguments& arguments) {
   };
   const EmbedResult result = embed(surface, orbifold, cones, options);
   line.clear();
-  for (const std::string& warning : result.warnings) fmt::print(stderr, "orbitutte: warning: {}\n", warning);
+  for (const std::string& warning : result.warnings) tell("orbitutte: warning: {}\n", warning);
 
   const Stopwatch writing;
   if (!arguments.output.empty()) write_file(arguments.output, serialize_embedding(result.embedding));
@@ -180,8 +215,9 @@ int embed_command(const EmbedArguments& arguments) {
   if (!arguments.report.empty()) write_file(arguments.report, report);
   if (arguments.json) fmt::print("{}", report);
   if (!arguments.quiet) summarize(arguments, result);
-  if (result.minimum.termination != Termination::converged) return not_converged;
-  return result.certificate.bijective ? succeeded : not_certified;
+  if (result.certificate.bijective) return succeeded;
+  explain(arguments, result);
+  return result.minimum.termination == Termination::converged ? not_certified : not_converged;
 }
 
 }  // namespace orbitutte::cli

@@ -4,6 +4,7 @@
 #include "orbitutte/inspect/recognition.h"
 #include "orbitutte/io/mesh_io.h"
 #include "orbitutte/report/report.h"
+#include "standard_streams.h"
 
 namespace orbitutte::cli {
 
@@ -12,15 +13,14 @@ int export_command(const ExportArguments& arguments) {
   const Embedding embedding = read_embedding(arguments.embedding, read_report(arguments.report));
   const ExportedModel model = exported_model(make_surface(read_mesh(arguments.mesh)), embedding, chart);
   write_model(arguments.output, model);
-  fmt::print(stderr,
-             "{}: {} vertices, {} texture coordinates, {} faces; largest area distortion of the {} chart "
-             "{:.3g}\n",
-             arguments.output, model.surface.V.rows(), model.texture.uv.rows(), model.surface.faces().count(),
-             name(chart), model.texture.max_area_distortion);
+  tell(
+      "{}: {} vertices, {} texture coordinates, {} faces; largest area distortion of the {} chart "
+      "{:.3g}\n",
+      arguments.output, model.surface.V.rows(), model.texture.uv.rows(), model.surface.faces().count(),
+      name(chart), model.texture.max_area_distortion);
   if (model.texture.torn_faces > 0)
-    fmt::print(stderr,
-               "orbitutte: warning: {} faces lie across the outer edge of the chart; choose another chart\n",
-               model.texture.torn_faces);
+    tell("orbitutte: warning: {} faces lie across the outer edge of the chart; choose another chart\n",
+         model.texture.torn_faces);
   return 0;
 }
 

@@ -11,6 +11,7 @@
 #include "orbitutte/report/verification.h"
 #include "orbitutte/samples/sample.h"
 #include "orbitutte/version.h"
+#include "standard_streams.h"
 
 namespace orbitutte::cli {
 namespace {
@@ -70,8 +71,8 @@ int verify_command(const VerifyArguments& arguments) {
 int tile_command(const TileArguments& arguments) {
   const Tiling tiling = tile_sphere(read_embedding(arguments.embedding, read_report(arguments.report)));
   write_tiling(arguments.output, tiling);
-  fmt::print(stderr, "{}: {} tiles, {} vertices, {} faces\n", arguments.output, tiling.tiles,
-             tiling.mesh.V.rows(), tiling.faces().count());
+  tell("{}: {} tiles, {} vertices, {} faces\n", arguments.output, tiling.tiles, tiling.mesh.V.rows(),
+       tiling.faces().count());
   return succeeded;
 }
 
@@ -86,7 +87,7 @@ int sample_command(const SampleArguments& arguments) {
                     arguments.shape));
   const Mesh mesh = sample_mesh(options);
   write_mesh(arguments.output, mesh);
-  fmt::print(stderr, "{}: {} vertices, {} triangles\n", arguments.output, mesh.V.rows(), mesh.F.rows());
+  tell("{}: {} vertices, {} triangles\n", arguments.output, mesh.V.rows(), mesh.F.rows());
   return succeeded;
 }
 

@@ -36,7 +36,7 @@ void print_text(const std::string& path, const Inspection& inspection, const std
   if (const std::vector<std::string> into = families_for(inspection); !into.empty()) {
     fmt::print("  embeds into {}\n", fmt::join(into, ", "));
   } else if (inspection.defects.empty()) {
-    fmt::print("  embeds into none of the families there are yet\n");
+    fmt::print("  embeds into none of the families\n");
   }
 }
 
@@ -54,15 +54,15 @@ int info_command(const InfoArguments& arguments) {
   return inspection.defects.empty() ? sound : defective;
 }
 
-int types_command(bool json) {
-  if (!json) {
+int types_command(const TypesArguments& arguments) {
+  if (!arguments.json) {
     fmt::print("{:<8} {:>11}  {:<8} {}\n", "family", "group order", "input", "marked points");
     for (const FamilyDescription& family : families())
       fmt::print("{:<8} {:>11}  {:<8} {}\n", family.family, family.group_order, name(family.topology),
                  family.marked_points);
-    fmt::print("N is any order of 2 or more. Orders of two digits are separated by commas: 2,2,12.\n");
+    fmt::print("N is 2 or more, in Nx also 1. Commas separate orders of two digits: 2,2,12.\n");
     fmt::print(
-        "Besides, 'polygon': a disk onto a convex spherical polygon, its boundary fixed (--polygon).\n");
+        "'polygon' in place of a symbol: a disk onto a convex spherical polygon that holds its boundary.\n");
     return 0;
   }
   fmt::print("{}", families_json());

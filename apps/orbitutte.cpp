@@ -2,27 +2,35 @@
 // The command line: docs/file-formats.md and `orbitutte --help` say what it does; the library does it.
 #include <CLI/CLI.hpp>
 #include <exception>
+#include <functional>
+#include <memory>
 #include <new>
+#include <sstream>
+#include <system_error>
 
+#include "command_files.h"
 #include "command_line.h"
 #include "commands.h"
-#include "orbitutte/memory.h"
-#include "orbitutte/types.h"
+#include "orbitutte/errors.h"
+#include "standard_streams.h"
+#include "usage.h"
 
 namespace {
 
 using namespace orbitutte::cli;
 
-int complain(const char* message, ExitCode code) {
-  fmt::print(stderr, "orbitutte: {}\n", message);
+int complain(const std::string& message, ExitCode code) {
+  tell("orbitutte: {}\n", message);
   return code;
 }
 
-// One sentence on standard error and the exit code of each kind of failure.
-template <typename Command>
-int run(const Command& command) {
+// Runs what prints and returns an exit code. Every kind of failure has one sentence on standard error and its
+// exit code.
+int run(const std::function<int()>& command) {
   try {
-    return command();
+    const int code = command();
+    flush_standard_output();
+    return code;
   } catch (const orbitutte::FileError& error) {
     return complain(error.what(), file_trouble);
   } catch (const std::bad_alloc&) {
@@ -31,167 +39,270 @@ int run(const Command& command) {
     return complain(error.what(), wrong_usage);
   } catch (const orbitutte::Error& error) {
     return complain(error.what(), unsuitable_mesh);
+  } catch (const std::system_error& error) {  // fmt::print throws it
+    const char* const place = std::ferror(stdout) ? "standard output cannot be written: " : "";
+    return complain(place + error.code().message(), file_trouble);
+  } catch (const std::exception& error) {
+    return complain(error.what(), file_trouble);
   }
 }
 
+// A command while it is being defined. Its input and output files are looked at before it runs.
+template <typename Arguments>
+class Command {
+ public:
+  Command(CLI::App& app, const std::string& name, const std::string& description)
+      : command_(app.add_subcommand(name, description)) {}
+
+  // Where the values of the options go.
+  Arguments* operator->() const { return arguments_.get(); }
+
+  template <typename Value>
+  CLI::Option* option(const std::string& names, Value& value, const std::string& description) {
+    return command_->add_option(names, value, description);
+  }
+
+  void flag(const std::string& names, bool& value, const std::string& description) {
+    command_->add_flag(names, value, description);
+  }
+
+  CLI::Option* input(const std::string& names, std::string& path, const std::string& content,
+                     const std::string& description) {
+    inputs_.push_back({{content, ""}, &path});
+    return command_->add_option(names, path, description);
+  }
+
+  // `file` has no path yet.
+  CLI::Option* output(const std::string& names, std::string& path, const OutputFile& file,
+                      const std::string& description) {
+    outputs_.push_back({file, &path});
+    return command_->add_option(names, path, description);
+  }
+
+  // The last step: `code` gets the exit code, and must outlive the application.
+  void runs(int (*function)(const Arguments&), int& code) {
+    command_->callback([command = *this, function, &code] {
+      code = run([&] {
+        require_sound_files(given(command.inputs_), given(command.outputs_));
+        return function(*command.arguments_);
+      });
+    });
+  }
+
+ private:
+  // A file, and where its path will be once the command line is parsed.
+  template <typename File>
+  using Expected = std::pair<File, const std::string*>;
+
+  template <typename File>
+  static std::vector<File> given(const std::vector<Expected<File>>& expected) {
+    std::vector<File> files;
+    for (auto [file, path] : expected) {
+      if (path->empty()) continue;
+      file.path = *path;
+      files.push_back(file);
+    }
+    return files;
+  }
+
+  CLI::App* command_;
+  std::shared_ptr<Arguments> arguments_ = std::make_shared<Arguments>();
+  std::vector<Expected<InputFile>> inputs_;
+  std::vector<Expected<OutputFile>> outputs_;
+};
+
+template <typename Arguments>
+void read_mesh_of(Command<Arguments>& command) {
+  command.input("mesh", command->mesh, "the mesh", "The mesh: OBJ, OFF, PLY or STL")->required();
+}
+
+// The two files that `embed` writes.
+template <typename Arguments>
+void read_embedding_of(Command<Arguments>& command) {
+  command.input("embedding", command->embedding, "the embedding", "The embedding (PLY)")->required();
+  command.input("report", command->report, "the report", "The report of the embedding (JSON)")->required();
+}
+
+template <typename Arguments>
+void read_embedding_and_mesh_of(Command<Arguments>& command) {
+  read_embedding_of(command);
+  command.input("mesh", command->mesh, "the mesh", "The mesh that was embedded")->required();
+}
+
 void add_embed(CLI::App& app, int& code) {
-  auto* command =
-      app.add_subcommand("embed", "Embed a mesh into a spherical orbifold and certify the result");
-  auto arguments = std::make_shared<EmbedArguments>();
-  command->add_option("mesh", arguments->mesh, "The mesh: OBJ, OFF, PLY or STL")->required();
+  Command<EmbedArguments> command(app, "embed", "Embed a mesh into an orbifold and certify the result");
+  read_mesh_of(command);
   command
-      ->add_option("--orbifold", arguments->orbifold,
-                   "Conway's symbol, e.g. 432, *532, 2,2,12; or 'polygon', a fixed boundary")
+      .option("--orbifold", command->orbifold,
+              "Conway's symbol, such as 432, *532 or 2,2,12 ('orbitutte types' lists all); or 'polygon', a "
+              "fixed boundary")
       ->required();
-  command->add_option(
-      "--cones", arguments->cones,
-      "The marked vertices, 0-based, in the order of the symbol, or 'auto'; not for a polygon");
-  auto* polygon =
-      command->add_option("--polygon", arguments->polygon,
-                          "The corners of the polygon: a file of lines 'vertex x y z', counterclockwise");
+  command.option("--cones", command->cones,
+                 "The marked vertices, counted from 0, in the order of the symbol, or 'auto'; not for "
+                 "a polygon");
+  CLI::Option* const polygon =
+      command.input("--polygon", command->polygon, "the polygon",
+                    "The corners of the polygon: a file of lines 'vertex x y z', counterclockwise");
   command
-      ->add_option("--spread", arguments->spread,
-                   "How boundary vertices are spread along the polygon's sides: arc-length or equidistant")
+      .option("--spread", command->spread,
+              "How boundary vertices are spread along the sides of the polygon: arc-length or equidistant")
       ->capture_default_str()
       ->needs(polygon);
-  command->add_option("-o,--output", arguments->output, "Write the embedding (binary PLY) here");
-  command->add_option("--report", arguments->report, "Write the report (JSON) here");
+  command.output("-o,--output", command->output, {"-o", "the embedding", "", {".ply"}},
+                 "Write the embedding (binary PLY) here");
+  command.output("--report", command->report, {"--report", "the report", "", {".json"}},
+                 "Write the report (JSON) here");
   command
-      ->add_option("--weights", arguments->weights,
-                   "cotan, delaunay, mean-value, uniform, or standard: delaunay, and cotan where faces are "
-                   "no triangles")
+      .option("--weights", command->weights,
+              "cotan, delaunay, mean-value, uniform, or standard: delaunay if all faces are triangles, "
+              "otherwise cotan")
       ->capture_default_str();
-  command->add_option("--clamp", arguments->clamp, "What cotangent weights that are not positive become")
+  command
+      .option("--clamp", command->clamp,
+              "This weight replaces every cotangent weight that is zero or negative")
       ->capture_default_str();
-  command->add_option("--weights-file", arguments->weights_file, "Lines 'i j w', every edge once");
-  command->add_option("--cut-seed", arguments->cut_seed, "Another cut through the same cones")
+  command.input("--weights-file", command->weights_file, "the weights",
+                "Read the weights from this file: lines 'i j w', every edge once");
+  command.option("--cut-seed", command->cut_seed, "Another number gives another cut through the same cones")
       ->capture_default_str();
-  command->add_option("--tolerance", arguments->tolerance, "On the gradient and on the last step")
+  command
+      .option("--tolerance", command->tolerance,
+              "Stop if the gradient and the last step are smaller than this")
       ->capture_default_str();
-  command->add_option("--max-iterations", arguments->max_iterations, "Then give up with exit code 4")
+  command
+      .option("--max-iterations", command->max_iterations, "Stop with exit code 4 after so many iterations")
       ->capture_default_str();
-  command->add_option("--threads", arguments->threads, "0: all cores")->capture_default_str();
-  command->add_flag("--quiet", arguments->quiet, "No progress and no summary");
-  command->add_flag("--json", arguments->json, "The report on standard output");
-  command->callback([arguments, &code] { code = run([&] { return embed_command(*arguments); }); });
+  command.option("--threads", command->threads, "Use so many threads; 0: one for every core")
+      ->capture_default_str();
+  command.flag("--quiet", command->quiet, "Print no progress and no summary");
+  command.flag("--json", command->json, "Print the report on standard output");
+  command.runs(embed_command, code);
 }
 
 void add_info(CLI::App& app, int& code) {
-  auto* command = app.add_subcommand(
-      "info", "Topology, quality, every defect found, and what the mesh can be embedded into");
-  auto arguments = std::make_shared<InfoArguments>();
-  command->add_option("mesh", arguments->mesh, "The mesh: OBJ, OFF, PLY or STL")->required();
-  command->add_flag("--json", arguments->json, "As JSON");
-  command->callback([arguments, &code] { code = run([&] { return info_command(*arguments); }); });
+  Command<InfoArguments> command(
+      app, "info", "Show topology, quality and every defect of a mesh, and what it can be embedded into");
+  read_mesh_of(command);
+  command.flag("--json", command->json, "Print JSON");
+  command.runs(info_command, code);
 }
 
 void add_types(CLI::App& app, int& code) {
-  auto* command = app.add_subcommand("types", "The families of orbifolds");
-  auto json = std::make_shared<bool>(false);
-  command->add_flag("--json", *json, "As JSON");
-  command->callback([json, &code] { code = run([&] { return types_command(*json); }); });
+  Command<TypesArguments> command(app, "types", "List the families of orbifolds");
+  command.flag("--json", command->json, "Print JSON");
+  command.runs(types_command, code);
 }
 
 void add_verify(CLI::App& app, int& code) {
-  auto* command = app.add_subcommand("verify", "The certificate again, from the files alone");
-  auto arguments = std::make_shared<VerifyArguments>();
-  command->add_option("embedding", arguments->embedding, "The embedding (PLY)")->required();
-  command->add_option("report", arguments->report, "Its report (JSON)")->required();
-  command->add_option("mesh", arguments->mesh, "The input mesh")->required();
-  command->add_option("--weights-file", arguments->weights_file,
-                      "The weights that the embedding was computed with, where they came from a file");
-  command->add_flag("--theorem2", arguments->theorem2,
-                    "Also the conditions of theorem 2; they change neither the verdict nor the exit code");
-  command->add_flag("--json", arguments->json, "As JSON");
-  command->callback([arguments, &code] { code = run([&] { return verify_command(*arguments); }); });
+  Command<VerifyArguments> command(app, "verify", "Certify an embedding again, from its files alone");
+  read_embedding_and_mesh_of(command);
+  command.input("--weights-file", command->weights_file, "the weights",
+                "The weights of the embedding, if they came from a file");
+  command.flag("--theorem2", command->theorem2,
+               "Also check the conditions of theorem 2; they change neither the verdict nor the exit code");
+  command.flag("--json", command->json, "Print JSON");
+  command.runs(verify_command, code);
 }
 
 void add_tile(CLI::App& app, int& code) {
-  auto* command = app.add_subcommand("tile", "All copies of an embedding, welded into one closed mesh");
-  auto arguments = std::make_shared<TileArguments>();
-  command->add_option("embedding", arguments->embedding, "The embedding (PLY)")->required();
-  command->add_option("report", arguments->report, "Its report (JSON)")->required();
-  command->add_option("-o,--output", arguments->output, "The tiling: .ply, .obj, .glb or .stl")->required();
-  command->callback([arguments, &code] { code = run([&] { return tile_command(*arguments); }); });
+  Command<TileArguments> command(app, "tile", "Weld all copies of an embedding into one closed mesh");
+  read_embedding_of(command);
+  command
+      .output("-o,--output", command->output, {"-o", "the tiling", "", {".ply", ".obj", ".glb", ".stl"}},
+              "Write the tiling here: .ply, .obj, .glb or .stl")
+      ->required();
+  command.runs(tile_command, code);
 }
 
 void add_export(CLI::App& app, int& code) {
-  auto* command =
-      app.add_subcommand("export", "The mesh with its embedding as texture coordinates, for other programs");
-  auto arguments = std::make_shared<ExportArguments>();
-  command->add_option("embedding", arguments->embedding, "The embedding (PLY)")->required();
-  command->add_option("report", arguments->report, "Its report (JSON)")->required();
-  command->add_option("mesh", arguments->mesh, "The input mesh")->required();
-  command->add_option("-o,--output", arguments->output, "The model: .obj, .glb, .ply or .vtp")->required();
+  Command<ExportArguments> command(
+      app, "export", "Write the mesh with its embedding as texture coordinates, for other programs");
+  read_embedding_and_mesh_of(command);
   command
-      ->add_option("--chart", arguments->chart,
-                   "Of the sphere into the texture: stereographic, equirectangular or octahedral")
+      .output("-o,--output", command->output, {"-o", "the model", "", {".obj", ".glb", ".ply", ".vtp"}},
+              "Write the model here: .obj, .glb, .ply or .vtp")
+      ->required();
+  command
+      .option("--chart", command->chart,
+              "How the sphere is laid into the texture: stereographic, equirectangular or octahedral")
       ->capture_default_str();
-  command->callback([arguments, &code] { code = run([&] { return export_command(*arguments); }); });
+  command.runs(export_command, code);
 }
 
 void add_render(CLI::App& app, int& code) {
-  auto* command = app.add_subcommand("render", "Pictures of an embedding: PNG, and SVG for the plots");
-  auto arguments = std::make_shared<RenderArguments>();
-  command->add_option("embedding", arguments->embedding, "The embedding (PLY)")->required();
-  command->add_option("report", arguments->report, "Its report (JSON)")->required();
-  command->add_option("mesh", arguments->mesh, "The input mesh")->required();
-  command->add_option("-o,--output", arguments->output, "The picture: .png or .svg")->required();
+  Command<RenderArguments> command(app, "render", "Draw pictures of an embedding: PNG, and SVG for plots");
+  read_embedding_and_mesh_of(command);
   command
-      ->add_option("--panel", arguments->panel,
-                   "source, sphere, area, angle, checkerboard, histogram, convergence, or sheet: all of them")
+      .output("-o,--output", command->output, {"-o", "the picture", "", {".png", ".svg"}},
+              "Write the picture here: .png, or .svg for a plot")
+      ->required();
+  command
+      .option("--panel", command->panel,
+              "source, sphere, area, angle, checkerboard, histogram, convergence, or sheet: all of them")
       ->capture_default_str();
-  command->add_option("--view", arguments->view,
-                      "front, back, left, right, top, bottom or 'x,y,z' towards the viewer; default: chosen");
-  command->add_option("--up", arguments->up,
-                      "What points up: x, y, z, -x, -y, -z or 'x,y,z'; default: y or z");
-  command->add_option("--size", arguments->size, "Pixels, e.g. 1600x1200 or 900");
-  command->callback([arguments, &code] { code = run([&] { return render_command(*arguments); }); });
+  command.option("--view", command->view,
+                 "Where the viewer is: front, back, left, right, top, bottom or 'x,y,z'; the program chooses "
+                 "if this is not given");
+  command.option("--up", command->up,
+                 "The direction that points up: x, y, z, -x, -y, -z or 'x,y,z'; y or z if this is not given");
+  command.option("--size", command->size, "Width and height in pixels, such as 1600x1200, or 900 for both");
+  command.runs(render_command, code);
 }
 
 void add_report(CLI::App& app, int& code) {
-  auto* command = app.add_subcommand(
-      "report", "One HTML page with everything about an embedding, and an interactive view");
-  auto arguments = std::make_shared<ReportArguments>();
-  command->add_option("embedding", arguments->embedding, "The embedding (PLY)")->required();
-  command->add_option("report", arguments->report, "Its report (JSON)")->required();
-  command->add_option("mesh", arguments->mesh, "The input mesh")->required();
-  command->add_option("-o,--output", arguments->output, "The page (HTML)")->required();
-  command->callback([arguments, &code] { code = run([&] { return report_command(*arguments); }); });
+  Command<ReportArguments> command(
+      app, "report", "Write one HTML page with everything about an embedding, and an interactive view");
+  read_embedding_and_mesh_of(command);
+  command
+      .output("-o,--output", command->output, {"-o", "the page", "", {".html", ".htm"}},
+              "Write the page (HTML) here")
+      ->required();
+  command.runs(report_command, code);
 }
 
 void add_compare(CLI::App& app, int& code) {
-  auto* command = app.add_subcommand(
-      "compare",
-      "Embeddings of one mesh into several orbifolds, of the sphere and the plane: their distortion side by side");
-  auto arguments = std::make_shared<CompareArguments>();
-  command->add_option("mesh", arguments->mesh, "The mesh: OBJ, OFF, PLY or STL")->required();
+  Command<CompareArguments> command(
+      app, "compare",
+      "Embed a mesh into several orbifolds, of the sphere and the plane, and compare the distortion");
+  read_mesh_of(command);
   command
-      ->add_option("--cones", arguments->cones,
-                   "The marked vertices, in the order of all symbols, or 'auto'")
+      .option("--cones", command->cones,
+              "The marked vertices, counted from 0, in the order of all symbols, or 'auto'")
       ->capture_default_str();
   command
-      ->add_option("--orbifold", arguments->orbifolds,
-                   "The symbols to compare; 432 and 442, of disks *432 and *442, unless given")
+      .option("--orbifold", command->orbifolds,
+              "The symbols to compare; if none is given, 432 and 442, or *432 and *442 for a disk")
       ->expected(1, -1);
-  command->add_option("--weights", arguments->weights, "As of embed")->capture_default_str();
-  command->add_option("-o,--output", arguments->output,
-                      "Draw both here: .png (mesh and histogram), .svg (histogram)");
-  command->add_flag("--json", arguments->json, "As JSON");
-  command->callback([arguments, &code] { code = run([&] { return compare_command(*arguments); }); });
+  command.option("--weights", command->weights, "As of embed")->capture_default_str();
+  command.output("-o,--output", command->output, {"-o", "the picture", "", {".png", ".svg"}},
+                 "Draw all here: .png (mesh and histogram) or .svg (histogram)");
+  command.flag("--json", command->json, "Print JSON");
+  command.runs(compare_command, code);
 }
 
 void add_sample(CLI::App& app, int& code) {
-  auto* command = app.add_subcommand("sample", "Generate a mesh to try things on");
-  auto arguments = std::make_shared<SampleArguments>();
-  command->add_option("-o,--output", arguments->output, "The mesh: .obj, .off, .ply or .stl")->required();
+  Command<SampleArguments> command(app, "sample", "Make a mesh to try things on");
   command
-      ->add_option("--shape", arguments->shape,
-                   "figure (a sphere with limbs), mask (a disk), or a projective plane: boy (Boy's surface), "
-                   "roman (Steiner's), crosscap, quotient (a centrally symmetric figure's)")
+      .output("-o,--output", command->output, {"-o", "the mesh", "", {".obj", ".off", ".ply", ".stl"}},
+              "Write the mesh here: .obj, .off, .ply or .stl")
+      ->required();
+  command
+      .option("--shape", command->shape,
+              "figure (a sphere with limbs), mask (a disk), or a projective plane: boy (Boy's surface), "
+              "roman (Steiner's), crosscap, quotient (a centrally symmetric figure's)")
       ->capture_default_str();
-  command->add_option("--faces", arguments->faces, "About so many triangles")->capture_default_str();
-  command->callback([arguments, &code] { code = run([&] { return sample_command(*arguments); }); });
+  command.option("--faces", command->faces, "Make about so many triangles")->capture_default_str();
+  command.runs(sample_command, code);
+}
+
+// Help and version on standard output, everything else on standard error.
+int answer(const CLI::App& app, const CLI::ParseError& error) {
+  if (error.get_exit_code() != static_cast<int>(CLI::ExitCodes::Success))
+    return complain(usage_message(app, error), wrong_usage);
+  std::ostringstream text, nothing;
+  app.exit(error, text, nothing);
+  fmt::print("{}", text.str());
+  return succeeded;
 }
 
 }  // namespace
@@ -215,14 +326,12 @@ void add_commands(CLI::App& app, int& code) {
 
 int run_command_line(int argc, char** argv) {
   CLI::App app("orbitutte: spherical orbifold Tutte embeddings", "orbitutte");
-  int code = 0;
+  int code = succeeded;
   add_commands(app, code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : wrong_usage;
-  } catch (const std::exception& error) {
-    return complain(error.what(), file_trouble);
+    return run([&] { return answer(app, error); });
   }
   return code;
 }

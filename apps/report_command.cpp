@@ -7,6 +7,7 @@
 #include "orbitutte/page/page.h"
 #include "orbitutte/report/report.h"
 #include "page_pictures.h"
+#include "standard_streams.h"
 
 namespace orbitutte::cli {
 
@@ -20,8 +21,7 @@ int report_command(const ReportArguments& arguments) {
   if (!has_interactive_view()) options.pictures = page_pictures(surface, embedding, claims);
   write_file(arguments.output, report_page({surface, embedding, report}, options));
   if (!has_interactive_view())
-    fmt::print(stderr, "{}: without the interactive view, since this binary was built without Node.js\n",
-               arguments.output);
+    tell("{} has no interactive view, because this program was built without Node.js\n", arguments.output);
   return written;
 }
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Makes docs/pictures/. Needs build/orbitutte, the Python module in build/python, and pngquant. Those of real meshes need ../shared beside the repository: where it is
+# Makes docs/pictures/. Needs build/orbitutte, the Python module in build/python, pngquant and chromium. Those of real meshes need ../shared beside the repository: where it is
 # missing they stay as they are. Only meshes whose licences allow pictures of them are drawn.
 # usage: docs/make_pictures.sh [PROGRAM]
 set -euo pipefail
@@ -10,7 +10,9 @@ out=$root/docs/pictures
 shared=$root/../shared/meshes
 
 [ -x "$orbitutte" ] || { echo "make_pictures.sh: there is no program $orbitutte; cmake/build.sh orbitutte_cli builds it" >&2; exit 1; }
-command -v pngquant >/dev/null || { echo "make_pictures.sh: pngquant is missing; the package of that name has it" >&2; exit 1; }
+for tool in pngquant chromium; do
+  command -v $tool >/dev/null || { echo "make_pictures.sh: $tool is missing; the package of that name has it" >&2; exit 1; }
+done
 
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
@@ -52,6 +54,9 @@ compare() {
 # examples.md
 PYTHONPATH=$(dirname "$orbitutte")/python /usr/bin/python3 "$root/examples/distortion_of_orders.py" >/dev/null
 cp orders.svg "$out"
+PYTHONPATH=$(dirname "$orbitutte")/python /usr/bin/python3 "$root/examples/transfer_heat_map.py" >/dev/null
+chromium --headless --no-sandbox --disable-gpu --hide-scrollbars --window-size=520,320 --screenshot=full.png heat_map.svg 2>/dev/null
+keep carried full.png
 
 # README.md, rendering.md, comparison.md, projective-planes.md
 

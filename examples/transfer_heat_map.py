@@ -6,16 +6,17 @@ import numpy as np
 import orbitutte
 
 
-def twisted(V):
-    """The figure, turning from foot to head."""
-    x, y, z = V.T
-    angle = 0.3 + 0.7 * y
-    return np.stack([x * np.cos(angle) + z * np.sin(angle), y, z * np.cos(angle) - x * np.sin(angle)], axis=1)
+def with_large_head(V):
+    """The figure after an inversion in a sphere above its head, mirrored back: another shape with the same angles."""
+    centre = np.array([0, 3.5, 0])
+    away = V - centre
+    moved = centre + 11 * away / (away**2).sum(axis=1, keepdims=True)
+    return moved * [1, -1, 1]
 
 
 def drawing(V, F, values, left):
     """The triangles as SVG, seen from +z, the farthest first; values 0..1 from blue over white to red."""
-    points = np.stack([left + 125 * V[:, 0], 240 - 125 * V[:, 1]], axis=1)
+    points = np.stack([left + 125 * V[:, 0], 165 - 125 * V[:, 1]], axis=1)
     normals = np.cross(V[F[:, 1]] - V[F[:, 0]], V[F[:, 2]] - V[F[:, 0]])
     light = 0.35 + 0.65 * np.abs(normals @ [0.3, 0.4, 0.87]) / np.linalg.norm(normals, axis=1)
     t = values[F].mean(axis=1)
@@ -31,10 +32,10 @@ def drawing(V, F, values, left):
 
 V, F = orbitutte.sample_mesh("figure", 8000)
 W, G = orbitutte.sample_mesh("figure", 6000)  # other vertices, other triangles, another shape
-W = twisted(W)
+W = with_large_head(W)
 
 first = orbitutte.embed(V, F, "432", orbitutte.choose_cones(V, F, "432"))
-tips = [int(np.argmin(np.linalg.norm(W - twisted(V[cone.vertex][None]), axis=1))) for cone in first.cones]
+tips = [int(np.argmin(np.linalg.norm(W - with_large_head(V[cone.vertex][None]), axis=1))) for cone in first.cones]
 second = orbitutte.embed(W, G, "432", tips)
 
 heat = np.linalg.norm(V - V[first.cones[2].vertex], axis=1)  # warm at the third cone
@@ -45,7 +46,7 @@ corners = first.source_vertex[first.triangles[where.face]]
 carried = np.einsum("vk,vk->v", heat[corners], where.barycentric)
 
 with open("heat_map.svg", "w", encoding="utf-8") as file:
-    file.write('<svg xmlns="http://www.w3.org/2000/svg" width="520" height="440"><rect width="100%" height="100%" fill="white"/>\n')
-    file.write(drawing(V, F, heat, 140) + "\n" + drawing(W, G, carried, 400) + "\n</svg>\n")
+    file.write('<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 520 320" width="520" height="320"><rect width="100%" height="100%" fill="white"/>\n')
+    file.write(drawing(V, F, heat, 140) + "\n" + drawing(W, G, carried, 380) + "\n</svg>\n")
 print(f"{len(W)} values carried over, from {carried.min():.3f} to {carried.max():.3f}; see heat_map.svg")
 assert first.bijective and second.bijective and carried.min() >= 0 and carried.max() <= 1

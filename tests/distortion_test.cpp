@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <Eigen/SVD>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -47,7 +49,12 @@ void expect_same(const Distortion& a, const Distortion& b, double tolerance) {
   EXPECT_NEAR(a.area.median, b.area.median, tolerance);
   EXPECT_NEAR(a.area.max, b.area.max, tolerance * b.area.max);
   EXPECT_NEAR(a.angle.mean, b.angle.mean, tolerance);
+  EXPECT_NEAR(a.angle.median, b.angle.median, tolerance);
+  EXPECT_NEAR(a.angle.area_mean, b.angle.area_mean, tolerance);
   EXPECT_NEAR(a.angle.max, b.angle.max, tolerance * b.angle.max);
+  EXPECT_NEAR(a.within_4, b.within_4, tolerance);
+  EXPECT_NEAR(a.below_64, b.below_64, tolerance);
+  EXPECT_NEAR(a.sigma, b.sigma, tolerance);
   EXPECT_EQ(a.measured_faces, b.measured_faces);
 }
 
@@ -167,6 +174,76 @@ TEST(Distortion, MedianOfAnOddNumberIsTheMiddleOne) {
   EXPECT_NEAR(distortion.area.median, 1.5, 1e-12);
   EXPECT_NEAR(distortion.area.max, 2, 1e-12);
   EXPECT_NEAR(distortion.area.mean, 1.5, 1e-12);
+}
+
+// Octants of equal area from triangles whose areas are so many parts of the source: the triangle k has
+// A = (1/3)/parts[k].
+Distortion of_octants(const std::array<double, 3>& parts) {
+  // Three triangles around the origin, their outer corners on the axes: areas |p0 p1|/2, |p1 p2|/2, |p2
+  // p3|/2.
+  const double p0 = 1, p1 = parts[0] / p0, p2 = parts[1] / p1, p3 = parts[2] / p2;
+  const Mesh source = test::mesh({{0, 0, 0}, {p0, 0, 0}, {0, p1, 0}, {-p2, 0, 0}, {0, -p3, 0}},
+                                 {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}});
+  return measure_distortion(
+      test::unjudged(source),
+      onto(test::mesh({{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}}, {}).V, source.F));
+}
+
+TEST(Distortion, SharesWithinAndBelowAFactorAreAreasOfTheSource) {
+  Distortion distortion = of_octants({0.3, 0.3, 0.4});  // A = 1.11, 1.11, 0.83
+  EXPECT_NEAR(distortion.within_4, 1, 1e-12);
+  EXPECT_EQ(distortion.below_64, 0);
+  distortion = of_octants({0.05, 0.1, 0.85});  // A = 6.7, 3.3, 0.39
+  EXPECT_NEAR(distortion.within_4, 0.95, 1e-12);
+  EXPECT_EQ(distortion.below_64, 0);
+  // Nearly all of the source in a sliver of the tile.
+  const Mesh source = test::mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-100, 0, 0}}, {{0, 1, 2}, {0, 2, 3}});
+  Embedding embedding = onto(test::mesh({{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-0.01, 1, 0}}, {}).V, source.F);
+  embedding.positions.rowwise().normalize();
+  distortion = measure_distortion(test::unjudged(source), embedding);
+  EXPECT_NEAR(distortion.below_64, 100.0 / 101, 1e-12);
+  EXPECT_EQ(distortion.within_4, 0);
+}
+
+TEST(Distortion, SigmaIsTheDeviationOfTheLogarithmOfTheScale) {
+  const std::array<double, 3> parts = {0.1, 0.3, 0.6};
+  double mean = 0, squares = 0;
+  for (const double part : parts) mean += part * 0.5 * std::log(1 / (3 * part));
+  for (const double part : parts) squares += part * std::pow(0.5 * std::log(1 / (3 * part)) - mean, 2);
+  EXPECT_NEAR(of_octants(parts).sigma, std::sqrt(squares), 1e-12);
+}
+
+TEST(Distortion, AngleMeansAreOverFacesAndOverAreas) {
+  FlatDisk disk(1, 2);
+  const Distortion before = disk.distortion();
+  EXPECT_NEAR(before.angle.area_mean, 2, 1e-6);  // all triangles alike
+  EXPECT_NEAR(before.angle.median, 2, 1e-6);
+  const Distortion distortion = of_octants({0.1, 0.3, 0.6});
+  EXPECT_GE(distortion.angle.median, 1);
+  EXPECT_LE(distortion.angle.median, distortion.angle.max);
+  double weighted = 0;
+  const double p1 = 0.1, p2 = 0.3 / p1, p3 = 0.6 / p2;
+  const std::array<std::pair<double, double>, 3> legs = {{{1, p1}, {p1, p2}, {p2, p3}}};
+  // From right triangles with these legs to the equilateral one that has the octant's arcs.
+  for (const auto& [a, b] : legs) {
+    Eigen::Matrix2d source, image;
+    source << a, 0, 0, b;
+    image << 1, 0.5, 0, std::sqrt(0.75);
+    const Eigen::Vector2d sigma =
+        Eigen::JacobiSVD<Eigen::Matrix2d>(image * source.inverse()).singularValues();
+    weighted += a * b * sigma[0] / sigma[1];
+  }
+  EXPECT_NEAR(distortion.angle.area_mean, weighted, 1e-9 * weighted);
+}
+
+// A face that is turned over is part of the surface, but its scale is not known.
+TEST(Distortion, WhatIsLeftOutIsInNoShare) {
+  const Mesh source = test::mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1.5, 0, 0}}, {{0, 1, 2}, {0, 2, 3}});
+  const Embedding embedding = onto(test::mesh({{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}}, {}).V, source.F);
+  const Distortion distortion = measure_distortion(test::unjudged(source), embedding);
+  EXPECT_EQ(distortion.measured_faces, 1);
+  EXPECT_NEAR(distortion.within_4, 0.4, 1e-12);
+  EXPECT_EQ(distortion.below_64, 0);
 }
 
 TEST(Distortion, FacesWithoutAreaAreLeftOut) {

@@ -273,7 +273,7 @@ TEST(Embed, DiskWithoutVerticesInsideHasNoConeToChoose) {
     choose_marked_vertices(test::grid_disk(5, 1), parse_orbifold("3*2"));
     FAIL();
   } catch (const MeshError& error) {
-    EXPECT_STREQ(error.what(), "no vertex lies inside the surface, where one has to be marked");
+    EXPECT_STREQ(error.what(), "one vertex has to be marked inside the surface, but all are on its boundary");
   }
 }
 

@@ -32,7 +32,9 @@ using ::testing::Not;
 using Json = nlohmann::json;
 
 std::string scene_of(const test::SampleEmbedding& sample, const Points& colours = Points(0, 3)) {
-  return page_scene(sample.mesh, sample.embedding(), measure_faces(sample.mesh, sample.embedding()), colours);
+  Surface surface = test::unjudged(sample.mesh);
+  surface.colours = colours;
+  return page_scene(surface, sample.embedding(), measure_faces(surface, sample.embedding()));
 }
 
 constexpr const char* hostile =
@@ -221,7 +223,7 @@ TEST(PageScene, BringsTheColoursOfPicturesAlong) {
   for (std::size_t c = 0; c < scene["cones"].size(); ++c)
     EXPECT_EQ(scene["cones"][c]["colour"], hexadecimal(cone_colour(static_cast<int>(c))));
   EXPECT_EQ(scene["tile"], hexadecimal(bold_colour));
-  const std::vector<FaceDistortion> faces = measure_faces(sample.mesh, sample.embedding());
+  const std::vector<FaceDistortion> faces = measure_faces(test::unjudged(sample.mesh), sample.embedding());
   for (const auto& [name, measure] : {std::pair("area", Measure::area), std::pair("angle", Measure::angle)}) {
     const Json& scale = scene["scales"][name];
     const ColourScale expected = colour_scale(measure, values_of(measure, faces));

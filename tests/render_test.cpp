@@ -63,7 +63,7 @@ Report report_of(const EmbedResult& result) {
 /// What a picture is made of, with the report that it refers to.
 struct Subject {
   const test::SampleEmbedding& sample;
-  Surface surface = unjudged(sample.mesh);
+  Surface surface = test::unjudged(sample.mesh);
   Report report = report_of(sample.result);
 
   explicit Subject(const std::string& signature) : sample(sample_embedding(signature)) {}
@@ -171,11 +171,11 @@ TEST(Render, TurningMeshAndViewTogetherLeavesThePicture) {
   Mesh turned = subject.sample.mesh;
   turned.V = turned.V * R.transpose();
   options.view = R * *options.view, options.up = R * *options.up;
-  const Picture same(render_png({unjudged(turned), subject.sample.embedding(), subject.report, ""}, options));
+  const Picture same(render_png({test::unjudged(turned), subject.sample.embedding(), subject.report, ""}, options));
   EXPECT_LT(mean_difference(picture, same), 3);
   options.view = -*options.view;
   const Picture other(
-      render_png({unjudged(turned), subject.sample.embedding(), subject.report, ""}, options));
+      render_png({test::unjudged(turned), subject.sample.embedding(), subject.report, ""}, options));
   EXPECT_GT(mean_difference(picture, other), 3);
 }
 
@@ -270,7 +270,7 @@ TEST(Render, AMapOntoAPolygonIsShownAlone) {
 std::string compared(const std::vector<std::vector<double>>& log_areas, const std::string& ending) {
   Mesh mesh = icosphere(2);
   mesh.V.rightCols(2) *= 0.08;  // few pixels to shade
-  const Surface surface = unjudged(mesh);
+  const Surface surface = test::unjudged(mesh);
   Comparison comparison = {surface, {0, 1, 2}, {}};
   for (const std::vector<double>& areas : log_areas) {
     ComparedMap map = {"a map", {1, 1, 1, 1}, std::vector<FaceDistortion>(mesh.F.rows())};
@@ -381,7 +381,7 @@ TEST(Charts, PageAndPicturesShowTheSameTextsLinesAndBars) {
   for (const std::string& signature : {"432", "*532", "5*", "3x"}) {
     const Subject subject(signature);
     const std::vector<double> areas =
-        values_of(Measure::area, measure_faces(subject.sample.mesh, subject.sample.embedding()));
+        values_of(Measure::area, measure_faces(subject.surface, subject.sample.embedding()));
     for (const Chart& chart : {area_histogram(areas), convergence_chart(subject.report.history)}) {
       EXPECT_EQ(texts_of_page(chart), texts_of_picture(chart)) << signature;
       for (const ChartAxis& axis : {chart.x, chart.y}) EXPECT_EQ(texts_of_page(chart).count(axis.title), 1U);
@@ -413,7 +413,7 @@ TEST(Render, WhatMakesNoSenseIsRefused) {
 TEST(Render, AnotherMeshIsRefused) {
   const Subject subject("432");
   const Mesh other = icosphere(1);
-  EXPECT_THROW(render_png({unjudged(other), subject.sample.embedding(), subject.report, ""},
+  EXPECT_THROW(render_png({test::unjudged(other), subject.sample.embedding(), subject.report, ""},
                           options_of(Panel::area, 100, 100)),
                MeshError);
 }
@@ -425,10 +425,10 @@ TEST(Render, VerticesThatNoFaceUsesDoNotMakeTheFigureSmall) {
   mesh.V.conservativeResize(n + 1, 3);
   mesh.V.row(n) << 100, 200, 300;
   const RenderOptions options = options_of(Panel::source, 90, 90);
-  EXPECT_TRUE(render_png({unjudged(mesh), subject.sample.embedding(), subject.report, ""}, options) ==
+  EXPECT_TRUE(render_png({test::unjudged(mesh), subject.sample.embedding(), subject.report, ""}, options) ==
               render_png(subject.get(), options));
   mesh.V.row(n)[0] = std::nan("");
-  EXPECT_THROW(render_png({unjudged(mesh), subject.sample.embedding(), subject.report, ""}, options),
+  EXPECT_THROW(render_png({test::unjudged(mesh), subject.sample.embedding(), subject.report, ""}, options),
                MeshError);
 }
 
@@ -474,7 +474,7 @@ Mesh pyramid() {
 TEST(DefaultView, WhatStandsOnABroadBaseAcrossZHasZUp) {
   Mesh mesh = pyramid();
   EXPECT_EQ(default_up(test::unjudged(mesh)), Vector3::UnitZ());
-  EXPECT_EQ(default_up(test::unjudged(Mesh{mesh.V(Eigen::all, {1, 2, 0}), mesh.F}), Vector3::UnitY());
+  EXPECT_EQ(default_up(test::unjudged(Mesh{mesh.V(Eigen::all, {1, 2, 0}), mesh.F})), Vector3::UnitY());
   mesh.F = mesh.F.bottomRows(4).eval();  // without its base it faces whoever looks at it
   EXPECT_EQ(default_up(test::unjudged(mesh)), Vector3::UnitY());
   EXPECT_EQ(default_up(test::unjudged(Mesh())), Vector3::UnitY());

@@ -473,7 +473,7 @@ TEST(EmbeddingFile, DefectsOfBinaryFilesAreNamed) {
   const int count = static_cast<int>(good.source_vertex.size());
   for (const int wrong : {-1, count}) {
     const std::string named =
-        "names the vertex " + std::to_string(wrong) + "; there are " + std::to_string(count);
+        "names the vertex " + std::to_string(wrong) + ", but there are " + std::to_string(count);
     Embedding embedding = good;
     embedding.source_vertex[5] = wrong;
     EXPECT_THAT(ply_refusal(serialize_embedding(embedding)),

@@ -368,7 +368,7 @@ void check_any(const std::string& text) {
     const double chi = euler_characteristic(orbifold.symbol);
     const bool is_round = orbifold.space == Space::sphere();
     RC_ASSERT(std::abs(chi * orbifold.group_order - (is_round ? 2 : 0)) <= 1e-9);
-    RC_ASSERT(is_round || std::abs(chi) <= 1e-12);
+    RC_ASSERT((is_round || std::abs(chi) <= 1e-12));
     RC_ASSERT((is_round ? spherical(orbifold.symbol) : planar(orbifold.symbol)));
     RC_ASSERT((orbifold.topology == Topology::disk) == orbifold.symbol.star);
     RC_ASSERT((orbifold.topology == Topology::projective_plane) == orbifold.symbol.cross);

@@ -242,7 +242,8 @@ TEST(Weights, ClampsThatAreNotPositiveAndFiniteAreRefused) {
     EXPECT_EQ(refusal({WeightKind::cotan, clamp}),
               std::string("the clamp of the weights is ") + text + "; it must be positive and finite");
   }
-  EXPECT_EQ(refusal({WeightKind::file, 0.01}), "weights of the kind 'file' are read by read_weights");
+  EXPECT_EQ(refusal({WeightKind::file, 0.01}),
+            "the kind of the weights is 'file'; call read_weights to read them");
 }
 
 // --------------------------------------------------------------------------------------------- weight files
@@ -331,9 +332,9 @@ RC_GTEST_PROP(WeightFile, ReadsBackEveryDoubleThatWasWritten, (std::uint32_t see
 }
 
 TEST(WeightFile, LinesForNoEdgeAreRefused) {
-  EXPECT_EQ(refusal(six_lines + "0 4 1\n"), "line 7: (0, 4) is no edge of the mesh; leave it out");
-  EXPECT_EQ(refusal("# i j w\n2 2 1\n" + six_lines), "line 2: (2, 2) is no edge of the mesh; leave it out");
-  EXPECT_EQ(refusal("0 -1 1\n"), "line 1: (0, -1) is no edge of the mesh; leave it out");
+  EXPECT_EQ(refusal(six_lines + "0 4 1\n"), "line 7: the mesh has no edge (0, 4); leave it out");
+  EXPECT_EQ(refusal("# i j w\n2 2 1\n" + six_lines), "line 2: the mesh has no edge (2, 2); leave it out");
+  EXPECT_EQ(refusal("0 -1 1\n"), "line 1: the mesh has no edge (0, -1); leave it out");
 }
 
 TEST(WeightFile, EdgesGivenTwiceAreRefused) {

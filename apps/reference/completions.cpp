@@ -18,6 +18,13 @@ std::string quoted(const std::string& text) {
   return result + "'";
 }
 
+// A star behind a backslash, so that zsh and fish do not look for files.
+std::string without_patterns(const std::vector<std::string>& words) {
+  std::string result;
+  for (const char c : joined(words, " ")) result += c == '*' ? std::string("\\*") : std::string(1, c);
+  return result;
+}
+
 std::vector<std::string> names_of(const std::vector<CommandReference>& commands) {
   std::vector<std::string> names;
   names.reserve(commands.size());
@@ -41,7 +48,7 @@ std::string zsh_option(const OptionReference& option) {
   }
   std::string action;
   if (!option.choices.empty())
-    action = fmt::format(":{}:({})", option.value, joined(option.choices, " "));
+    action = fmt::format(":{}:({})", option.value, without_patterns(option.choices));
   else if (!option.value.empty())
     action = fmt::format(":{}:_files", option.value);
   const std::string alternatives =
@@ -56,7 +63,7 @@ std::string fish_option(const OptionReference& option) {
   for (const std::string& name : option.names)
     line += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
   if (!option.choices.empty())
-    line += fmt::format(" -x -a {}", quoted(joined(option.choices, " ")));
+    line += fmt::format(" -x -a {}", quoted(without_patterns(option.choices)));
   else if (!option.value.empty())
     line += " -r";
   return line + " -d " + quoted(option.description);
@@ -95,6 +102,8 @@ _orbitutte() {{
   fi
   # without words of its own it leaves the field to the names of files
   [ -z "$words" ] || mapfile -t COMPREPLY < <(compgen -W "$words" -- "$word")
+  # a star that no quote protects would be a pattern of file names
+  [[ $word == [\'\"]* ]] || COMPREPLY=("${{COMPREPLY[@]//\*/\\*}}")
 }}
 complete -o bashdefault -o default -F _orbitutte orbitutte
 )",

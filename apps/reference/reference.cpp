@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <map>
 #include <stdexcept>
 
 #include "../command_line.h"
+#include "orbitutte/orbifold/signature.h"
 
 namespace orbitutte::cli {
 namespace {
@@ -24,7 +26,32 @@ const std::map<std::string, std::vector<std::string>> words_of_options = {
     {"--up", {"x", "y", "z", "-x", "-y", "-z"}},
     {"--shape", {"figure", "mask", "boy", "roman", "crosscap", "quotient"}}};
 
+// The symbols of the table of families; where a family has one for every order N, those of small orders.
+std::vector<std::string> symbols() {
+  constexpr int largest_listed = 6;
+  std::vector<std::string> result;
+  for (const FamilyDescription& family : families()) {
+    if (family.family.find('N') == std::string::npos) {
+      result.push_back(family.family);
+      continue;
+    }
+    for (int n = 2; n <= largest_listed; ++n) {
+      std::string symbol = family.family;
+      std::replace(symbol.begin(), symbol.end(), 'N', static_cast<char>('0' + n));
+      result.push_back(symbol);
+    }
+  }
+  return result;
+}
+
+std::vector<std::string> targets() {
+  std::vector<std::string> result = symbols();
+  result.push_back(polygon_signature);
+  return result;
+}
+
 std::vector<std::string> choices_of(const OptionReference& option) {
+  if (option.names.back() == "--orbifold") return targets();
   const auto found = words_of_options.find(option.names.back());
   if (found == words_of_options.end()) return {};
   if (option.description.starts_with("As of ")) return found->second;

@@ -31,6 +31,13 @@ Embedding                               positions, faces, source_vertex, seams, 
 Exceptions: Error, of which MeshError and ArgumentError are ValueErrors and FileError is an OSError; Cancelled. Results that
 are not converged or not certified come with an EmbeddingWarning.
 """
+try:
+    from . import _orbitutte
+except ImportError as error:
+    raise ImportError(f"the compiled module of orbitutte, _orbitutte, cannot be loaded from {__path__[0]}: {error}; './demo.sh' or "
+                      "'cmake --build build --target orbitutte_package' builds it into build/python, where "
+                      "PYTHONPATH=build/python finds it; it belongs to the Python that it was built for") from error
+
 from ._api import (
     Solver, Tiling, build, choose_cones, distortion, embed, info, keep_freed_memory, read_mesh, sample_mesh, signatures, tile, verify, write_mesh,
 )

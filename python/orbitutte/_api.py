@@ -45,31 +45,31 @@ def embed(V: npt.ArrayLike, F: Any, signature: str, cones: Cones = "auto", *, pr
     weights_file : path
         Lines ``i j w`` instead.
     clamp : float
-        What cotangent weights that are not positive become, 0.01.
+        Replaces every cotangent weight that is zero or negative; 0.01.
     cut_seed : int
-        Another cut through the same cones.
+        Another number gives another cut through the same cones.
     spread : "arc-length" or "equidistant"
-        Of boundary vertices along the sides of a polygon.
+        How boundary vertices are spread along the sides of a polygon.
     tolerance : float
-        Of the gradient and of the step, 1e-9.
+        The optimiser stops if the gradient and the last step are smaller; 1e-9.
     max_iterations : int
-        2000.
+        After so many the result is returned as it is, not converged; 2000.
     threads : int
         0, as many as the machine has. Results do not depend on it.
 
     Returns
     -------
     Embedding
-        Not converging and not being certified are results, told by an `EmbeddingWarning`.
+        If it has not converged or is not certified, an `EmbeddingWarning` says so.
 
     Raises
     ------
     MeshError
-        Where the mesh cannot be embedded as asked; names the vertex, edge or face.
+        If the mesh cannot be embedded as asked; the message names the vertex, edge or face.
     ArgumentError, TypeError
-        Where an argument has no meaning.
+        If an argument has no meaning.
     Cancelled
-        Where `progress` returned False.
+        If `progress` returned False.
     """
     chosen = _options.options(**options)
     target = _options.target(signature, cones, polygon, geometry)
@@ -179,7 +179,7 @@ def tile(embedding: Embedding) -> Tiling:
     Raises
     ------
     ArgumentError
-        Where the copies do not close up into a sphere, as those of a polygon do not.
+        If the copies do not close up into a sphere; those of a polygon do not.
     """
     V, triangles, corners, start, element = _embedding(embedding)._core.tile()
     if len(start) < 2:
@@ -227,7 +227,7 @@ def read_mesh(path: str | os.PathLike) -> tuple[npt.NDArray[np.float64], _arrays
     Raises
     ------
     FileError, MeshError, ArgumentError
-        Where it cannot be read, makes no sense, or its ending is not known.
+        If it cannot be read, makes no sense, or has an unknown ending.
     """
     mesh = _orbitutte.Mesh.read(_arrays.path(path))
     return mesh.positions, _arrays.faces(*mesh.faces)
@@ -270,5 +270,5 @@ def _mesh_or_none(V: Any, F: Any) -> _orbitutte.Mesh | None:
     if V is None and F is None:
         return None
     if V is None or F is None:
-        raise ArgumentError("V and F belong together; give both or none")
+        raise ArgumentError("give both V and F, or none of them")
     return _arrays.mesh(V, F)

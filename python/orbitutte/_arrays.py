@@ -77,7 +77,7 @@ def require_vertices(mesh: _orbitutte.Mesh) -> None:
     if bad.any():
         k = int(np.argmax(bad))
         f = k // 3 if start is None else int(np.searchsorted(start, k, side="right")) - 1
-        raise MeshError(f"F: face {f} names the vertex {flat[k]}; there are {n} vertices")
+        raise MeshError(f"F: face {f} names the vertex {flat[k]}, but there are {n} vertices")
 
 
 def faces(corners: npt.NDArray[np.int32], start: npt.NDArray[np.int32] | None) -> Faces:
@@ -98,7 +98,7 @@ def path(value: str | bytes | os.PathLike) -> bytes:
     try:
         encoded = os.fsencode(value)
     except TypeError:
-        raise TypeError(f"a path is expected, not a {type(value).__name__}") from None
+        raise TypeError(f"a path must be a string or path object, not a {type(value).__name__}") from None
     if b"\0" in encoded:
         raise ArgumentError("a path holds a null character")
     return encoded
@@ -110,7 +110,7 @@ def _as_array(values: Any, name: str, row: str) -> np.ndarray:
     try:
         array = np.asarray(values)
     except ValueError as error:  # ragged lists
-        raise ArgumentError(_odd_row(values, name, row) or f"{name} is no array: {error}") from None
+        raise ArgumentError(_odd_row(values, name, row) or f"{name} is not an array: {error}") from None
     if array.dtype.kind == "O":
         odd = _odd_row(values, name, row)
         raise TypeError(odd or f"{name} holds objects; numbers are expected")
@@ -124,10 +124,10 @@ def _odd_row(values: Any, name: str, row: str) -> str | None:
     lengths = [len(value) if hasattr(value, "__len__") else None for value in values]
     for k, length in enumerate(lengths):
         if length is None or length != lengths[0]:
-            what = "no sequence" if length is None else f"{length} entries, others {lengths[0]}"
-            return f"{name}: {row} {k} has {what}"
+            what = "is not a sequence" if length is None else f"has {length} entries, but {row} 0 has {lengths[0]}"
+            return f"{name}: {row} {k} {what}"
         if any(isinstance(entry, str) or not np.isscalar(entry) for entry in values[k]):
-            return f"{name}: {row} {k} holds something that is no number"
+            return f"{name}: {row} {k} holds something that is not a number"
     return None
 
 
@@ -141,7 +141,7 @@ def _as_int32(array: np.ndarray, name: str, row: str) -> npt.NDArray[np.int32]:
         bad = (array > _LARGEST) | (array < -_LARGEST)
         if bad.any():
             k = np.unravel_index(int(np.argmax(bad)), array.shape)
-            raise MeshError(f"{name}: {row} {k[0]} names the vertex {array[k]}, more than there can be")
+            raise MeshError(f"{name}: {row} {k[0]} names the vertex {array[k]}, which is more than there can be")
     return np.ascontiguousarray(array, dtype=np.int32)
 
 
@@ -161,15 +161,15 @@ def _polygons(F: Sequence[Any]) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.i
     """The corners of all faces, one after the other, and where each face starts."""
     for f, face in enumerate(F):
         if isinstance(face, (str, bytes)) or not hasattr(face, "__len__"):
-            raise TypeError(f"F: face {f} is no sequence of vertices")
+            raise TypeError(f"F: face {f} is not a sequence of vertices")
     corners = _as_array(list(chain.from_iterable(F)), "the corners of F", "corner")
     if corners.ndim != 1 or (corners.size and corners.dtype.kind not in "iu"):
         for f, face in enumerate(F):
             one = np.asarray(face)
             if one.ndim != 1 or (one.size and one.dtype.kind not in "iu"):
-                raise TypeError(f"F: face {f} is no sequence of whole numbers")
+                raise TypeError(f"F: face {f} is not a sequence of whole numbers")
     if len(corners) > _LARGEST:
-        raise MeshError(f"F: {len(corners)} corners are more than an int can count")
+        raise MeshError(f"F: {len(corners)} corners are more than 2^31 - 1")
     start = np.zeros(len(F) + 1, dtype=np.int32)
     np.cumsum([len(face) for face in F], out=start[1:])
     if corners.size and corners.dtype != np.int32:
@@ -177,5 +177,5 @@ def _polygons(F: Sequence[Any]) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.i
         if bad.any():
             k = int(np.argmax(bad))
             f = int(np.searchsorted(start, k, side="right")) - 1
-            raise MeshError(f"F: face {f} names the vertex {corners[k]}, more than there can be")
+            raise MeshError(f"F: face {f} names the vertex {corners[k]}, which is more than there can be")
     return np.ascontiguousarray(corners, dtype=np.int32), start

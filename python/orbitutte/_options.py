@@ -33,7 +33,7 @@ def options(**given: Any) -> _orbitutte.Options:
         result.set_spread(text(given["spread"], "spread"))
     if given.get("weights_file") is not None:
         if given.get("weights") is not None:
-            raise ArgumentError("weights and weights_file exclude each other")
+            raise ArgumentError("give weights or weights_file, not both")
         result.weights_file = _arrays.path(given["weights_file"])
     if given.get("weights") is not None:
         _set_weights(result, given["weights"])
@@ -48,7 +48,7 @@ def target(signature: str, cones: Any, polygon: Any = None, geometry: str | None
     if signature == "polygon":
         return _polygon(polygon, cones)
     if polygon is not None:
-        raise ArgumentError(f"polygon gives the corners of a fixed boundary, which {signature} has not; take the signature 'polygon'")
+        raise ArgumentError(f"polygon gives the corners of a fixed boundary, but {signature} has no such boundary; take the signature 'polygon'")
     known = _orbitutte.Target.parse(signature)
     if geometry is not None and known.space != geometry:
         raise ArgumentError(f"geometry is '{geometry}', but {signature} is {known.space}; leave geometry out")
@@ -60,7 +60,7 @@ def marked_vertices(mesh: _orbitutte.Mesh, target: _orbitutte.Target, cones: Any
     if target.signature == "polygon":
         return target.corner_vertices
     if cones is None:
-        raise ArgumentError("cones is missing; mark vertices, or 'auto'")
+        raise ArgumentError("cones is missing; give the vertices to be marked, as in [12, 40, 7], or 'auto'")
     if isinstance(cones, str):
         if cones != "auto":
             raise ArgumentError(f"cones is '{cones}'; give vertices, as in [12, 40, 7], or 'auto'")
@@ -132,24 +132,24 @@ def _edges_of_sparse(matrix: Any) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 def _polygon(polygon: Any, cones: Any) -> _orbitutte.Target:
     if polygon is None:
-        raise ArgumentError("polygon is missing: the corners, k x 4 rows of vertex, x, y, z, or k x 3 positions for the vertices in cones")
+        raise ArgumentError("polygon is missing; give its corners as k x 4 rows of vertex, x, y, z, or as k x 3 positions of the vertices in cones")
     if isinstance(polygon, (str, bytes, os.PathLike)):
         if cones is not None:
-            raise ArgumentError("cones is not for polygons from a file, whose lines name the vertices")
+            raise ArgumentError("leave out cones: the lines of the polygon's file name the vertices")
         return _orbitutte.Target.polygon_file(_arrays.path(polygon))
     corners = np.asarray(polygon)
     if corners.dtype.kind not in "fiu":
         raise TypeError(f"polygon has the type {corners.dtype}; real numbers are expected")
     if corners.ndim == 2 and corners.shape[1] == 4:
         if cones is not None:
-            raise ArgumentError("cones is not for polygons whose rows name the vertices")
+            raise ArgumentError("leave out cones: the rows of polygon name the vertices")
         vertices = corners[:, 0]
         if not np.array_equal(vertices, np.floor(vertices)) or not (np.abs(vertices) < 2**31).all():
             raise ArgumentError("polygon: the first column must be vertices, whole numbers")
         return _polygon_of(vertices.astype(np.int32).tolist(), corners[:, 1:])
     points = _arrays.positions(corners, "polygon", "corner")
     if cones is None or isinstance(cones, str):
-        raise ArgumentError("cones is missing: the vertices of the polygon's corners")
+        raise ArgumentError("cones is missing; give the vertices of the polygon's corners")
     vertices = _arrays.indices(cones, "cones").tolist()
     if len(vertices) != len(points):
         raise ArgumentError(f"there are {len(points)} corners of the polygon and {len(vertices)} vertices in cones")

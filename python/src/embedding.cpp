@@ -22,7 +22,8 @@ using Release = py::call_guard<py::gil_scoped_release>;
 py::list seams(const HeldEmbedding& held) {
   py::list result;
   for (const Seam& seam : held.embedding.seams)
-    result.append(py::make_tuple(name(seam.kind()), copy(seam.left), copy(seam.right), copy(seam.transform.matrix())));
+    result.append(
+        py::make_tuple(name(seam.kind()), copy(seam.left), copy(seam.right), copy(seam.transform.matrix())));
   return result;
 }
 
@@ -82,7 +83,9 @@ py::dict distortion(const HeldEmbedding& held) {
   const auto& [mean, std, median, max] = measured.area;
   return py::dict(
       "area"_a = py::dict("mean"_a = mean, "std"_a = std, "median"_a = median, "max"_a = max),
-      "angle"_a = py::dict("mean"_a = measured.angle.mean, "max"_a = measured.angle.max),
+      "angle"_a = py::dict("mean"_a = measured.angle.mean, "area_mean"_a = measured.angle.area_mean,
+                           "median"_a = measured.angle.median, "max"_a = measured.angle.max),
+      "sigma"_a = measured.sigma, "within_4"_a = measured.within_4, "below_64"_a = measured.below_64,
       "histogram"_a = py::dict("quantity"_a = "log2 of the area ratio", "edges"_a = measured.histogram.edges,
                                "counts"_a = measured.histogram.counts),
       "measured_faces"_a = measured.measured_faces);

@@ -18,7 +18,7 @@ namespace {
 void refuse(Certificate& certificate, const Minimum& minimum, double tolerance) {
   certificate.bijective = false;
   certificate.checks.push_back(
-      {"converged", false, minimum.gradient_norm, tolerance, "the optimiser ended before it converged"});
+      {"converged", false, minimum.gradient_norm, tolerance, "the optimiser stopped before it converged"});
 }
 
 // The gluing problem of the surface that is cut.

@@ -7,6 +7,7 @@
 
 #include "orbitutte/inspect/weak_places.h"
 #include "orbitutte/parallel.h"
+#include "orbitutte/warnings.h"
 #include "orbitutte/weights/cone_weights.h"
 
 namespace orbitutte {
@@ -25,11 +26,28 @@ std::vector<ConeAngle> cone_angles(const Target& orbifold, const std::vector<int
   return cones;
 }
 
+struct Hole {
+  int edges = 0;
+  int vertex = -1;  // the smallest on its boundary
+};
+
+// The one hole of a disk.
+Hole hole_of(const Surface& disk) {
+  Hole hole;
+  for (int h = 0; h < static_cast<int>(disk.connectivity.opposite.size()); ++h) {
+    if (disk.connectivity.opposite[h] >= 0) continue;
+    ++hole.edges;
+    const int vertex = origin(disk.triangles, h);
+    if (hole.vertex < 0 || vertex < hole.vertex) hole.vertex = vertex;
+  }
+  return hole;
+}
+
 }  // namespace
 
 PreparedSurface prepare(const Surface& surface, const EmbedOptions& options) {
   if (options.weights_file.empty()) weight_kind(surface, options.weights.kind);
-  PreparedSurface prepared = {surface, {}};
+  PreparedSurface prepared = {surface, warnings_of_orientation(surface)};
   if (!surface.has_polygons()) return prepared;
   for (const WeakPlace& place : find_weak_places(surface.vertex_count(), surface.faces()))
     if (place.kind == WeakPlaceKind::degree_two || place.kind == WeakPlaceKind::double_contact)
@@ -39,9 +57,16 @@ PreparedSurface prepare(const Surface& surface, const EmbedOptions& options) {
 
 void require_topology(const Surface& surface, const Target& orbifold) {
   if (surface.topology == orbifold.topology) return;
-  throw MeshError(
-      fmt::format("the mesh is a {}, but {} needs a {}; choose an orbifold for it (see 'orbitutte types')",
-                  name(surface.topology), orbifold.signature, name(orbifold.topology)));
+  if (surface.topology == Topology::disk && orbifold.topology == Topology::sphere) {
+    const auto [edges, vertex] = hole_of(surface);
+    throw MeshError(fmt::format(
+        "the mesh has a hole of {} edges, through vertex {}, which makes it a disk, but {} needs a sphere; "
+        "fill the hole, or choose an orbifold for a disk, such as *{}",
+        edges, vertex, orbifold.signature, orbifold.signature));
+  }
+  throw MeshError(fmt::format(
+      "the mesh is a {}, but {} needs a {}; choose an orbifold for a {} (see 'orbitutte types')",
+      name(surface.topology), orbifold.signature, name(orbifold.topology), name(surface.topology)));
 }
 
 void require_fit(const EmbedRequest& request) {

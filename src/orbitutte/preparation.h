@@ -54,15 +54,16 @@ struct EmbeddingCache {
   std::shared_ptr<LaplacianReuse> laplacians;
 };
 
-/// Looks for what the polygons of the surface should be warned of. Throws ArgumentError if the options ask
-/// for weights that they do not have. The surface must outlive the result.
+/// Looks for what the user of the surface should be warned of. Throws ArgumentError if the options ask
+/// for weights that its polygons do not have. The surface must outlive the result.
 PreparedSurface prepare(const Surface& surface, const EmbedOptions& options);
 
 /// Throws MeshError if the surface has not the topology that the orbifold needs, or if there are not as many
 /// marked vertices as it has marks.
 void require_fit(const EmbedRequest& request);
 
-/// Throws MeshError if the surface has not the topology that the orbifold needs.
+/// Throws MeshError unless the surface has the topology that the orbifold needs. The message about a hole
+/// names it and both remedies.
 void require_topology(const Surface& surface, const Target& orbifold);
 
 /// The weights (section 4), those of a metric that is flat at the cones. No edge of the kept faces, triangles

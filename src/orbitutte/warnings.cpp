@@ -3,8 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <unordered_set>
+
+#include "orbitutte/parallel.h"
 
 namespace orbitutte {
 namespace {
@@ -19,19 +23,41 @@ long count_in_or_beside(const std::vector<int>& collapsing, const FaceView& face
   });
 }
 
+// The signed volume of the tetrahedron between a triangle and the origin, multiplied by 6.
+double six_volumes(const Vector3& a, const Vector3& b, const Vector3& c) { return a.cross(b).dot(c); }
+
 }  // namespace
 
 std::vector<std::string> warnings_about(const EdgeWeights& weights, const std::vector<Ear>& ears) {
   std::vector<std::string> warnings;
   if (weights.zero_edges > 0)
-    warnings.push_back(fmt::format("{} edges have the weight zero; the theory asks for positive weights",
+    warnings.push_back(fmt::format("{} edges have the weight zero, but the theory needs positive weights",
                                    weights.zero_edges));
   if (!ears.empty())
     warnings.push_back(fmt::format(
-        "{} faces have all edges but one on one mirror or held side and must become arcs, the first face {}: "
-        "their areas are rounding errors; swap their inner edges, or mark their tips",
+        "{} faces, the first face {}, have all edges but one on one mirror or held side, so that they must "
+        "become arcs without area; swap their inner edges, or mark their tips",
         count_faces(ears), ears.front().face));
   return warnings;
+}
+
+std::vector<std::string> warnings_of_orientation(const Surface& surface) {
+  constexpr double rounding = 1e-12;  // of a volume, relative to those of which it is the sum
+  if (surface.topology != Topology::sphere) return {};
+  const Faces& F = surface.triangles;
+  const Vector3 base = surface.V.row(F(0, 0));
+  const auto volume_of_face = [&](int f) {
+    const auto corner = [&](int k) -> Vector3 { return surface.V.row(F(f, k)).transpose() - base; };
+    return six_volumes(corner(0), corner(1), corner(2));
+  };
+  const int m = surface.triangle_count();
+  const double volume = parallel_sum(m, volume_of_face);
+  const double size = parallel_sum(m, [&](int f) { return std::abs(volume_of_face(f)); });
+  if (!(volume < -rounding * size)) return {};
+  return {
+      fmt::format("the mesh is inside out: its faces run clockwise if they are seen from outside, and its "
+                  "volume is {:.4g}; the map is its mirror image, unless you turn all faces over",
+                  volume / 6)};
 }
 
 std::vector<std::vector<int>> mirrors_of(const Tile& tile, const BoundaryConditions& boundary,
@@ -49,13 +75,11 @@ std::vector<std::string> warnings_of_collapse(const FaceView& faces, const std::
                                               const std::vector<int>& nonpositive) {
   const long unavoidable = count_in_or_beside(collapsing, faces, nonpositive);
   if (unavoidable == 0) return {};
-  return {
-      fmt::format("{} of the {} faces that are not positively oriented must become arcs, or lie beside such "
-                  "faces, the first "
-                  "face {}: the mesh is not 3-connected there, and no failure of the solver (see 'orbitutte "
-                  "info'); mark a "
-                  "vertex there, or give it further edges",
-                  unavoidable, nonpositive.size(), collapsing.front())};
+  return {fmt::format(
+      "{} of the {} faces that are not positively oriented must become arcs or lie beside such faces, "
+      "the first face {}: the mesh is not 3-connected there (see 'orbitutte info'), so that no "
+      "solver can do better; mark a vertex there, or add edges",
+      unavoidable, nonpositive.size(), collapsing.front())};
 }
 
 }  // namespace orbitutte

@@ -13,6 +13,9 @@ namespace orbitutte {
 /// About weights that are zero, and faces that a side flattens.
 std::vector<std::string> warnings_about(const EdgeWeights& weights, const std::vector<Ear>& ears);
 
+/// About a sphere that is inside out: its volume is negative. None, or one warning.
+std::vector<std::string> warnings_of_orientation(const Surface& surface);
+
 /// The input vertices of each mirror and held side, along the boundary: those that collapsing_faces asks for.
 /// source_vertex: of the cut mesh.
 std::vector<std::vector<int>> mirrors_of(const Tile& tile, const BoundaryConditions& boundary,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The scales of the distortions, whose colours the scene brings along, for the surfaces and the legend alike.
+// The scales of the distortions, for surfaces and legend. Their colours come with the scene.
 import {DataTexture, LinearFilter, RGBAFormat} from 'three';
 
 const channels = (colour) => [1, 3, 5].map((at) => parseInt(colour.slice(at, at + 2), 16));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Brings the page's view to life: reads the scene, and connects controls, legend and readout with the view.
+// Starts the page's view: reads the scene, and connects controls, legend and readout with the view.
 import {gradient} from './colour_maps.js';
 import {Marks} from './marks.js';
 import {readScene} from './scene_data.js';

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The material of all surfaces: one shader, whose colouring the user chooses.
+// The material of all surfaces: one shader with a colouring that the user chooses.
 import {DoubleSide, ShaderMaterial, Vector2} from 'three';
 
 export const COLOURINGS = {tile: 0, checkerboard: 1, area: 2, angle: 3, normal: 4, vertex: 5};
@@ -87,7 +87,7 @@ void main() {
   gl_FragColor = vec4(min(colour() * light * 1.04, 1.0), opacity);
 }`;
 
-/** Uniforms that all surfaces share, so that one assignment changes all. */
+/** Uniforms that all surfaces share, so that one assignment changes all of them. */
 export function sharedUniforms(frame, maps, scales) {
   return {
     colouring: {value: COLOURINGS.tile},

@@ -17,7 +17,7 @@ import {StageInput, Turntable} from './turntable.js';
 
 // Only the view has marks and points; all other colours come with the scene.
 const MARK = '#d6006c', POINT = '#ffffff', FAINT = '#9aa4af';
-const OUTLINE_STEP = 0.004;  // of the sphere's radius: below a pixel
+const OUTLINE_STEP = 0.004;  // in units of the sphere's radius; below a pixel
 
 ColorManagement.enabled = false;
 

@@ -45,7 +45,7 @@ void require_enough(int wanted, const std::vector<int>& among) {
 std::vector<int> extremities(const Surface& surface, int inner, int outer) {
   const Places place = places(surface);
   if (inner > 0 && place.inside.empty())
-    throw MeshError("no vertex lies inside the surface, where one has to be marked");
+    throw MeshError("one vertex has to be marked inside the surface, but all are on its boundary");
   require_enough(inner, place.inside);
   require_enough(outer, place.on_boundary);
   const EdgeGraph graph = edge_length_graph(surface);

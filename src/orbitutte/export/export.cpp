@@ -240,7 +240,8 @@ std::string ply_bytes(const ExportedModel& model) {
 }
 
 ExportedModel exported_model(Surface surface, const Embedding& embedding, TextureChart chart) {
-  if (!is_cut_from(surface, embedding)) throw MeshError("the embedding is none of this mesh");
+  if (!is_cut_from(surface, embedding))
+    throw MeshError("the embedding does not belong to this mesh; give the mesh that was embedded");
   ExportedModel model = {std::move(surface), embedding, texture_coordinates(embedding, chart), {}};
   model.embedding.faces = cut_triangles(model.surface, embedding);
   model.of_face = distortion_of_faces(model.surface, measure_faces(model.surface, model.embedding));

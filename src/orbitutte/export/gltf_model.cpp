@@ -156,7 +156,7 @@ double linear_channel(std::uint8_t channel) {
 void check_glb_size(std::size_t bytes, const std::string& what) {
   // Everything besides the mesh stays far below a mebibyte.
   if (bytes > std::numeric_limits<std::uint32_t>::max() - (std::size_t{1} << 20))
-    throw ArgumentError(fmt::format("{} is too large for GLB, which ends at 4 GiB: write PLY", what));
+    throw ArgumentError(fmt::format("{} is too large for GLB, which holds at most 4 GiB; write .ply", what));
 }
 
 }  // namespace orbitutte

@@ -17,7 +17,7 @@ namespace {
 void check_vertices(const std::vector<int>& vertices, int count) {
   for (const int v : vertices)
     if (v < 0 || v >= count)
-      throw ArgumentError(fmt::format("a seam names vertex {} of {} cut vertices", v, count));
+      throw ArgumentError(fmt::format("a seam names the cut vertex {}, but there are {}", v, count));
 }
 
 /// Checks for errors that an embedding read from files may have.
@@ -32,19 +32,18 @@ void check_embedding(const Embedding& embedding) {
     throw ArgumentError("a face of the embedding names a vertex that does not exist");
   for (const Seam& seam : embedding.seams) {
     if (seam.left.size() != seam.right.size())
-      throw ArgumentError("the two banks of a seam differ in length");
+      throw ArgumentError("the two banks of a seam have different lengths");
     check_vertices(seam.left, vertices);
     check_vertices(seam.right, vertices);
   }
   if (embedding.seams.empty())
     throw ArgumentError(
-        "the embedding has no seams, as one into a fixed polygon has none: there are no symmetric copies "
-        "that would "
-        "tile the sphere");
+        "the embedding has no seams, so that no symmetric copies of it tile the sphere; embed the mesh into "
+        "an orbifold, not into a fixed polygon");
   const auto corners = static_cast<long long>(embedding.polygons.corners.size());
   const long long largest = std::max<long long>({vertices, embedding.faces.rows(), corners});
   if (largest * std::max(embedding.target.group_order, 1) > std::numeric_limits<int>::max())
-    throw ArgumentError(fmt::format("{} copies of {} faces are more than an int can count",
+    throw ArgumentError(fmt::format("{} copies of {} faces are more than 2^31 - 1; tile a coarser mesh",
                                     embedding.target.group_order, embedding.faces.rows()));
 }
 

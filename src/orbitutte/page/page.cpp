@@ -147,7 +147,7 @@ Content warnings(const Json& report, const Judgement& judgement) {
 // Sections
 
 Content key_figures(const Json& report, const Embedding& embedding) {
-  const double conformal = 8 * std::numbers::pi / embedding.group_order;
+  const double conformal = 8 * std::numbers::pi / embedding.target.group_order;
   return {{"angle", measure_text(number_at(report, "/distortion/angle/mean"))},
           {"area", measure_text(number_at(report, "/distortion/area/median"))},
           {"energy", measure_text(number_at(report, "/energy"))},
@@ -196,8 +196,8 @@ Content cone_rows(const Embedding& embedding) {
     const ConeCopies& cone = embedding.cones[c];
     rows.push_back({{"colour", hexadecimal(cone_colour(static_cast<int>(c)))},
                     {"vertex", std::to_string(cone.vertex)},
-                    {"order", std::to_string(cone.order)},
-                    {"kind", name(cone.kind)},
+                    {"order", std::to_string(cone.mark.order())},
+                    {"kind", name(cone.mark.kind)},
                     {"copies", std::to_string(cone.copies.size())}});
   }
   return rows;
@@ -212,8 +212,8 @@ std::string cones_argument(const Embedding& embedding) {
 Content seam_rows(const Embedding& embedding) {
   Content rows = Content::array();
   for (const Seam& seam : embedding.seams) {
-    const double turn =
-        std::acos(std::clamp((seam.transform.determinant() * seam.transform.trace() - 1) / 2, -1.0, 1.0));
+    const Matrix3& M = seam.transform.matrix();
+    const double turn = std::acos(std::clamp((M.determinant() * M.trace() - 1) / 2, -1.0, 1.0));
     rows.push_back({{"kind", name(seam.kind())},
                     {"vertices", grouped_digits(static_cast<long long>(seam.left.size()))},
                     {"angle", fmt::format("{:.4g}°", turn * 180 / std::numbers::pi)}});
@@ -304,15 +304,6 @@ std::string mesh_name(const Json& report) {
   return file.empty() ? "mesh" : file;
 }
 
-/// The certificate of the embedding's own faces: of its polygons, where it has them.
-Certificate certificate_of(const PageSubject& subject) {
-  const Embedding& embedding = subject.embedding;
-  if (embedding.polygons.count() == 0) return certify(subject.mesh, embedding);
-  Polygons source = embedding.polygons;
-  for (int& v : source.corners) v = embedding.source_vertex[v];
-  return certify(static_cast<int>(subject.mesh.V.rows()), FaceView(source), embedding);
-}
-
 void add_view(const PageSubject& subject, const PageOptions& options,
               const std::vector<FaceDistortion>& faces, Content& content) {
   content["has_view"] = has_interactive_view();
@@ -322,7 +313,7 @@ void add_view(const PageSubject& subject, const PageOptions& options,
   if (!is_interactive(options)) return;
   content["licences"] = std::string(page_licences);
   content["script"] = std::string(page_script);
-  content["scene"] = page_scene(subject.mesh, subject.embedding, faces, subject.colours, options.limits);
+  content["scene"] = page_scene(subject.surface, subject.embedding, faces, options.limits);
 }
 
 void add_judgement(const Judgement& judgement, const Embedding& embedding, Content& content) {
@@ -340,16 +331,17 @@ void add_judgement(const Judgement& judgement, const Embedding& embedding, Conte
 /// What fills the template, besides the report's figures.
 Content page_content(const PageSubject& subject, const Json& report, const PageOptions& options) {
   const Embedding& embedding = subject.embedding;
-  const Judgement judgement = {certificate_of(subject), at(report, "/termination") == "converged"};
-  const std::vector<FaceDistortion> faces = measure_faces(subject.mesh, embedding);
+  const Judgement judgement = {certify(subject.surface, embedding),
+                               at(report, "/termination") == "converged"};
+  const std::vector<FaceDistortion> faces = measure_faces(subject.surface, embedding);
   const std::vector<Iteration> history = history_of(report);
   const std::string style_sheet = style();
   Content content = {{"version", version},
                      {"style", style_sheet},
                      {"policy", policy(style_sheet, options)},
                      {"mesh_name", mesh_name(report)},
-                     {"signature", embedding.signature},
-                     {"group", plural(embedding.group_order, "element")},
+                     {"signature", embedding.target.signature},
+                     {"group", plural(embedding.target.group_order, "element")},
                      {"warnings", warnings(report, judgement)},
                      {"figures", key_figures(report, embedding)},
                      {"histogram", svg_chart(area_histogram(values_of(Measure::area, faces)))},

@@ -113,7 +113,7 @@ Json transform_json(const Matrix3& M) {
 Json copies_json(const Embedding& embedding) {
   Json rows = Json::array();
   for (const TileCopy& copy : tile_copies(embedding)) {
-    rows.push_back({{"transform", transform_json(copy.transform)},
+    rows.push_back({{"transform", transform_json(copy.transform.matrix())},
                     {"colour", hexadecimal(tile_colour(copy.colour, copy.mirrored))}});
   }
   return rows;
@@ -129,7 +129,7 @@ Json cones_json(const Embedding& embedding, const std::vector<int>& cut_vertex) 
       if (at != cut_vertex.end() && *at == v) drawn.push_back(at - cut_vertex.begin());
     }
     rows.push_back({{"vertex", cone.vertex},
-                    {"order", cone.order},
+                    {"order", cone.mark.order()},
                     {"colour", hexadecimal(cone_colour(static_cast<int>(c)))},
                     {"drawn", std::move(drawn)}});
   }
@@ -204,16 +204,16 @@ void add_colours(const Points& colours, const Embedding& embedding, const std::v
 
 }  // namespace
 
-std::string page_scene(const Mesh& mesh, const Embedding& embedding, const std::vector<FaceDistortion>& faces,
-                       const Points& colours, const DisplayLimits& limits) {
-  const DisplayMesh display = display_mesh(mesh, embedding, limits);
+std::string page_scene(const Surface& surface, const Embedding& embedding,
+                       const std::vector<FaceDistortion>& faces, const DisplayLimits& limits) {
+  const DisplayMesh display = display_mesh(surface, embedding, limits);
   Json scene = {{"faces", embedding.faces.rows()},
                 {"shown_faces", display.fine.faces.rows()},
                 {"copy_faces", display.coarse.faces.rows()},
                 {"vertices", display.cut_vertex.size()}};
-  add_positions(mesh, embedding, display.cut_vertex, scene);
+  add_positions(surface, embedding, display.cut_vertex, scene);
   add_distortion(embedding, faces, display.cut_vertex, scene);
-  add_colours(colours, embedding, display.cut_vertex, scene);
+  add_colours(surface.colours, embedding, display.cut_vertex, scene);
   scene["fine"] = level_json(display.fine);
   scene["coarse"] = level_json(display.coarse);
   scene["copies"] = copies_json(embedding);

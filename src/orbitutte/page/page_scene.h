@@ -29,8 +29,8 @@ namespace orbitutte {
 /// Holds no `<`, so that it can stand within a script element. Throws as tile_sphere does where the seams
 /// generate no group of the right order; then `copies` would mean nothing.
 ///
-/// faces: as measure_faces has them; colours: of the mesh's vertices, n x 3, sRGB, 0 .. 1, or none.
-std::string page_scene(const Mesh& mesh, const Embedding& embedding, const std::vector<FaceDistortion>& faces,
-                       const Points& colours, const DisplayLimits& limits = {});
+/// faces: as measure_faces has them.
+std::string page_scene(const Surface& surface, const Embedding& embedding,
+                       const std::vector<FaceDistortion>& faces, const DisplayLimits& limits = {});
 
 }  // namespace orbitutte

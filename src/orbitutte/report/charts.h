@@ -4,9 +4,9 @@
 
 #include <vector>
 
+#include "orbitutte/minimum.h"
 #include "orbitutte/report/chart.h"
 #include "orbitutte/report/colour_scale.h"
-#include "orbitutte/solve/lbfgs.h"
 
 namespace orbitutte {
 

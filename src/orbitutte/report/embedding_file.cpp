@@ -37,7 +37,7 @@ void require_properties(const PlyFile& file) {
 
 int to_index(double value, int limit, const char* what, std::size_t of) {
   if (!(value >= 0) || value >= limit || value != std::floor(value))
-    throw MeshError(fmt::format("{} {} names the vertex {}; there are {}", what, of, value, limit));
+    throw MeshError(fmt::format("{} {} names the vertex {}, but there are {}", what, of, value, limit));
   return static_cast<int>(value);
 }
 

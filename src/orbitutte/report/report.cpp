@@ -77,7 +77,14 @@ Json to_json(const Certificate& certificate) {
 Json to_json(const Distortion& distortion) {
   const auto& [mean, std, median, max] = distortion.area;
   return {{"area", {{"mean", mean}, {"std", std}, {"median", median}, {"max", max}}},
-          {"angle", {{"mean", distortion.angle.mean}, {"max", distortion.angle.max}}},
+          {"angle",
+           {{"mean", distortion.angle.mean},
+            {"area_mean", distortion.angle.area_mean},
+            {"median", distortion.angle.median},
+            {"max", distortion.angle.max}}},
+          {"sigma", distortion.sigma},
+          {"within_4", distortion.within_4},
+          {"below_64", distortion.below_64},
           {"histogram",
            {{"quantity", "log2 of the area ratio"},
             {"edges", distortion.histogram.edges},
@@ -184,7 +191,7 @@ template <typename Kind>
 Kind one_of(std::initializer_list<Kind> kinds, const std::string& word, const char* what) {
   for (const Kind kind : kinds)
     if (name(kind) == word) return kind;
-  throw MeshError(fmt::format("the 'kind' of {} is '{}', which means nothing", what, word));
+  throw MeshError(fmt::format("the 'kind' of {} is '{}', which is not known", what, word));
 }
 
 Space to_space(const std::string& name) {
@@ -303,9 +310,9 @@ Report parse_report(std::string_view text) {
   try {
     return to_report(Json::parse(text));
   } catch (const nlohmann::json::parse_error& error) {
-    throw MeshError(fmt::format("this is no JSON, from byte {} on", error.byte));
+    throw MeshError(fmt::format("the file is not JSON: byte {} cannot be read", error.byte));
   } catch (const nlohmann::json::out_of_range&) {
-    throw MeshError("a number is too large to be one");
+    throw MeshError("a number is too large to be read");
   }
 }
 
@@ -343,7 +350,8 @@ Embedding with_report(Embedding embedding, const Report& report) {
   const auto require = [&](const std::vector<int>& vertices) {
     for (const int v : vertices)
       if (v < 0 || v >= count)
-        throw MeshError(fmt::format("the report names the cut vertex {}, but there are {}", v, count));
+        throw MeshError(
+            fmt::format("the report names the cut vertex {}, but the embedding has {} vertices", v, count));
   };
   for (const Seam& seam : embedding.seams) {
     require(seam.left);

@@ -267,7 +267,7 @@ const Shape& row_of(SampleShape shape) {
 void require_faces_from(int fewest, int faces) {
   if (faces >= fewest && faces <= most_faces) return;
   throw ArgumentError(
-      fmt::format("a sample mesh of {} faces is not made; ask for {} to {}", faces, fewest, most_faces));
+      fmt::format("a sample mesh cannot have {} faces; ask for {} to {}", faces, fewest, most_faces));
 }
 
 // ---- cones
@@ -289,7 +289,7 @@ SampleShape sample_shape(const std::string& name) {
     if (shape.name == name) return shape.shape;
     names += (names.empty() ? "" : ", ") + shape.name;
   }
-  throw ArgumentError(fmt::format("there is no sample of the shape '{}'; there are {}", name, names));
+  throw ArgumentError(fmt::format("there is no shape '{}'; choose one of {}", name, names));
 }
 
 bool passes_through_itself(SampleShape shape) { return row_of(shape).projective_map != nullptr; }

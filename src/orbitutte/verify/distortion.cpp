@@ -41,6 +41,14 @@ double ratio_of_singular_values(const std::array<Complex, 2>& e, const std::arra
   return (a + b) / (a - b);
 }
 
+// Reorders the values. 0 where there are none.
+double median(std::vector<double>& values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return values.size() % 2 ? *middle : 0.5 * (*middle + *std::max_element(values.begin(), middle));
+}
+
 Distortion::Area statistics(std::vector<double>& values) {
   Distortion::Area result;
   if (values.empty()) return result;
@@ -50,10 +58,53 @@ Distortion::Area statistics(std::vector<double>& values) {
   for (const double value : values) squares += (value - result.mean) * (value - result.mean);
   result.std = std::sqrt(squares / count);
   result.max = *std::max_element(values.begin(), values.end());
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  result.median = values.size() % 2 ? *middle : 0.5 * (*middle + *std::max_element(values.begin(), middle));
+  result.median = median(values);
   return result;
+}
+
+Distortion::Angle angle_statistics(const std::vector<FaceDistortion>& faces) {
+  Distortion::Angle result;
+  std::vector<double> angles;
+  double sum = 0, weighted_sum = 0, weight = 0;
+  for (const FaceDistortion& face : faces) {
+    if (!(face.angle > 0)) continue;
+    angles.push_back(face.angle);
+    sum += face.angle;
+    weighted_sum += face.share * face.angle;
+    weight += face.share;
+    result.max = std::max(result.max, face.angle);
+  }
+  if (angles.empty()) return result;
+  result.mean = sum / static_cast<double>(angles.size());
+  result.area_mean = weighted_sum / weight;
+  result.median = median(angles);
+  return result;
+}
+
+// The share of the source's area in triangles with lowest <= A <= highest.
+double share_between(double lowest, double highest, const std::vector<FaceDistortion>& faces) {
+  double share = 0;
+  for (const FaceDistortion& face : faces)
+    if (face.area > 0 && face.area >= lowest && face.area <= highest) share += face.share;
+  return std::min(share, 1.0);
+}
+
+// sqrt(sum a (u - mean)^2 / sum a) of u = 1/2 log A, a the triangle's share of the source's area.
+double deviation_of_scale(const std::vector<FaceDistortion>& faces) {
+  double weight = 0, sum = 0, squares = 0;
+  for (const FaceDistortion& face : faces) {
+    if (!(face.area > 0)) continue;
+    weight += face.share;
+    sum += face.share * 0.5 * std::log(face.area);
+  }
+  if (!(weight > 0)) return 0;
+  const double mean = sum / weight;
+  for (const FaceDistortion& face : faces) {
+    if (!(face.area > 0)) continue;
+    const double difference = 0.5 * std::log(face.area) - mean;
+    squares += face.share * difference * difference;
+  }
+  return std::sqrt(squares / weight);
 }
 
 // Bins of log2 A, a quarter wide, from -8 to 8.
@@ -87,6 +138,7 @@ struct FaceAreas {
 FaceDistortion face_distortion(const std::array<Vector3, 3>& source, const std::array<Vector3, 3>& image,
                                const FaceAreas& area, const FaceAreas& total, Space space) {
   FaceDistortion result;
+  result.share = total.source > 0 ? area.source / total.source : 0;
   const auto length = [&](int i, int j) { return (source[i] - source[j]).norm(); };
   const std::array<double, 3> lengths = {length(0, 1), length(1, 2), length(2, 0)};
   const std::array<double, 3> arcs = {space.distance(image[0], image[1]), space.distance(image[1], image[2]),
@@ -147,22 +199,17 @@ Distortion measure_distortion(const Surface& surface, const Embedding& embedding
   result.histogram = empty_histogram();
   std::vector<double> areas;
   areas.reserve(of_face.size());
-  double angle_sum = 0;
-  int angles = 0;
   for (const FaceDistortion& face : of_face) {
-    if (face.area > 0) {
-      areas.push_back(std::max(face.area, 1 / face.area));
-      ++result.histogram.counts[histogram_bin(face.area)];
-    }
-    if (face.angle > 0) {
-      angle_sum += face.angle;
-      ++angles;
-      result.angle.max = std::max(result.angle.max, face.angle);
-    }
+    if (!(face.area > 0)) continue;
+    areas.push_back(std::max(face.area, 1 / face.area));
+    ++result.histogram.counts[histogram_bin(face.area)];
   }
   result.measured_faces = static_cast<int>(areas.size());
   result.area = statistics(areas);
-  result.angle.mean = angles ? angle_sum / angles : 0;
+  result.angle = angle_statistics(of_face);
+  result.within_4 = share_between(0.25, 4, of_face);
+  result.below_64 = share_between(0, std::nextafter(1.0 / 64, 0.0), of_face);
+  result.sigma = deviation_of_scale(of_face);
   return result;
 }
 

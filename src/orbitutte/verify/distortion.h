@@ -15,9 +15,17 @@ struct Distortion {
     double mean = 0, std = 0, median = 0, max = 0;
   } area;  ///< of max(A, 1/A), A the triangle's share of the tile's area over its share of the source's
   struct Angle {
-    double mean = 0, max = 0;
+    double mean = 0, median = 0, max = 0;
+    double area_mean = 0;  ///< the mean weighted by the areas of the source
   } angle;  ///< of the ratio of singular values of the map to the triangle with the same arc lengths laid out
             ///< flat
+  /// The part of the source's area that lies in triangles with 1/4 <= A <= 4.
+  double within_4 = 0;
+  /// The part of the source's area that lies in triangles with A < 1/64.
+  double below_64 = 0;
+  /// The standard deviation of 1/2 log A, the logarithm of the scale of lengths, weighted by the areas of the
+  /// source.
+  double sigma = 0;
   struct Histogram {
     std::vector<double> edges;      ///< k + 1 bounds of log2 A, the first and last bins open to all beyond
     std::vector<long long> counts;  ///< k
@@ -27,6 +35,7 @@ struct Distortion {
 
 /// What measure_distortion gathers of a single triangle.
 struct FaceDistortion {
+  double share = 0;  ///< the triangle's share of the source's area
   double area = 0;   ///< A, not max(A, 1/A); 0 where the triangle is left out
   double angle = 0;  ///< the ratio of singular values; 0 where there is none
 };
@@ -34,8 +43,9 @@ struct FaceDistortion {
 /// Of every face of the embedding (m).
 std::vector<FaceDistortion> measure_faces(const Surface& surface, const Embedding& embedding);
 
-/// Left out and not counted are triangles without area, and images that are not positively oriented or
-/// thinner than the rounding errors of positions, whose shape is noise.
+/// Triangles without area are left out and not counted, and so are images that are not positively oriented or
+/// thinner than the rounding errors of positions, since their shape is noise. They are neither within_4 nor
+/// below_64.
 Distortion measure_distortion(const Surface& surface, const Embedding& embedding);
 
 }  // namespace orbitutte

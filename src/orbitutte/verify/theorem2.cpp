@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// N. Aigerman, S. Z. Kovalsky, Y. Lipman, "Spherical Target Tutte Embeddings" (2017), theorem 2; after L.
+// N. Aigerman, S. Z. Kovalsky, Y. Lipman, "Spherical Orbifold Tutte Embeddings" (2017), theorem 2; after L.
 // Lovasz, "Steinitz representations of polyhedra and the Colin de Verdiere number", Journal of Combinatorial
 // Theory B 82 (2001).
 #include "orbitutte/verify/theorem2.h"

@@ -165,7 +165,7 @@ class WeightCollector {
           "{}: edge ({}, {}) has the weight {}; weights must be finite and not negative", place(), i, j, w));
     const int edge = find_edge(connectivity_, i, j);
     if (edge < 0)
-      throw MeshError(fmt::format("{}: ({}, {}) is no edge of the mesh; leave it out", place(), i, j));
+      throw MeshError(fmt::format("{}: the mesh has no edge ({}, {}); leave it out", place(), i, j));
     if (result_.w[edge] != missing)
       throw MeshError(fmt::format("{}: edge ({}, {}) is given twice; give every edge once", place(), i, j));
     result_.w[edge] = w;
@@ -212,8 +212,8 @@ WeightKind weight_kind(const Surface& surface, WeightKind asked) {
   const bool of_triangles = asked == WeightKind::delaunay || asked == WeightKind::mean_value;
   if (of_triangles && surface.has_polygons())
     throw ArgumentError(fmt::format(
-        "{} weights are not there for faces of more than three corners; take cotan or uniform, or a "
-        "file of weights",
+        "the mesh has faces of more than three corners, for which there are no {} weights; take cotan or "
+        "uniform weights, or a file of weights",
         name(asked)));
   return asked;
 }
@@ -224,7 +224,7 @@ EdgeWeights edge_weights(const Surface& surface, const WeightOptions& options,
     throw ArgumentError(
         fmt::format("the clamp of the weights is {}; it must be positive and finite", options.clamp));
   if (options.kind == WeightKind::file && options.given.empty())
-    throw ArgumentError("weights of the kind 'file' are read by read_weights");
+    throw ArgumentError("the kind of the weights is 'file'; call read_weights to read them");
   if (options.kind == WeightKind::file) return given_weights(options.given, surface.connectivity);
   const WeightKind kind = weight_kind(surface, options.kind);
   EdgeWeights result = kind == WeightKind::cotan        ? cotangent_weights(surface, options.clamp)

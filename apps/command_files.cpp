@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include "command_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <system_error>
+
+#include "orbitutte/errors.h"
+
+namespace orbitutte::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The path without links, dots and repeated slashes. A link may lead to a file that does not exist yet.
+fs::path resolved(fs::path path) {
+  constexpr int longest_chain = 40;  // as Linux has it
+  std::error_code error;
+  for (int k = 0; k < longest_chain && fs::is_symlink(path, error); ++k)
+    path = path.parent_path() / fs::read_symlink(path, error);
+  const fs::path absolute = fs::absolute(path, error);
+  const fs::path canonical = fs::weakly_canonical(absolute, error);
+  return error ? absolute.lexically_normal() : canonical;
+}
+
+// Is something there that cannot be overwritten, such as a pipe or /dev/null?
+bool is_stream(const std::string& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  return fs::is_character_file(status) || fs::is_fifo(status) || fs::is_socket(status);
+}
+
+std::string lower_case_ending(const std::string& path) {
+  std::string ending = fs::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  return ending;
+}
+
+// ".ply, .obj, .glb or .stl"
+std::string alternatives(const std::vector<std::string>& endings) {
+  std::string text;
+  for (std::size_t k = 0; k < endings.size(); ++k)
+    text += (k == 0 ? "" : k + 1 < endings.size() ? ", " : " or ") + endings[k];
+  return text;
+}
+
+void require_right_ending(const OutputFile& output) {
+  const std::vector<std::string>& endings = output.endings;
+  if (std::find(endings.begin(), endings.end(), lower_case_ending(output.path)) != endings.end()) return;
+  throw ArgumentError(fmt::format("{} is '{}', but {} is written as {}; change the ending of the name",
+                                  output.option, output.path, output.content, alternatives(endings)));
+}
+
+void require_inputs_kept(const OutputFile& output, const std::vector<InputFile>& inputs) {
+  for (const InputFile& input : inputs)
+    if (is_same_file(output.path, input.path))
+      throw ArgumentError(fmt::format("{} is '{}', which is {} that the command reads; name another file",
+                                      output.option, output.path, input.content));
+}
+
+}  // namespace
+
+bool is_same_file(const std::string& first, const std::string& second) {
+  std::error_code error;
+  return fs::equivalent(first, second, error) || resolved(first) == resolved(second);
+}
+
+void require_sound_files(const std::vector<InputFile>& inputs, const std::vector<OutputFile>& outputs) {
+  for (auto output = outputs.begin(); output != outputs.end(); ++output) {
+    if (is_stream(output->path)) continue;
+    require_inputs_kept(*output, inputs);
+    for (auto other = outputs.begin(); other != output; ++other)
+      if (is_same_file(output->path, other->path))
+        throw ArgumentError(fmt::format("{} and {} are both '{}'; give each a file of its own", other->option,
+                                        output->option, output->path));
+    require_right_ending(*output);
+  }
+}
+
+}  // namespace orbitutte::cli

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// The files that a command reads and writes, and the rule that holds for all commands before anything is
+// read: what is written takes the place of nothing that is read and of nothing else that is written, and its
+// name says what it is.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace orbitutte::cli {
+
+/// A file that a command reads.
+struct InputFile {
+  std::string content;  ///< "the mesh", for messages
+  std::string path;
+};
+
+/// A file that a command writes.
+struct OutputFile {
+  std::string option;   ///< "-o" or "--report", for messages
+  std::string content;  ///< "the embedding", for messages
+  std::string path;
+  std::vector<std::string> endings;  ///< those that its name may have, in lower case with the dot
+};
+
+/// Do both paths lead to one file? Links of both kinds are followed; neither file has to exist.
+bool is_same_file(const std::string& first, const std::string& second);
+
+/// Throws ArgumentError if an output is one of the inputs, if two outputs are one file, or if a name has an
+/// ending that its content does not have. Devices and pipes may be anything. Opens no file.
+void require_sound_files(const std::vector<InputFile>& inputs, const std::vector<OutputFile>& outputs);
+
+}  // namespace orbitutte::cli

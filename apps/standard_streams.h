@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// Standard output carries results, which have to arrive; standard error carries messages, which need not.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <string>
+#include <utility>
+
+namespace orbitutte::cli {
+
+/// Keeps the numbers of streams that the caller has closed from files that the program opens. What is written
+/// to such a stream fails. For the beginning of main.
+void occupy_closed_streams();
+
+/// Throws FileError with the system's reason unless all that was printed to standard output has arrived.
+void flush_standard_output();
+
+/// Writes text to standard error. A message that nobody can read is no reason to fail.
+void tell_text(const std::string& text);
+
+/// The same with arguments.
+template <typename... Arguments>
+void tell(fmt::format_string<Arguments...> text, Arguments&&... arguments) {
+  tell_text(fmt::format(text, std::forward<Arguments>(arguments)...));
+}
+
+}  // namespace orbitutte::cli

@@ -1,0 +1,275 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""The command line as its users meet it: misspelt words, names of files, streams that are closed or full, and messages.
+
+usage: tests/command_line.py PROGRAM [UNITTEST OPTION ...]
+
+Needs nothing but the built program, which makes the meshes itself.
+"""
+import json
+import math
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM = ''
+COMMANDS = ['embed', 'info', 'types', 'verify', 'tile', 'export', 'render', 'report', 'compare', 'sample']
+IS_A_FILE, IS_WRONG, IS_UNSUITABLE, IS_NOT_CONVERGED, IS_NOT_CERTIFIED = 1, 2, 3, 4, 5
+
+
+def write_obj(path, vertices, faces):
+    lines = [f'v {x!r} {y!r} {z!r}' for x, y, z in vertices] + ['f ' + ' '.join(str(v + 1) for v in face) for face in faces]
+    path.write_text('\n'.join(lines) + '\n')
+
+
+def read_obj(path):
+    words = [line.split() for line in path.read_text().splitlines()]
+    vertices = [tuple(map(float, line[1:4])) for line in words if line and line[0] == 'v']
+    return vertices, [[int(corner.split('/')[0]) - 1 for corner in line[1:]] for line in words if line and line[0] == 'f']
+
+
+def tube(rings, corners=6):
+    """A closed tube along z, much longer than it is wide. The last two vertices are the ends."""
+    vertices = [(math.cos(2 * math.pi * k / corners), math.sin(2 * math.pi * k / corners), float(ring))
+                for ring in range(rings) for k in range(corners)]
+    faces = []
+    for ring in range(rings - 1):
+        for k in range(corners):
+            a, b = ring * corners + k, ring * corners + (k + 1) % corners
+            faces += [[a, b, b + corners], [a, b + corners, a + corners]]
+    bottom, top = len(vertices), len(vertices) + 1
+    vertices += [(0.0, 0.0, -0.5), (0.0, 0.0, rings - 0.5)]
+    for k in range(corners):
+        after = (k + 1) % corners
+        faces += [[bottom, after, k], [top, (rings - 1) * corners + k, (rings - 1) * corners + after]]
+    return vertices, faces
+
+
+class CommandLine(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.scratch = tempfile.TemporaryDirectory(prefix='orbitutte-command-line-')
+        cls.folder = pathlib.Path(cls.scratch.name)
+        for command in (['sample', '--faces', '500', '-o', 'figure.obj'],
+                        ['embed', 'figure.obj', '--orbifold', '432', '--cones', 'auto', '-o', 'map.ply', '--report', 'map.json']):
+            subprocess.run([PROGRAM, *command], cwd=cls.folder, check=True, stderr=subprocess.DEVNULL)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.scratch.cleanup()
+
+    def run_program(self, *arguments, **options):
+        options = {'stdout': subprocess.PIPE, 'stderr': subprocess.PIPE, **options}
+        return subprocess.run([PROGRAM, *map(str, arguments)], cwd=self.folder, text=True, errors='replace', stdin=subprocess.DEVNULL, **options)
+
+    def expect(self, code, *arguments, says=(), **options):
+        """Runs the program; the exit code has to be this one, and standard error has to match each of the patterns."""
+        done = self.run_program(*arguments, **options)
+        self.assertEqual(done.returncode, code, f'{arguments}: {done.stderr}')
+        for pattern in [says] if isinstance(says, str) else says:
+            self.assertRegex(done.stderr, pattern, arguments)
+        return done
+
+    def embed(self, mesh, *options, orbifold='432', cones='auto'):
+        return ['embed', mesh, '--orbifold', orbifold, '--cones', cones, *options]
+
+
+class Words(CommandLine):
+    def assert_lists_the_commands(self, text):
+        self.assertEqual(re.findall(r'^  (\w+) +\w', text, re.MULTILINE), COMMANDS)
+
+    def test_no_command_lists_all(self):
+        done = self.expect(IS_WRONG, says='needs a command')
+        self.assert_lists_the_commands(done.stderr)
+        self.assertEqual(done.stdout, '')
+
+    def test_a_misspelt_command_names_the_nearest(self):
+        for word, meant in {'embde': 'embed', 'emb': 'embed', 'verfy': 'verify', 'tiel': 'tile', 'exports': 'export', 'sampel': 'sample'}.items():
+            with self.subTest(word):
+                done = self.expect(IS_WRONG, word, 'figure.obj', '--orbifold', '432', says=f"there is no command '{word}'; did you mean '{meant}'")
+                self.assert_lists_the_commands(done.stderr)
+
+    def test_a_word_that_is_like_no_command_lists_all(self):
+        done = self.expect(IS_WRONG, 'figure.obj', says="there is no command 'figure.obj'\n")
+        self.assert_lists_the_commands(done.stderr)
+
+    def test_a_misspelt_option_names_the_nearest(self):
+        for command, option, meant in [('embed', '--orbifld', '--orbifold'), ('embed', '--weigths', '--weights'), ('embed', '--cone', '--cones'),
+                                       ('embed', '--cut_seed', '--cut-seed'), ('render', '--pannel', '--panel'), ('info', '--jsno', '--json')]:
+            for given in ([option, '432'], [f'{option}=432']):
+                with self.subTest(given):
+                    self.expect(IS_WRONG, command, 'figure.obj', *given,
+                                says=[f"orbitutte {command} has no option '{option}'; did you mean '{meant}'", f"'orbitutte {command} --help'"])
+        self.expect(IS_WRONG, '--verison', says="has no option '--verison'; did you mean '--version'")
+
+    def test_an_option_that_is_like_no_other_gets_no_suggestion(self):
+        done = self.expect(IS_WRONG, 'info', 'figure.obj', '--quadrangulate', says="has no option '--quadrangulate'")
+        self.assertNotIn('did you mean', done.stderr)
+
+    def test_a_word_too_many_is_named(self):
+        self.expect(IS_WRONG, 'info', 'figure.obj', 'map.ply', says="'map.ply' is one argument too many")
+
+    def test_what_is_missing_is_named(self):
+        self.expect(IS_WRONG, 'embed', 'figure.obj', says=['--orbifold is required', "'orbitutte embed --help'"])
+
+
+class Files(CommandLine):
+    def setUp(self):
+        self.before = {path: path.read_bytes() for path in self.folder.iterdir() if path.is_file()}
+
+    def tearDown(self):
+        for path, content in self.before.items():
+            self.assertEqual(path.read_bytes(), content, path)
+
+    def test_wrong_endings_are_refused_before_anything_is_read(self):
+        embedding = ['no.ply', 'no.json']
+        for arguments in (self.embed('no.obj', '-o', 'out.obj'), self.embed('no.obj', '-o', 'out'), self.embed('no.obj', '--report', 'out.txt'),
+                          ['tile', *embedding, '-o', 'out.off'], ['export', *embedding, 'no.obj', '-o', 'out.stl'],
+                          ['render', *embedding, 'no.obj', '-o', 'out.jpg'], ['report', *embedding, 'no.obj', '-o', 'out.pdf'],
+                          ['compare', 'no.obj', '-o', 'out.jpg'], ['sample', '-o', 'out.glb']):
+            with self.subTest(arguments):
+                wrong = arguments[-1]
+                self.expect(IS_WRONG, *arguments, says=f"{arguments[-2]} is '{wrong}', but .* is written as [.]\\w+.*; change the ending")
+                self.assertFalse((self.folder / wrong).exists())
+
+    def test_right_endings_are_taken_in_capitals_too(self):
+        for arguments in (self.embed('no.obj', '-o', 'out.PLY', '--report', 'out.Json'), ['tile', 'no.ply', 'no.json', '-o', 'out.GLB']):
+            self.expect(IS_A_FILE, *arguments, says='cannot be read')
+
+    def test_devices_and_pipes_may_have_any_name(self):
+        done = self.expect(0, *self.embed('figure.obj', '-o', '/dev/null', '--report', '/dev/stdout', '--quiet'))
+        self.assertEqual(json.loads(done.stdout)['schema'], 'orbitutte.report/1')
+        self.expect(0, *self.embed('figure.obj', '-o', '/dev/null', '--report', '/dev/null'))
+
+    def test_an_output_that_is_an_input_is_refused(self):
+        (self.folder / 'sub').mkdir(exist_ok=True)
+        (self.folder / 'figure.ply').write_text('a mesh')
+        (self.folder / 'weights.ply').write_text('0 1 1\n')
+        (self.folder / 'corners.json').write_text('0 1 0 0\n')
+        self.before[self.folder / 'figure.ply'] = b'a mesh'
+        for name, link in (('soft.ply', os.symlink), ('hard.ply', os.link)):
+            if not (self.folder / name).exists():
+                link(self.folder / 'figure.ply', self.folder / name)
+        for name in ('figure.ply', './figure.ply', 'sub/../figure.ply', './/figure.ply', 'soft.ply', 'hard.ply', self.folder / 'figure.ply'):
+            with self.subTest(name):
+                self.expect(IS_WRONG, *self.embed('figure.ply', '-o', name), says=f"-o is '{name}', which is the mesh that the command reads")
+        self.expect(IS_WRONG, *self.embed('soft.ply', '-o', 'hard.ply'), says='which is the mesh')
+        self.expect(IS_WRONG, *self.embed('figure.obj', '-o', 'figure.obj'), says='which is the mesh')
+        self.expect(IS_WRONG, *self.embed('figure.obj', '--report', 'figure.obj'), says='--report is .* which is the mesh')
+        self.expect(IS_WRONG, *self.embed('figure.obj', '--weights-file', 'weights.ply', '-o', 'weights.ply'), says='which is the weights')
+        self.expect(IS_WRONG, 'embed', 'figure.obj', '--orbifold', 'polygon', '--polygon', 'corners.json', '--report', 'corners.json',
+                    says='which is the polygon')
+        self.expect(IS_WRONG, 'tile', 'map.ply', 'map.json', '-o', './map.ply', says='which is the embedding')
+        self.expect(IS_WRONG, 'export', 'map.ply', 'map.json', 'figure.obj', '-o', 'figure.obj', says='which is the mesh')
+        for command in ('render', 'report'):
+            self.expect(IS_WRONG, command, 'map.ply', 'map.json', 'figure.obj', '-o', 'map.json', says='which is the report')
+
+    def test_two_outputs_in_one_file_are_refused(self):
+        os.symlink('later.ply', self.folder / 'early.ply')  # leads to nothing yet
+        for first, second in (('a.ply', 'a.ply'), ('a.ply', './a.ply'), ('early.ply', 'later.ply'), ('later.ply', 'early.ply')):
+            with self.subTest(second):
+                self.expect(IS_WRONG, *self.embed('no.obj', '-o', first, '--report', second), says=f"-o and --report are both '{second}'")
+
+    def test_a_link_to_another_file_is_written_through(self):
+        other = self.folder / 'other.ply'
+        os.symlink('other.ply', self.folder / 'link.ply')
+        self.expect(0, *self.embed('figure.obj', '-o', 'link.ply', '--quiet'))
+        self.assertTrue(other.read_bytes().startswith(b'ply'))
+        self.assertTrue((self.folder / 'link.ply').is_symlink())
+
+
+class Streams(CommandLine):
+    PRINTING = [['info', 'figure.obj'], ['info', 'figure.obj', '--json'], ['types'], ['types', '--json'], ['verify', 'map.ply', 'map.json', 'figure.obj'],
+                ['verify', 'map.ply', 'map.json', 'figure.obj', '--json'], ['compare', 'figure.obj'], ['compare', 'figure.obj', '--json'],
+                ['embed', 'figure.obj', '--orbifold', '432', '--cones', 'auto', '--json'], ['--help'], ['embed', '--help'], ['--version']]
+
+    def test_what_is_printed_arrives_or_the_exit_code_says_no(self):
+        for arguments in self.PRINTING:
+            with self.subTest(arguments):
+                self.assertTrue(self.expect(0, *arguments).stdout)
+                with open('/dev/full', 'w') as full:
+                    self.expect(IS_A_FILE, *arguments, stdout=full, says='orbitutte: standard output cannot be written: .*space')
+                self.expect(IS_A_FILE, *arguments, says='orbitutte: standard output cannot be written: ', stdout=None, preexec_fn=lambda: os.close(1))
+
+    def test_a_command_that_prints_nothing_needs_no_standard_output(self):
+        self.expect(0, *self.embed('figure.obj', '-o', 'closed.ply'), stdout=None, preexec_fn=lambda: os.close(1))
+        self.assertEqual((self.folder / 'closed.ply').read_bytes(), (self.folder / 'map.ply').read_bytes())
+
+    def test_messages_that_nobody_can_read_change_no_exit_code(self):
+        with open('/dev/full', 'w') as full:
+            for stderr, prepare in ((full, None), (None, lambda: os.close(2))):
+                for code, arguments in ((0, self.embed('figure.obj', '-o', 'quiet.ply')), (IS_A_FILE, ['info', 'no.obj']), (IS_WRONG, ['nothing'])):
+                    self.assertEqual(self.run_program(*arguments, stderr=stderr, preexec_fn=prepare).returncode, code, arguments)
+        self.assertEqual((self.folder / 'quiet.ply').read_bytes(), (self.folder / 'map.ply').read_bytes())
+
+
+class Euclidean(CommandLine):
+    """The orbifolds of the plane, once they are rows of the table that `types` prints."""
+
+    def setUp(self):
+        if not re.search('^2222 ', self.run_program('types').stdout, re.MULTILINE):
+            self.skipTest("'orbitutte types' does not list the Euclidean orbifolds yet")
+        self.expect(0, 'sample', '--shape', 'mask', '--faces', 500, '-o', 'mask.obj')
+
+    def test_symbols_of_the_plane_are_embedded_like_others(self):
+        for symbol in ('333', '442', '632', '2222', '*333', '*442', '*632', '*2222'):
+            with self.subTest(symbol):
+                mesh = 'mask.obj' if symbol[0] == '*' else 'figure.obj'
+                self.expect(0, *self.embed(mesh, '-o', 'flat.ply', '--report', 'flat.json', orbifold=symbol), says='certified: bijective')
+                orbifold = json.loads((self.folder / 'flat.json').read_text())['orbifold']
+                self.assertEqual((orbifold['signature'], orbifold['space'], orbifold['group_order']), (symbol, 'euclidean', None))
+                self.expect(0, 'verify', 'flat.ply', 'flat.json', mesh)
+
+    def test_compare_has_no_option_of_its_own_for_them(self):
+        self.expect(IS_WRONG, 'compare', 'figure.obj', '--flat', '442', says="has no option '--flat'")
+
+
+class Messages(CommandLine):
+    def mesh(self, name, vertices, faces):
+        write_obj(self.folder / name, vertices, faces)
+        return name
+
+    def test_a_mesh_with_a_small_hole_names_it_and_both_remedies(self):
+        vertices, faces = read_obj(self.folder / 'figure.obj')
+        hole = faces[7]
+        mesh = self.mesh('hole.obj', vertices, faces[:7] + faces[8:])
+        for cones in ('auto', '1,2,3'):
+            self.expect(IS_UNSUITABLE, *self.embed(mesh, cones=cones),
+                        says=[f'hole of 3 edges, through vertex {min(hole)}\\b', 'fill the hole', r'orbifold for a disk, such as \*432'])
+
+    def test_a_mesh_that_is_inside_out_is_embedded_with_a_warning(self):
+        vertices, faces = read_obj(self.folder / 'figure.obj')
+        self.assertNotIn('inside out', self.expect(0, *self.embed('figure.obj')).stderr)
+        self.expect(0, *self.embed(self.mesh('turned.obj', vertices, [face[::-1] for face in faces])), says='warning: the mesh is inside out.*volume')
+        far = [(x + 1e4, y, z) for x, y, z in vertices]  # the volume does not depend on where the mesh is
+        self.assertNotIn('inside out', self.expect(0, *self.embed(self.mesh('far.obj', far, faces))).stderr)
+
+    def test_what_is_not_certified_says_how_many_faces_and_what_may_help(self):
+        vertices, faces = tube(60)
+        mesh = self.mesh('tube.obj', vertices, faces)
+        for quiet in ([], ['--quiet']):
+            done = self.expect(IS_NOT_CERTIFIED, *self.embed(mesh, '--report', 'tube.json', *quiet, cones='0,2,4'), says=['What may help: .*--cones.*--weights'])
+            count, total, first = map(int, re.search(r'not certified: (\d+) of (\d+) faces are not positive on the sphere, the first face (\d+)',
+                                                     done.stderr).groups())
+            found = json.loads((self.folder / 'tube.json').read_text())['certificate']['nonpositive_faces']
+            self.assertEqual((count, total, first), (len(found), len(faces), found[0]))
+
+    def test_what_did_not_converge_says_what_may_help(self):
+        self.expect(IS_NOT_CONVERGED, *self.embed('figure.obj', '--max-iterations', 1), says=['not certified', 'What may help: .*--max-iterations'])
+
+    def test_the_summary_has_the_numbers_of_the_report(self):
+        done = self.expect(0, *self.embed('figure.obj', '--report', 'summary.json'))
+        distortion = json.loads((self.folder / 'summary.json').read_text())['distortion']
+        self.assertIn(f"area: {100 * distortion['within_4']:.1f} % of the surface within a factor of 4 of its share, "
+                      f"{100 * distortion['below_64']:.1f} % shrunk by more than 64\n", done.stderr)
+        self.assertIn(f"angles: median distortion {distortion['angle']['median']:.4g}, where 1 is none\n", done.stderr)
+        self.assertTrue(0 < distortion['within_4'] <= 1 and 0 <= distortion['below_64'] <= 1 - distortion['within_4'] and distortion['sigma'] > 0)
+
+
+if __name__ == '__main__':
+    PROGRAM = str(pathlib.Path(sys.argv.pop(1)).resolve())
+    unittest.main()
