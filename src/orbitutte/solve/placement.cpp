@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "orbitutte/solve/flipped_edges.h"
@@ -48,6 +49,27 @@ int vertex_far_from_poles(const BoundaryConditions& boundary, const Points& posi
 void move(const GluingProblem& problem, const Isometry& isometry, Placement& placed) {
   placed.tile = moved(placed.tile, isometry);
   placed.boundary = glue(problem.cut, placed.tile, problem.target);
+}
+
+// Of the first face far from the equator, counterclockwise as the mesh has it: does it lie below the equator?
+bool lies_below(const GluingProblem& problem, const Placement& placed) {
+  const CutMesh& cut = problem.cut;
+  const Points all = placed.boundary.spread(placed.minimum.positions, cut.source_vertex);
+  for (Eigen::Index f = 0; f < cut.F.rows(); ++f) {
+    const double height = (all(cut.F(f, 0), 2) + all(cut.F(f, 1), 2) + all(cut.F(f, 2), 2)) / 3;
+    if (std::abs(height) > 0.5) return cut.turned[f] ? height > 0 : height < 0;
+  }
+  return false;
+}
+
+// Where the surface has no orientation (Nx), the half turn that exchanges the poles takes a map to another
+// that is as good, and the cut decides which of them is found. It is applied so that both cuts give the same.
+void fix_poles(const GluingProblem& problem, Placement& placed) {
+  if (problem.cut.turned.empty() || !lies_below(problem, placed)) return;
+  const Isometry half_turn = problem.target.space.rotation(Vector3::UnitX(), std::numbers::pi);
+  move(problem, half_turn, placed);
+  placed.minimum.positions = half_turn.on_rows(placed.minimum.positions);
+  placed.boundary.make_feasible(placed.minimum.positions);
 }
 
 // Where a rotation about (0, 0, 1) changes nothing, turns the map so that a vertex has longitude 0.
@@ -107,6 +129,7 @@ Placement place(const GluingProblem& problem, const LbfgsOptions& options, Stage
   Placement placed = {{}, problem.tile, problem.boundary, {}};
   placed.minimum =
       stage("optimize", [&] { return minimize(energy, laplacian, start, lbfgs); });  // algorithm 1
+  fix_poles(problem, placed);
   fix_rotation(problem, placed);
   resolve(problem, energy, placed);
   return placed;
