@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "orbitutte/export/tiling.h"
+
 namespace orbitutte::cli {
 
 /// 4 and 5: the embedding has been written all the same.
@@ -50,6 +52,7 @@ int verify_command(const VerifyArguments& arguments);
 
 struct TileArguments {
   std::string embedding, report, output;
+  int copies = default_patch;
 };
 int tile_command(const TileArguments& arguments);
 

@@ -69,7 +69,8 @@ int verify_command(const VerifyArguments& arguments) {
 }
 
 int tile_command(const TileArguments& arguments) {
-  const Tiling tiling = tile_sphere(read_embedding(arguments.embedding, read_report(arguments.report)));
+  const Tiling tiling =
+      weld_copies(read_embedding(arguments.embedding, read_report(arguments.report)), arguments.copies);
   write_tiling(arguments.output, tiling);
   if (!tiling.left_out.empty())
     tell(

@@ -205,12 +205,17 @@ void add_verify(CLI::App& app, int& code) {
 }
 
 void add_tile(CLI::App& app, int& code) {
-  Command<TileArguments> command(app, "tile", "Weld all copies of an embedding into one closed mesh");
+  Command<TileArguments> command(
+      app, "tile", "Weld all copies of an embedding into one closed mesh, or a patch of the plane");
   read_embedding_of(command);
   command
       .output("-o,--output", command->output, {"-o", "the tiling", "", {".ply", ".obj", ".glb", ".stl"}},
               "Write the tiling here: .ply, .obj, .glb or .stl")
       ->required();
+  command
+      .option("--copies", command->copies,
+              "In the plane, where there are infinitely many: weld so many, nearest first")
+      ->capture_default_str();
   command.runs(tile_command, code);
 }
 

@@ -11,7 +11,7 @@ int main() {
   const Mesh mesh = sample_mesh({SampleShape::mask, 4000});
   const Target orbifold = parse_orbifold("*432");
   const EmbedResult result = embed(mesh, orbifold, choose_marked_vertices(mesh, orbifold));
-  const Tiling tiling = tile_sphere(result.embedding);
+  const Tiling tiling = weld_copies(result.embedding);
   write_tiling("sphere.glb", tiling);
 
   const long long edges = tiling.mesh.F.rows() * 3 / 2;

@@ -380,7 +380,7 @@ TEST(Certificate, LuneOfNWrappedTwiceHasAGroupOfOrderHalfN) {
 // triangles are positive, all seams match, all cones are right; two inner vertices are wrapped twice.
 test::SampleEmbedding with_a_sphere_too_many(const test::SampleEmbedding& original) {
   const Embedding& tile = original.embedding();
-  const Tiling sphere = tile_sphere(tile);
+  const Tiling sphere = weld_copies(tile);
   const int n = test::vertex_count(original.mesh), n_cut = static_cast<int>(tile.source_vertex.size());
   const int m = test::face_count(original.mesh), added = test::vertex_count(sphere.mesh);
 

@@ -184,7 +184,7 @@ TEST_P(PolygonsOfEveryFamily, EnergyIsThatOfTheirEdges) {
 
 TEST_P(PolygonsOfEveryFamily, AreTiledIntoAClosedSphere) {
   const auto [mesh, result] = sample(GetParam());
-  const Tiling tiling = tile_sphere(result.embedding);
+  const Tiling tiling = weld_copies(result.embedding);
   EXPECT_EQ(tiling.polygons.count(), mesh.face_count() * result.embedding.target.group_order);
   const PolygonMesh polygons = {tiling.mesh.V, tiling.polygons.corners, tiling.polygons.start};
   EXPECT_EQ(inspect(polygons).topology, Topology::sphere);
@@ -206,7 +206,7 @@ TEST(Polygons, ProjectivePlanesAreEmbeddedWithFacesTurnedWhereTheyDisagree) {
     const auto [unused, result] = embedded(mesh, signature, uniform_weights());
     EXPECT_TRUE(result.certificate.bijective) << failures(result.certificate);
     EXPECT_TRUE(all_corners_turn_left(result.embedding));
-    EXPECT_EQ(inspect(tile_sphere(result.embedding).mesh).topology, Topology::sphere);
+    EXPECT_EQ(inspect(weld_copies(result.embedding).mesh).topology, Topology::sphere);
     const FaceView faces = result.embedding.input_faces();
     int turned = 0;
     for (int f = 0; f < faces.count(); ++f) {
@@ -234,7 +234,7 @@ TEST(Polygons, FacesOfManyCornersAreEmbedded) {
   EXPECT_TRUE(result.certificate.bijective) << failures(result.certificate);
   const std::string bytes = serialize_embedding(result.embedding);
   EXPECT_EQ(parse_mesh(bytes, MeshFormat::ply).corners, result.embedding.polygons.corners);
-  const PolygonMesh tiled = parse_mesh(ply_bytes(tile_sphere(result.embedding)), MeshFormat::ply);
+  const PolygonMesh tiled = parse_mesh(ply_bytes(weld_copies(result.embedding)), MeshFormat::ply);
   EXPECT_EQ(inspect(tiled).topology, Topology::sphere);
 }
 
@@ -500,14 +500,14 @@ TEST(PolygonFiles, EmbeddingReadsBackAsItIs) {
   read.seams = result.embedding.seams;
   read.cones = result.embedding.cones;
   EXPECT_TRUE(certify(test::unjudged(mesh), read).bijective);
-  EXPECT_EQ(inspect(tile_sphere(read).mesh).topology, Topology::sphere);
+  EXPECT_EQ(inspect(weld_copies(read).mesh).topology, Topology::sphere);
   EXPECT_THAT(report_json(result, RunRecord()), HasSubstr(fmt::format("\"faces\": {}", mesh.face_count())));
   std::filesystem::remove(path);
 }
 
 TEST(PolygonFiles, TilingKeepsThePolygons) {
   const auto [mesh, result] = sample("*432");
-  const Tiling tiling = tile_sphere(result.embedding);
+  const Tiling tiling = weld_copies(result.embedding);
   const PolygonMesh ply = parse_mesh(ply_bytes(tiling), MeshFormat::ply);
   const PolygonMesh obj = parse_mesh(obj_text(tiling, "t.mtl"), MeshFormat::obj);
   EXPECT_EQ(ply.corners, tiling.polygons.corners);

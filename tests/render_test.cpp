@@ -171,7 +171,8 @@ TEST(Render, TurningMeshAndViewTogetherLeavesThePicture) {
   Mesh turned = subject.sample.mesh;
   turned.V = turned.V * R.transpose();
   options.view = R * *options.view, options.up = R * *options.up;
-  const Picture same(render_png({test::unjudged(turned), subject.sample.embedding(), subject.report, ""}, options));
+  const Picture same(
+      render_png({test::unjudged(turned), subject.sample.embedding(), subject.report, ""}, options));
   EXPECT_LT(mean_difference(picture, same), 3);
   options.view = -*options.view;
   const Picture other(
@@ -183,7 +184,7 @@ TEST(Render, SphereHasARoundOutline) {
   const Subject subject("*532");
   const SphereFigure sphere(subject.sample.embedding(),
                             std::vector<float>(subject.sample.embedding().source_vertex.size(), 1));
-  const Camera camera = sphere_camera({}, {101, 101}, 0.9);
+  const Camera camera = sphere_camera(subject.sample.embedding(), {}, {101, 101}, 0.9);
   Ornaments none;
   none.commit();
   const Image image = sphere.draw(camera, none);
@@ -199,8 +200,8 @@ TEST(Render, SphereShowsTheTileInItsMiddle) {
   for (const std::string signature : {"432", "*223", "33", "5*", "3x"}) {
     const Embedding& embedding = sample_embedding(signature).embedding();
     const SphereFigure sphere(embedding, std::vector<float>(embedding.source_vertex.size(), 1));
-    const Camera camera = sphere_camera(
-        {tile_centre(embedding.positions, embedding.faces), Vector3(0.1, 0.2, 0.9)}, {31, 31}, 0.9);
+    const Camera camera =
+        sphere_camera(embedding, {tile_centre(embedding), Vector3(0.1, 0.2, 0.9)}, {31, 31}, 0.9);
     Ornaments none;
     none.commit();
     const Rgba middle = sphere.draw(camera, none).at(15, 15);
@@ -224,12 +225,12 @@ TEST(Render, SeamsStandOutOfTheSphereAllAlongTheirArcs) {
   embedding.seams.resize(1);
   embedding.seams[0].left = embedding.seams[0].right = {0, 1};
   embedding.cones.clear();
-  const Ornaments ornaments = sphere_ornaments(embedding, {}, sphere_camera({}, {200, 200}, 0.9));
+  const Ornaments ornaments = sphere_ornaments(embedding, {}, sphere_camera(embedding, {}, {200, 200}, 0.9));
   for (int k = 0; k <= 40; ++k) {
     const double angle = k * std::numbers::pi / 80;
     const auto height = height_of_ornament(ornaments, {std::cos(angle), std::sin(angle), 0});
     ASSERT_TRUE(height) << k;
-    EXPECT_GT(*height, 0.7 * seam_radius(embedding.target.group_order)) << k;
+    EXPECT_GT(*height, 0.7 * seam_radius(embedding.target)) << k;
   }
 }
 
@@ -238,7 +239,7 @@ TEST(Render, BallsOfTheNearSideAreSeenWhole) {
   embedding.cones.resize(1);
   embedding.cones[0].copies = {0};
   embedding.seams.clear();
-  const Camera camera = sphere_camera({}, {200, 200}, 0.9);
+  const Camera camera = sphere_camera(embedding, {}, {200, 200}, 0.9);
   const double radius = ball_radius(embedding, camera.pixel);
   EXPECT_GT(radius / camera.pixel, 6) << "large enough for its number";
   for (const double colatitude : {0.0, 0.6, 1.1, 1.4}) {

@@ -90,7 +90,7 @@ TEST(Theorem2, TheWeightsMayComeInAnyUnit) {
   }
 }
 
-// The second way: the cover welded by tile_sphere, and W on it as one matrix
+// The second way: the cover welded by weld_copies, and W on it as one matrix
 
 std::array<int, 2> undirected(int i, int j) { return {std::min(i, j), std::max(i, j)}; }
 
@@ -120,7 +120,7 @@ struct WholeCover {
 };
 
 WholeCover whole_cover(const Mesh& mesh, const EdgeWeights& weights, const Embedding& embedding) {
-  const Tiling tiling = tile_sphere(embedding);
+  const Tiling tiling = weld_copies(embedding);
   const std::map<std::array<int, 2>, double> weight_of = cover_weights(mesh, weights);
   const int n = test::vertex_count(tiling.mesh);
   std::vector<Eigen::Triplet<double>> entries;

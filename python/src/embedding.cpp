@@ -110,7 +110,7 @@ std::string verify_again(const HeldEmbedding& held, const MaybeMesh& mesh, const
                              verification_options(held, weights_file, depth)));
 }
 
-Tiling tiled(const HeldEmbedding& held) { return tile_sphere(held.embedding); }
+Tiling tiled(const HeldEmbedding& held) { return weld_copies(held.embedding); }
 
 // (V, triangles, polygons' corners and starts, tile of each triangle)
 py::tuple tile(const HeldEmbedding& held) {

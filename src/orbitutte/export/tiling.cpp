@@ -23,7 +23,7 @@ void check_vertices(const std::vector<int>& vertices, int count) {
 }
 
 /// Checks for errors that an embedding read from files may have.
-void check_embedding(const Embedding& embedding) {
+void check_embedding(const Embedding& embedding, int copies) {
   const int vertices = static_cast<int>(embedding.positions.rows());
   if (!embedding.positions.allFinite())
     throw ArgumentError("the embedding has positions that are not finite");
@@ -44,18 +44,27 @@ void check_embedding(const Embedding& embedding) {
         "an orbifold, not into a fixed polygon");
   const auto corners = static_cast<long long>(embedding.polygons.corners.size());
   const long long largest = std::max<long long>({vertices, embedding.faces.rows(), corners});
-  if (3 * largest * std::max(embedding.target.group_order, 1) > std::numeric_limits<int>::max())
+  if (3 * largest * copies > std::numeric_limits<int>::max())
     throw ArgumentError(
-        fmt::format("{} copies of {} faces have more than 2^31 - 1 corners; tile a coarser mesh",
-                    embedding.target.group_order, embedding.faces.rows()));
+        fmt::format("{} copies of {} faces have more than 2^31 - 1 corners; tile a coarser mesh", copies,
+                    embedding.faces.rows()));
 }
 
-/// across[s][g]: the copy whose right bank of seam s meets the left bank of seam s of copy g.
+/// The copies that are asked for: all, or of infinitely many so many.
+SymmetryGroup checked_group(const Embedding& embedding, int patch) {
+  if (patch < 1) throw ArgumentError(fmt::format("{} copies make no tiling; ask for one or more", patch));
+  const int order = embedding.target.group_order;
+  check_embedding(embedding, order > 0 ? order : patch);
+  return group_of(embedding, patch);
+}
+
+/// across[s][g]: the copy whose right bank of seam s meets the left bank of seam s of copy g; -1 at the
+/// border of a patch.
 std::vector<std::vector<int>> copies_across_seams(const Embedding& embedding, const SymmetryGroup& group) {
   std::vector<std::vector<int>> across;
   for (const Seam& seam : embedding.seams) {
     across.push_back(group.right_products(seam.transform));
-    if (std::count(across.back().begin(), across.back().end(), -1) > 0)
+    if (embedding.target.group_order > 0 && std::count(across.back().begin(), across.back().end(), -1) > 0)
       throw ArgumentError("the transform of a seam does not belong to the group of the orbifold");
   }
   return across;
@@ -66,7 +75,7 @@ std::vector<int> greedy_colours(const std::vector<std::vector<int>>& across, int
   std::vector<std::vector<int>> neighbours(tiles);
   for (const std::vector<int>& copies : across) {
     for (int g = 0; g < tiles; ++g) {
-      if (copies[g] == g) continue;
+      if (copies[g] == g || copies[g] < 0) continue;
       neighbours[g].push_back(copies[g]);
       neighbours[copies[g]].push_back(g);
     }
@@ -107,13 +116,15 @@ struct Welding {
   int vertices = 0;
 };
 
-/// Mirrors are told apart by their reflections, whose indices in the group are across[s][0].
+/// Mirrors are told apart by their reflections, whose indices in the group are across[s][0]; those that are
+/// in no patch, by their seams.
 MirrorsOfVertices mirrors_of_vertices(const Embedding& embedding,
                                       const std::vector<std::vector<int>>& across) {
   MirrorsOfVertices mirrors(embedding.positions.rows(), {-1, -1});
   for (std::size_t s = 0; s < across.size(); ++s) {
     if (embedding.seams[s].left != embedding.seams[s].right) continue;
-    const int mirror = across[s].front();
+    const int copies = static_cast<int>(across[s].size());
+    const int mirror = across[s].front() >= 0 ? across[s].front() : copies + static_cast<int>(s);
     for (const int v : embedding.seams[s].left)
       if (mirrors[v][0] != mirror) mirrors[v][mirrors[v][0] < 0 ? 0 : 1] = mirror;
   }
@@ -144,7 +155,7 @@ void unite_banks(const Seam& seam, const std::vector<int>& across, const Welding
     const int right = welding.on_seam[seam.right[i]];
     if (left < 0 || right < 0) continue;
     for (std::size_t g = 0; g < across.size(); ++g)
-      sets.unite(static_cast<int>(g) * width + left, across[g] * width + right);
+      if (across[g] >= 0) sets.unite(static_cast<int>(g) * width + left, across[g] * width + right);
   }
 }
 
@@ -159,12 +170,13 @@ Welding weld(const Embedding& embedding, const TiledFaces& tiled,
     if (in_face[v] && in_seam[v]) welding.on_seam[v] = welding.seam_vertices++;
   }
 
-  DisjointSets sets(embedding.target.group_order * welding.seam_vertices);
+  const int copies = static_cast<int>(across.front().size());
+  DisjointSets sets(copies * welding.seam_vertices);
   for (std::size_t s = 0; s < across.size(); ++s) unite_banks(embedding.seams[s], across[s], welding, sets);
 
   const int inside = static_cast<int>(welding.copied.size()) - welding.seam_vertices;
-  welding.vertices = embedding.target.group_order * inside;
-  welding.smallest.resize(embedding.target.group_order * welding.seam_vertices);
+  welding.vertices = copies * inside;
+  welding.smallest.resize(copies * welding.seam_vertices);
   for (int i = 0; i < static_cast<int>(welding.smallest.size()); ++i) {
     welding.smallest[i] = sets.find(i);
     if (welding.smallest[i] == i) ++welding.vertices;
@@ -260,20 +272,19 @@ void require_closed(const Tiling& tiling) {
 
 }  // namespace
 
-std::vector<TileCopy> tile_copies(const Embedding& embedding) {
-  check_embedding(embedding);
-  const SymmetryGroup group = group_of(embedding);
+std::vector<TileCopy> tile_copies(const Embedding& embedding, int patch) {
+  const SymmetryGroup group = checked_group(embedding, patch);
   return tile_copies(group, copies_across_seams(embedding, group));
 }
 
-Tiling tile_sphere(const Embedding& embedding) {
-  check_embedding(embedding);
-  const SymmetryGroup group = group_of(embedding);
+Tiling weld_copies(const Embedding& embedding, int patch) {
+  const SymmetryGroup group = checked_group(embedding, patch);
   const std::vector<std::vector<int>> across = copies_across_seams(embedding, group);
   const TiledFaces tiled = tiled_faces(embedding, mirrors_of_vertices(embedding, across));
   const Welding welding = weld(embedding, tiled, across);
   const Eigen::Index faces = group.order() * tiled.triangles.rows();
-  check_sphere(welding.vertices, faces);
+  const bool closes_up = embedding.target.group_order > 0;
+  if (closes_up) check_sphere(welding.vertices, faces);
 
   Tiling tiling;
   tiling.tiles = group.order();
@@ -290,7 +301,7 @@ Tiling tile_sphere(const Embedding& embedding) {
     place_polygons(tiled, g, vertex_of, tiling);
     tiling.source_face.insert(tiling.source_face.end(), tiled.face_of.begin(), tiled.face_of.end());
   }
-  require_closed(tiling);
+  if (closes_up) require_closed(tiling);
   return tiling;
 }
 

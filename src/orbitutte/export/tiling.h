@@ -19,13 +19,17 @@ struct TileCopy {
   int colour = 0;
 };
 
-/// The |G| copies without a mesh, the identity first. Throws as tile_sphere does if the seams do not generate
-/// the group.
-std::vector<TileCopy> tile_copies(const Embedding& embedding);
+/// So many copies are welded in the plane, unless another number is asked for.
+constexpr int default_patch = 25;
+
+/// The copies without a mesh, the identity first: all |G|, or of infinitely many `patch`, nearest to the tile
+/// first. Throws as weld_copies does if the seams do not generate the group.
+std::vector<TileCopy> tile_copies(const Embedding& embedding, int patch = default_patch);
 
 /// The welded copies.
 struct Tiling {
-  /// Closed, on the unit sphere, every triangle counterclockwise as seen from outside.
+  /// Every triangle counterclockwise as seen from outside: closed, on the unit sphere; or a patch of the
+  /// plane z = 1.
   Mesh mesh;
   /// Of every triangle: the copy of the tile that holds it, as an index into copies.
   std::vector<int> tile;
@@ -33,9 +37,9 @@ struct Tiling {
   std::vector<int> source_face;
   /// The input vertex of every vertex.
   std::vector<int> source_vertex;
-  /// |G|.
+  /// |G|, or the number of copies in the patch.
   int tiles = 0;
-  /// |G|, the identity first.
+  /// The identity first.
   std::vector<TileCopy> copies;
   /// The faces that the triangles make up, tile by tile; empty if all are triangles.
   Polygons polygons;
@@ -51,12 +55,13 @@ struct Tiling {
 
 /// Welds by the combinatorics alone: copy g of left[i] is copy g*transform of right[i]. Positions are never
 /// compared. Vertices that no face uses are left out; faces and vertices come tile by tile. Polygons are
-/// divided so that no diagonal coincides with its mirror image. Time and memory O(m |G|). The result is one
-/// closed mesh (require_closed_sphere). Throws ArgumentError if the seams do not generate a group of order
+/// divided so that no diagonal coincides with its mirror image. Time and memory O(m |G|). On the sphere the
+/// result is one closed mesh (require_closed_sphere); in the plane `patch` copies are welded, those nearest
+/// to the tile, and its border is open. Throws ArgumentError if the seams do not generate a group of order
 /// embedding.group_order, if the copies do not close up into a sphere (for instance without seams), if the
 /// result has more corners than an int can count, if positions are not finite, or if indices are out of
 /// range; MeshError if the mesh is not closed, naming the edge or face of the input, as tiled_faces does.
-Tiling tile_sphere(const Embedding& embedding);
+Tiling weld_copies(const Embedding& embedding, int patch = default_patch);
 
 /// Writes the format that the path's ending names (any case):
 /// - PLY, binary: double x y z, int source_vertex; vertex_indices, uchar red green blue, int tile, int

@@ -12,6 +12,7 @@
 
 #include "orbitutte/export/html_text.h"
 #include "orbitutte/export/palette.h"
+#include "orbitutte/orbifold/polygon.h"
 #include "orbitutte/page/html_template.h"
 #include "orbitutte/page/page_assets.h"
 #include "orbitutte/page/page_scene.h"
@@ -110,14 +111,22 @@ std::string failed_checks(const Certificate& certificate) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
+std::string group_text(const Target& target) {
+  return target.group_order > 0 ? plural(target.group_order, "element") : "infinitely many elements";
+}
+
+// What the copies of the tile do.
+std::string covering(const Target& target) {
+  if (target.group_order == 1) return "the tile covers the sphere";
+  if (target.group_order == 0) return "its symmetric copies cover the plane";
+  return fmt::format("its {} symmetric copies cover the sphere", target.group_order);
+}
+
 std::string verdict_sentence(const Judgement& judgement, const Embedding& embedding) {
   if (judgement.bijective())
     return fmt::format(
-        "The map is a bijection: {} the sphere exactly once, which the certificate below proves on the "
-        "stored numbers.",
-        embedding.target.group_order == 1
-            ? "the tile covers"
-            : fmt::format("its {} symmetric copies cover", embedding.target.group_order));
+        "The map is a bijection: {} exactly once, which the certificate below proves on the stored numbers.",
+        covering(embedding.target));
   if (judgement.certificate.bijective)
     return "The optimiser stopped before it converged: the map passes every check, but it is not the "
            "minimiser.";
@@ -147,7 +156,7 @@ Content warnings(const Json& report, const Judgement& judgement) {
 // Sections
 
 Content key_figures(const Json& report, const Embedding& embedding) {
-  const double conformal = 8 * std::numbers::pi / embedding.target.group_order;
+  const double conformal = 2 * area(embedding.target);
   return {{"angle", measure_text(number_at(report, "/distortion/angle/mean"))},
           {"area", measure_text(number_at(report, "/distortion/area/median"))},
           {"energy", measure_text(number_at(report, "/energy"))},
@@ -341,7 +350,7 @@ Content page_content(const PageSubject& subject, const Json& report, const PageO
                      {"policy", policy(style_sheet, options)},
                      {"mesh_name", mesh_name(report)},
                      {"signature", embedding.target.signature},
-                     {"group", plural(embedding.target.group_order, "element")},
+                     {"group", group_text(embedding.target)},
                      {"warnings", warnings(report, judgement)},
                      {"figures", key_figures(report, embedding)},
                      {"histogram", svg_chart(area_histogram(values_of(Measure::area, faces)))},

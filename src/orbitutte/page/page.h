@@ -37,7 +37,7 @@ bool has_interactive_view();
 /// claims otherwise; other figures are the report's, those that it lacks a dash. Everything the page shows is
 /// in it, and a content security policy keeps it from loading anything. Throws MeshError where mesh and
 /// embedding do not belong together, there are colours of other vertices, or the report is no JSON,
-/// ArgumentError as tile_sphere does.
+/// ArgumentError as weld_copies does.
 std::string report_page(const PageSubject& subject, const PageOptions& options = {});
 
 }  // namespace orbitutte

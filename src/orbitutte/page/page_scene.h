@@ -26,7 +26,7 @@ namespace orbitutte {
 ///   area ratio; the ratio of singular values), `ticks` (`at`: 0 .. 1 along the scale, `text`) and `title`;
 /// - `tile`, `ink`: the colours of the tile itself and of lines.
 ///
-/// Holds no `<`, so that it can stand within a script element. Throws as tile_sphere does where the seams
+/// Holds no `<`, so that it can stand within a script element. Throws as weld_copies does where the seams
 /// generate no group of the right order; then `copies` would mean nothing.
 ///
 /// faces: as measure_faces has them.

@@ -26,7 +26,9 @@ constexpr float contact = 0.55F;  // the share of the light that they can take a
 
 // A tile that is held on a polygon stands alone.
 std::vector<TileCopy> copies_of(const Embedding& embedding) {
-  return embedding.seams.empty() ? std::vector<TileCopy>(1) : tile_copies(embedding);
+  constexpr int enough_to_fill_a_picture = 100;
+  return embedding.seams.empty() ? std::vector<TileCopy>(1)
+                                 : tile_copies(embedding, enough_to_fill_a_picture);
 }
 
 RayScene copies_of_tile(const Points& positions, const Faces& faces, const std::vector<TileCopy>& copies) {
@@ -152,13 +154,15 @@ Ornaments sphere_ornaments(const Embedding& embedding, const std::vector<TileCop
   for (std::size_t s = 0; s < embedding.seams.size(); ++s) {
     const Seam& seam = embedding.seams[s];
     for (const std::vector<int>* bank : {&seam.left, &seam.right})
-      result.add_tube(arcs(embedding.space(), embedding.positions, *bank), radius, seam_colour(static_cast<int>(s)));
+      result.add_tube(arcs(embedding.space(), embedding.positions, *bank), radius,
+                      seam_colour(static_cast<int>(s)));
   }
   const double ball = ball_radius(embedding, camera.pixel);
   for (std::size_t c = 0; c < embedding.cones.size(); ++c)
     for (const int v : embedding.cones[c].copies)
-      result.add_ball(brought_forward(embedding.space(), embedding.positions.row(v), ball, camera.axes.row(2)), ball,
-                      cone_colour(static_cast<int>(c)));
+      result.add_ball(
+          brought_forward(embedding.space(), embedding.positions.row(v), ball, camera.axes.row(2)), ball,
+          cone_colour(static_cast<int>(c)));
   result.commit();
   return result;
 }
@@ -171,7 +175,8 @@ Camera sphere_camera(const Embedding& embedding, const View& view, const Picture
   double radius = 1;
   if (!embedding.space().is_closed()) {
     camera.centre = tile_centre(embedding);
-    radius = tiles_across * (embedding.positions.rowwise() - camera.centre.transpose()).rowwise().norm().maxCoeff();
+    radius = tiles_across *
+             (embedding.positions.rowwise() - camera.centre.transpose()).rowwise().norm().maxCoeff();
   }
   camera.pixel = 2 * radius / (fill * std::min(size.width, size.height));
   return camera;
