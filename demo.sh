@@ -85,8 +85,8 @@ print(f"embedded into {orbifold['signature']}, whose group has {orbifold['group_
 print(f"energy {report['energy']:.6g}, {report['iterations']} iterations ({report['termination']}), "
       f"{report['timings']['total']:.2f} s")
 distortion = report['distortion']
-print(f"area: {distortion['within_4']:.1%} of the surface within a factor of 4 of its share, "
-      f"{distortion['below_64']:.1%} shrunk by more than 64")
+print(f"area: within a factor of 4 of the mean scale on {distortion['within_4']:.1%} of the surface, "
+      f"shrunk by more than 64 on {distortion['below_64']:.1%}")
 print(f"angles: median distortion {distortion['angle']['median']:.4g}, where 1 is none")
 if report['certificate']['bijective']:
     print('certified: the map is a bijection onto the orbifold')

@@ -141,7 +141,7 @@ void summarize(const EmbedArguments& arguments, const EmbedResult& result) {
        group_text(result.embedding.target), fmt::join(cones, ","));
   tell("energy {:.12g} after {} iterations, gradient {:.1e}: {}\n", minimum.energy, minimum.iterations,
        minimum.gradient_norm, name(minimum.termination));
-  tell("area: {} of the surface within a factor of 4 of its share, {} shrunk by more than 64\n",
+  tell("area: within a factor of 4 of the mean scale on {} of the surface, shrunk by more than 64 on {}\n",
        percent(distortion.within_4), percent(distortion.below_64));
   tell("angles: median distortion {:.4g}, where 1 is none\n", distortion.angle.median);
   if (result.certificate.bijective) tell("certified: bijective\n");

@@ -59,9 +59,9 @@ int info_command(const InfoArguments& arguments) {
 
 int types_command(const TypesArguments& arguments) {
   if (!arguments.json) {
-    fmt::print("{:<8} {:>11}  {:<8} {}\n", "family", "group order", "input", "marked points");
+    fmt::print("{:<8} {:>11}  {:<16} {}\n", "family", "group order", "input", "marked points");
     for (const FamilyDescription& family : families())
-      fmt::print("{:<8} {:>11}  {:<8} {}\n", family.family, family.group_order, name(family.topology),
+      fmt::print("{:<8} {:>11}  {:<16} {}\n", family.family, family.group_order, name(family.topology),
                  family.marked_points);
     fmt::print("N is 2 or more, in Nx also 1. Commas separate orders of two digits: 2,2,12.\n");
     fmt::print(

@@ -62,7 +62,7 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
 }
 
 std::string list_of_commands(const CLI::App& app) {
-  std::string text = fmt::format("The commands of {}:\n", app.get_name());
+  std::string text = "The commands:\n";
   for (const CLI::App* command : commands_of(app))
     text += fmt::format("  {:<9} {}\n", command->get_name(), command->get_description());
   return text + fmt::format("'{} COMMAND --help' shows the options of one.", app.get_name());
@@ -74,18 +74,19 @@ std::string first_unknown(const std::vector<std::string>& words) {
   return option != words.end() ? *option : words.front();
 }
 
-std::string about_unknown_option(const std::string& word, const CLI::App& app, const std::string& full_name) {
+// " has no option '--orbifld'; did you mean '--orbifold'?", to stand behind the owner's name.
+std::string has_no_option(const std::string& word, const CLI::App& owner) {
   const std::string name = word.substr(0, word.find('='));
-  return fmt::format("{} has no option '{}'{}", full_name, name, did_you_mean(name, option_names(app)));
+  return fmt::format(" has no option '{}'{}", name, did_you_mean(name, option_names(owner)));
 }
 
-std::string about_unknown(const std::string& word, const CLI::App& command, const std::string& full_name) {
-  if (is_option(word)) return about_unknown_option(word, command, full_name);
-  return fmt::format("{}: '{}' is one argument too many", full_name, word);
+std::string about_unknown(const std::string& word, const CLI::App& command) {
+  if (is_option(word)) return command.get_name() + has_no_option(word, command);
+  return fmt::format("{}: '{}' is one argument too many", command.get_name(), word);
 }
 
 std::string about_unknown_before_command(const std::string& word, const CLI::App& app) {
-  if (is_option(word)) return about_unknown_option(word, app, app.get_name());
+  if (is_option(word)) return "the program" + has_no_option(word, app);
   return fmt::format("there is no command '{}'{}", word, did_you_mean(word, command_names(app)));
 }
 
@@ -110,13 +111,12 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
   const std::vector<CLI::App*> chosen = app.get_subcommands();
   if (const std::vector<std::string> unknown = app.remaining(); !unknown.empty())
     return fmt::format("{}\n{}", about_unknown_before_command(unknown.front(), app), list_of_commands(app));
-  if (chosen.empty()) return fmt::format("{} needs a command\n{}", app.get_name(), list_of_commands(app));
+  if (chosen.empty()) return fmt::format("a command is missing\n{}", list_of_commands(app));
   const CLI::App& command = *chosen.front();
-  const std::string full_name = app.get_name() + " " + command.get_name();
   const std::vector<std::string> unknown = command.remaining();
-  const std::string problem = unknown.empty() ? fmt::format("{}: {}", full_name, error.what())
-                                              : about_unknown(first_unknown(unknown), command, full_name);
-  return fmt::format("{}\n'{} --help' shows its options.", problem, full_name);
+  const std::string problem = unknown.empty() ? fmt::format("{}: {}", command.get_name(), error.what())
+                                              : about_unknown(first_unknown(unknown), command);
+  return fmt::format("{}\n'{} {} --help' shows the options.", problem, app.get_name(), command.get_name());
 }
 
 }  // namespace orbitutte::cli

@@ -83,7 +83,7 @@ class Words(CommandLine):
         self.assertEqual(re.findall(r'^  (\w+) +\w', text, re.MULTILINE), COMMANDS)
 
     def test_no_command_lists_all(self):
-        done = self.expect(IS_WRONG, says='needs a command')
+        done = self.expect(IS_WRONG, says='a command is missing')
         self.assert_lists_the_commands(done.stderr)
         self.assertEqual(done.stdout, '')
 
@@ -103,7 +103,7 @@ class Words(CommandLine):
             for given in ([option, '432'], [f'{option}=432']):
                 with self.subTest(given):
                     self.expect(IS_WRONG, command, 'figure.obj', *given,
-                                says=[f"orbitutte {command} has no option '{option}'; did you mean '{meant}'", f"'orbitutte {command} --help'"])
+                                says=[f"orbitutte: {command} has no option '{option}'; did you mean '{meant}'", f"'orbitutte {command} --help'"])
         self.expect(IS_WRONG, '--verison', says="has no option '--verison'; did you mean '--version'")
 
     def test_an_option_that_is_like_no_other_gets_no_suggestion(self):
@@ -264,8 +264,8 @@ class Messages(CommandLine):
     def test_the_summary_has_the_numbers_of_the_report(self):
         done = self.expect(0, *self.embed('figure.obj', '--report', 'summary.json'))
         distortion = json.loads((self.folder / 'summary.json').read_text())['distortion']
-        self.assertIn(f"area: {100 * distortion['within_4']:.1f} % of the surface within a factor of 4 of its share, "
-                      f"{100 * distortion['below_64']:.1f} % shrunk by more than 64\n", done.stderr)
+        self.assertIn(f"area: within a factor of 4 of the mean scale on {100 * distortion['within_4']:.1f} % of the surface, "
+                      f"shrunk by more than 64 on {100 * distortion['below_64']:.1f} %\n", done.stderr)
         self.assertIn(f"angles: median distortion {distortion['angle']['median']:.4g}, where 1 is none\n", done.stderr)
         self.assertTrue(0 < distortion['within_4'] <= 1 and 0 <= distortion['below_64'] <= 1 - distortion['within_4'] and distortion['sigma'] > 0)
 
