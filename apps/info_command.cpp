@@ -7,6 +7,7 @@
 #include "orbitutte/io/mesh_io.h"
 #include "orbitutte/orbifold/signature.h"
 #include "orbitutte/report/inspection_json.h"
+#include "standard_streams.h"
 
 namespace orbitutte::cli {
 namespace {
@@ -48,7 +49,7 @@ int info_command(const InfoArguments& arguments) {
   const PolygonMesh mesh = read_mesh(arguments.mesh);
   const Inspection inspection = inspect(mesh);
   const std::vector<WeakPlace> places = weak_places(mesh, inspection);
-  for (const std::string& warning : mesh.warnings) fmt::print(stderr, "orbitutte: warning: {}\n", warning);
+  for (const std::string& warning : mesh.warnings) tell("orbitutte: warning: {}\n", warning);
   if (arguments.json) {
     fmt::print("{}", inspection_json(arguments.mesh, mesh, inspection, places));
   } else {
