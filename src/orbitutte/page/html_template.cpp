@@ -29,6 +29,15 @@ data to_data(const Content& content) {
   return object;
 }
 
+/// How long the content's texts are together.
+std::size_t length_of(const Content& content) {
+  if (content.is_string()) return content.get_ref<const std::string&>().size();
+  std::size_t length = 0;
+  if (content.is_structured())
+    for (const Content& part : content) length += length_of(part);
+  return length;
+}
+
 /// Takes the text piece by piece: a stream would hold it twice.
 struct Sink {
   std::string text;
@@ -77,6 +86,7 @@ std::string fill_template(const Template& what, const Content& content) {
   const data all = to_data(content);
   Names names(all, what);
   Sink sink;
+  sink.text.reserve(2 * what.text.size() + length_of(content));  // growing would copy long texts once more
   engine.render(names, sink);
   if (!engine.is_valid()) throw ArgumentError("the template: " + engine.error_message());
   return std::move(sink.text);
