@@ -115,9 +115,9 @@ TEST(ColourScales, OfSeveralMapsIsThatOfTheWidest) {
 
 TEST(ColourScales, FacesThatAreNotMeasuredAreGrey) {
   const ColourScale scale = colour_scale(Measure::area, {1});
-  EXPECT_EQ(srgb(face_colour(scale, {0, 0})), ink::unmeasured);
+  EXPECT_EQ(srgb(face_colour(scale, {0, 0, 0})), ink::unmeasured);
   EXPECT_EQ(srgb(face_colour(scale, {1, 1})), srgb(diverging_colour(0)));
-  EXPECT_EQ(srgb(face_colour(scale, {1e9, 1})), srgb(diverging_colour(1)));
+  EXPECT_EQ(srgb(face_colour(scale, {1, 1e9, 1})), srgb(diverging_colour(1)));
 }
 
 TEST(Colours, MapsAreMonotoneInLightness) {

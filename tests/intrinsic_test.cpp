@@ -393,13 +393,23 @@ bool joins(const Connectivity& connectivity, int v, int w) {
   });
 }
 
+// Two flat pyramids over one triangle: its edges are not Delaunay, and a flip joins the apices.
+Mesh flat_bipyramid() {
+  Mesh mesh{Points(5, 3), Faces(6, 3)};
+  mesh.V << 0, 0, 0.2, 0, 0, -0.2, 1, 0, 0, -0.5, 0.9, 0, -0.5, -0.9, 0;
+  mesh.F << 0, 2, 3, 0, 3, 4, 0, 4, 2, 1, 3, 2, 1, 4, 3, 1, 2, 4;
+  return mesh;
+}
+
 TEST(Cones, AtOppositePointsAreJoinedByNoEdgeOfTheTriangulation) {
-  const Mesh mesh = bar();
-  const Connectivity connectivity = connectivity_of(mesh);
-  const EdgeWeights weights = delaunay_weights(mesh);
   int joined_by_flips = 0;
-  for (int v = 0; v < 8; ++v) {
-    for (int w = v + 1; w < 8; ++w) {
+  for (const Mesh& mesh : {bar(), flat_bipyramid()}) {
+    const Connectivity connectivity = connectivity_of(mesh);
+    const EdgeWeights weights = delaunay_weights(mesh);
+    const int n = static_cast<int>(mesh.V.rows());
+    for (int pair = 0; pair < n * n; ++pair) {
+      const int v = pair / n, w = pair % n;
+      if (v >= w) continue;
       if (joins(connectivity, v, w)) continue;
       joined_by_flips += joins(weights.triangulation->connectivity, v, w);
       const std::vector<std::array<int, 2>> apart = {{v, w}};

@@ -275,7 +275,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"EndlessList",
                 header("binary_big_endian", "element face 1\nproperty list uint double vertex_indices\n") +
                     std::string("\xFF\xFF\xFF\xFF\0\0", 6),
-                "byte 104: the file ends within face 0, property 'vertex_indices'; export the file again"},
+                "byte 104: face 0 has a list 'vertex_indices' of length 4294967295; export the file again"},
         Refusal{
             "NegativeList",
             header("binary_big_endian", "element face 1\nproperty list char int vertex_indices\n") + "\xFF",

@@ -371,7 +371,7 @@ TEST(Polygons, FaceWithAllEdgesButOneOnAMirrorIsReportedAndRounded) {
   ASSERT_THAT(inspect(mesh).defects, IsEmpty());
   const EmbedResult result = embed(mesh, parse_orbifold("*432"), {0, 48, 42});
   ASSERT_FALSE(result.warnings.empty());
-  EXPECT_THAT(result.warnings[0], HasSubstr("1 faces have all edges but one on one mirror"));
+  EXPECT_THAT(result.warnings[0], HasSubstr("have all edges but one on one mirror"));
   EXPECT_TRUE(result.certificate.bijective) << failures(result.certificate);
 }
 
@@ -393,7 +393,7 @@ TEST(Polygons, PartBehindAChordOnOneMirrorMustCollapseAndIsReportedSo) {
   EXPECT_EQ(result.minimum.termination, Termination::converged);
   if (result.certificate.bijective) return;  // by luck in the last digits
   ASSERT_FALSE(result.warnings.empty());
-  EXPECT_THAT(result.warnings.back(), HasSubstr("no failure of the solver"));
+  EXPECT_THAT(result.warnings.back(), HasSubstr("no solver can do better"));
   const int m = mesh.face_count();
   EXPECT_THAT(collapsing_faces(FaceView(mesh.corners, mesh.face_start), {{0, 1, 2, n, n + 1, n + 2, 4, 5, 6}},
                                {6, 48, 42}),

@@ -276,7 +276,7 @@ std::string compared(const std::vector<std::vector<double>>& log_areas, const st
   for (const std::vector<double>& areas : log_areas) {
     ComparedMap map = {"a map", {1, 1, 1, 1}, std::vector<FaceDistortion>(mesh.F.rows())};
     for (std::size_t f = 0; f < map.faces.size(); ++f)
-      map.faces[f] = {std::exp2(areas[f % areas.size()]), 1.5};
+      map.faces[f] = {1, std::exp2(areas[f % areas.size()]), 1.5};
     comparison.maps.push_back(map);
   }
   const std::string path = testing::TempDir() + "orbitutte_comparison_test" + ending;

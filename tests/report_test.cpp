@@ -246,7 +246,7 @@ TEST(Report, AnyPathIsWrittenAsJson) {
 TEST(Report, CutShortItIsRefused) {
   const std::string text = report_json(test::sample_embedding("33").result, run);
   for (std::size_t length = 0; length + 2 < text.size(); length += 1 + text.size() / 200)
-    EXPECT_THAT(refusal(text.substr(0, length)), HasSubstr("no JSON")) << length;
+    EXPECT_THAT(refusal(text.substr(0, length)), HasSubstr("not JSON")) << length;
 }
 
 TEST(Report, WhatIsNoReportIsRefused) {

@@ -141,7 +141,7 @@ SymmetryGroup group_of(const Target& target) {
 }
 
 SymmetryGroup group_of(const Target& target, int count) {
-  if (target.group_order > 0) return group_of(target);
+  if (target.space.is_closed()) return group_of(target);
   const Tile tile = basic_tile(target, first_arrangement(target));
   return SymmetryGroup::nearest_elements(target.space, generators_of(tile), tile.centroid(), count);
 }

@@ -11,13 +11,23 @@
 namespace orbitutte {
 namespace {
 
+std::string group_text(const Report& report) {
+  return report.group_order > 0 ? fmt::format("group of order {}", report.group_order) : "infinite group";
+}
+
+std::string tile_caption(const Embedding& embedding) {
+  if (embedding.seams.empty()) return "Its image on the sphere";
+  return embedding.space().is_closed() ? "Its tile on the sphere, and the copies"
+                                       : "Its tile in the plane, and copies";
+}
+
 std::string summary(const RenderSubject& subject) {
   std::vector<int> marked;
   for (const ConeCopies& cone : subject.embedding.cones) marked.push_back(cone.vertex);
   const Report& report = subject.report;
-  return fmt::format("{} faces,  marked vertices {},  group of order {},  energy {:.6g},  {}",
+  return fmt::format("{} faces,  marked vertices {},  {},  energy {:.6g},  {}",
                      grouped_digits(subject.embedding.input_faces().count()), fmt::join(marked, ", "),
-                     report.group_order, report.energy,
+                     group_text(report), report.energy,
                      report.bijective ? "certified bijective" : "not certified");
 }
 
@@ -55,9 +65,7 @@ void draw_sheet(Canvas& canvas, const Box& box, PictureParts& parts) {
   draw_captioned(canvas, cell(0, 0), parts,
                  {Panel::source, is_tiling ? "Source mesh, marked vertices and seams"
                                            : "Source mesh and the corners of the polygon"});
-  draw_captioned(
-      canvas, cell(1, 0), parts,
-      {Panel::sphere, is_tiling ? "Its tile on the sphere, and the copies" : "Its image on the sphere"});
+  draw_captioned(canvas, cell(1, 0), parts, {Panel::sphere, tile_caption(parts.embedding())});
   draw_captioned(canvas, cell(2, 0), parts, {Panel::checkerboard, "Checkerboard through the map"});
   draw_captioned(canvas, cell(0, 1), parts, {Panel::area, "Area distortion"});
   draw_captioned(canvas, cell(1, 1), parts, {Panel::angle, "Angle distortion"});
