@@ -38,7 +38,8 @@ py::list cones(const HeldEmbedding& held) {
 // The elements that SurfacePoints::element counts, in the frame of the positions.
 py::array group(const HeldEmbedding& held) {
   std::vector<Matrix3> matrices;
-  for (const Isometry& element : group_of(held.embedding, PointLocator::default_copies).elements())
+  const SymmetryGroup elements = group_of(held.embedding, PointLocator::default_copies);
+  for (const Isometry& element : elements.elements())
     matrices.push_back(element.matrix());
   return copy(matrices);
 }

@@ -175,13 +175,35 @@ def test_a_fixed_boundary_is_held(mask):
         orbitutte.tile(embedding)
 
 
-def test_the_plane_has_no_files(figure):
-    embedding = orbitutte.embed(*figure, "442", geometry="euclidean")
+def test_the_plane_is_a_space_like_the_sphere(figure, tmp_path):
+    embedding = orbitutte.embed(*figure, "442")
     assert embedding.bijective and np.array_equal(embedding.positions[:, 2], np.ones(len(embedding.positions)))
-    assert "infinite" in repr(embedding)
-    for use in (lambda: embedding.save("never.ply"), lambda: embedding.group, lambda: orbitutte.tile(embedding), lambda: embedding.locate([0, 0, 1])):
-        with pytest.raises(orbitutte.ArgumentError, match="plane"):
-            use()
+    assert "infinite" in repr(embedding) and embedding.report["orbifold"] == {"signature": "442", "group_order": None, "space": "euclidean"}
+    embedding.save(tmp_path / "map.ply", tmp_path / "map.json")
+    again = orbitutte.Embedding.load(tmp_path / "map.ply", tmp_path / "map.json", mesh=figure)
+    assert orbitutte.verify(again)["bijective"] and np.array_equal(again.positions, embedding.positions)
+    assert np.array_equal(embedding.group[0], np.eye(3)) and np.array_equal(embedding.group[:, 2], np.tile([0, 0, 1], (len(embedding.group), 1)))
+    found = embedding.locate(embedding.canonical_positions)
+    assert np.abs(embedding.map_points(*found) - embedding.canonical_positions).max() < 1e-12
+    tiling = orbitutte.tile(embedding)
+    assert len(np.unique(tiling.tile)) == 25
+    with pytest.warns(DeprecationWarning, match="geometry"):
+        orbitutte.embed(*figure, "442", geometry="euclidean")
+    with pytest.warns(DeprecationWarning), pytest.raises(orbitutte.ArgumentError, match="spherical"):
+        orbitutte.embed(*figure, "442", geometry="spherical")
+
+
+def test_cuts_do_not_move_the_map(figure):
+    """The map from one embedding to another of the same mesh and cones is the identity, whatever the cuts."""
+    V, F = figure
+    for signature in ("432", "442", "33"):
+        cones = orbitutte.choose_cones(V, F, signature)
+        first, second = (orbitutte.embed(V, F, signature, cones, cut_seed=seed) for seed in (0, 5))
+        points = second.canonical_positions[: len(V)]
+        turn = second.rotation_to(points, first.canonical_positions[: len(V)])
+        assert second.is_free_to_rotate == (signature == "33")
+        found = first.locate(points @ turn.T)
+        assert np.abs(first.source_points(found.face, found.barycentric) - V).max() < 1e-6
 
 
 def test_what_does_not_converge_is_a_result_with_a_warning(figure):

@@ -29,6 +29,7 @@ using Entry = std::pair<Box, int>;  // a triangle
 using Tree = bg::index::rtree<Entry, bg::index::rstar<16>>;
 
 constexpr double largest_gap = 1e-11;  // the certificate allows seams a residual of 1e-12
+constexpr int most_copies = 100000;    // of infinitely many
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 void require_sound(const Embedding& embedding) {
@@ -207,7 +208,8 @@ Points map_points(const Embedding& embedding, const SurfacePoints& points) {
   const int last =
       points.element.empty() ? 0 : *std::max_element(points.element.begin(), points.element.end());
   const std::vector<Isometry> elements =
-      last > 0 ? group_of(embedding.target, last + 1).elements() : std::vector<Isometry>(1);
+      last > 0 ? group_of(embedding.target, std::min(last, most_copies) + 1).elements()
+               : std::vector<Isometry>(1);
   const Points positions = embedding.canonical_positions();
   Points images = Points::Constant(points.count(), 3, nan);
   parallel_ranges(points.count(), [&](int begin, int end) {

@@ -15,7 +15,7 @@ std::string group_text(const Report& report) {
   return report.group_order > 0 ? fmt::format("group of order {}", report.group_order) : "infinite group";
 }
 
-std::string tile_caption(const Embedding& embedding) {
+const char* tile_caption(const Embedding& embedding) {
   if (embedding.seams.empty()) return "Its image on the sphere";
   return embedding.space().is_closed() ? "Its tile on the sphere, and the copies"
                                        : "Its tile in the plane, and copies";
