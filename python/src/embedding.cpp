@@ -39,8 +39,7 @@ py::list cones(const HeldEmbedding& held) {
 py::array group(const HeldEmbedding& held) {
   std::vector<Matrix3> matrices;
   const SymmetryGroup elements = group_of(held.embedding, PointLocator::default_copies);
-  for (const Isometry& element : elements.elements())
-    matrices.push_back(element.matrix());
+  for (const Isometry& element : elements.elements()) matrices.push_back(element.matrix());
   return copy(matrices);
 }
 

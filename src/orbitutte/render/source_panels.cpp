@@ -116,8 +116,7 @@ void draw_angle_panel(Canvas& canvas, const Box& box, PictureParts& parts) {
 
 void draw_checkerboard_panel(Canvas& canvas, const Box& box, PictureParts& parts) {
   const Embedding& embedding = parts.embedding();
-  const Checkerboard board(embedding, parts.figure().positions(),
-                           tile_centre(embedding), median_square);
+  const Checkerboard board(embedding, parts.figure().positions(), tile_centre(embedding), median_square);
   const double pixel = source_camera(box, parts).pixel;
   draw_surface(canvas, box, parts, [&](const Hit& hit) { return board.colour(hit, pixel); });
 }

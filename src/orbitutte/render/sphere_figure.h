@@ -44,8 +44,8 @@ double ball_radius(const Embedding& embedding, double pixel);
 Ornaments sphere_ornaments(const Embedding& embedding, const std::vector<TileCopy>& copies,
                            const Camera& camera);
 
-/// The camera for which the sphere fills the share `fill` of the picture's shorter side; in the plane, the tile
-/// with the copies around it.
+/// The camera for which the sphere fills the share `fill` of the picture's shorter side; in the plane, the
+/// tile with the copies around it.
 Camera sphere_camera(const Embedding& embedding, const View& view, const PictureSize& size, double fill);
 
 /// The tile in the middle of the sphere, a little from above and from the right, the more so the farther it
