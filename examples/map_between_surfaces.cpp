@@ -14,7 +14,7 @@ using namespace orbitutte;
 
 // Where each vertex of the first mesh lies on the second, n x 3.
 Points map_between(const Mesh& first, const Embedding& out, const Mesh& second, const Embedding& back) {
-  const SurfacePoints found = PointLocator(back).locate(out.positions.topRows(first.V.rows()));
+  const SurfacePoints found = PointLocator(back).locate(out.canonical_positions().topRows(first.V.rows()));
   Points images(first.V.rows(), 3);
   for (int v = 0; v < found.count(); ++v) {
     images.row(v).setZero();

@@ -41,7 +41,7 @@ second = orbitutte.embed(W, G, "432", tips)
 heat = np.linalg.norm(V - V[first.cones[2].vertex], axis=1)  # warm at the third cone
 heat = 1 - heat / heat.max()
 
-where = first.locate(second.positions[: len(W)])  # every vertex of the second surface, on the first one
+where = first.locate(second.canonical_positions[: len(W)])  # every vertex of the second surface, on the first one
 corners = first.source_vertex[first.triangles[where.face]]
 carried = np.einsum("vk,vk->v", heat[corners], where.barycentric)
 

@@ -317,6 +317,7 @@ void add_view(const PageSubject& subject, const PageOptions& options,
               const std::vector<FaceDistortion>& faces, Content& content) {
   content["has_view"] = has_interactive_view();
   content["interactive"] = is_interactive(options);
+  content["is_planar"] = !subject.embedding.space().is_closed();
   content["has_pictures"] = !options.pictures.empty();
   content["pictures"] = picture_list(options.pictures);
   if (!is_interactive(options)) return;
@@ -372,10 +373,12 @@ bool has_interactive_view() { return !page_script.empty(); }
 std::string report_page(const PageSubject& subject, const PageOptions& options) {
   require_match(subject);
   const Json report = parse(subject.report);
+  PageOptions possible = options;
+  possible.interactive = options.interactive && subject.embedding.space().is_closed();
   return fill_template({page_template,
                         {{"view", page_view}, {"pictures", page_pictures}, {"chart", page_chart}},
                         [&](const std::string& name) { return named_figure(report, name); }},
-                       page_content(subject, report, options));
+                       page_content(subject, report, possible));
 }
 
 }  // namespace orbitutte

@@ -17,7 +17,8 @@ struct PagePicture {
 
 /// What the page has besides figures.
 struct PageOptions {
-  bool interactive = true;  ///< with the view that needs JavaScript and WebGL, where this build has it
+  /// With the view that needs JavaScript and WebGL, if this build has it and the map is one onto the sphere.
+  bool interactive = true;
   std::vector<PagePicture> pictures;  ///< shown where the page has no interactive view, or it cannot run
   DisplayLimits limits;               ///< how much of the mesh the interactive view draws
 };
