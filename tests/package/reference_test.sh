@@ -55,12 +55,12 @@ same "a value after =" "delaunay " "$(completed orbitutte embed mesh.ply --weigh
 same "every value after =" "cotan delaunay mean-value standard uniform " "$(completed orbitutte embed --weights =)"
 # usage: completes_symbols WORD SYMBOL ...
 completes_symbols() { same "symbols that begin with $1" "$(printf '%s\n' "${@:2}" | in_one_line)" "$(completed orbitutte embed mesh.ply --orbifold "$1")"; }
-completes_symbols 2 222 22 223 224 225 226 '2\*2' '2\*3' '2\*4' '2\*5' '2\*6' '2\*' 2x
-completes_symbols '\*4' '\*432' '\*44'
-completes_symbols "'*4" '*432' '*44'
+completes_symbols 2 222 2222 22 223 224 225 226 '2\*2' '2\*3' '2\*4' '2\*5' '2\*6' '2\*' 2x
+completes_symbols '\*4' '\*432' '\*44' '\*442'
+completes_symbols "'*4" '*432' '*44' '*442'
 completes_symbols poly polygon
 for shell in _orbitutte orbitutte.fish; do
-  grep -q '532 432 332 222 .* \\\*532 .* 3\\\*2 .* 6x polygon' "$documents/$shell" || same "symbols in $shell" "532 ... polygon" "none"
+  grep -q '532 432 332 222 .* \\\*532 .* 3\\\*2 .* 6x 333 .* \\\*2222 polygon' "$documents/$shell" || same "symbols in $shell" "532 ... polygon" "none"
 done
 same "a file" " " "$(completed orbitutte embed fig)"
 if command -v groff >/dev/null; then
