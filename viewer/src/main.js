@@ -23,7 +23,7 @@ function showLegend(view, colouring) {
     tick.style.left = `${100 * at}%`;
     return tick;
   }));
-  element('legend-title').textContent = `${scale.title}; at a vertex, the mean of the faces around`;
+  element('legend-title').textContent = `${scale.title}\nmean of the faces around each vertex`;
 }
 
 function showReadout(view, point) {
