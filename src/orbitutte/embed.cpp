@@ -222,10 +222,10 @@ EmbeddingSolver::EmbeddingSolver(std::shared_ptr<const Surface> surface, EmbedOp
 EmbeddingSolver::EmbeddingSolver(Surface surface, EmbedOptions options)
     : EmbeddingSolver(std::make_shared<const Surface>(std::move(surface)), std::move(options)) {}
 
-EmbeddingSolver::EmbeddingSolver(Mesh mesh, EmbedOptions options)
+EmbeddingSolver::EmbeddingSolver(Mesh mesh, const EmbedOptions& options)
     : EmbeddingSolver(with_threads_of(options, [&] { return make_surface(std::move(mesh)); }), options) {}
 
-EmbeddingSolver::EmbeddingSolver(PolygonMesh mesh, EmbedOptions options)
+EmbeddingSolver::EmbeddingSolver(PolygonMesh mesh, const EmbedOptions& options)
     : EmbeddingSolver(with_threads_of(options, [&] { return make_surface(std::move(mesh)); }), options) {}
 
 EmbeddingSolver::~EmbeddingSolver() = default;

@@ -41,8 +41,8 @@ class EmbeddingSolver {
 
   /// Keeps the surface, or that of the mesh. Throws as make_surface does, too.
   explicit EmbeddingSolver(Surface surface, EmbedOptions options = {});
-  explicit EmbeddingSolver(Mesh mesh, EmbedOptions options = {});
-  explicit EmbeddingSolver(PolygonMesh mesh, EmbedOptions options = {});
+  explicit EmbeddingSolver(Mesh mesh, const EmbedOptions& options = {});
+  explicit EmbeddingSolver(PolygonMesh mesh, const EmbedOptions& options = {});
   ~EmbeddingSolver();
   EmbeddingSolver(EmbeddingSolver&&) noexcept;
 

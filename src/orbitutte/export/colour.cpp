@@ -13,7 +13,7 @@ namespace {
 
 using Matrix3f = Eigen::Matrix3f;
 
-float linear_channel(std::uint8_t channel) {
+float linear_share(std::uint8_t channel) {
   const float s = static_cast<float>(channel) / 255;
   return s <= 0.04045F ? s / 12.92F : std::pow((s + 0.055F) / 1.055F, 2.4F);
 }
@@ -50,7 +50,7 @@ Colour from_oklab(const Eigen::Vector3f& lab) {
 }  // namespace
 
 Colour linear(const Rgb& colour) {
-  return {linear_channel(colour.red), linear_channel(colour.green), linear_channel(colour.blue)};
+  return {linear_share(colour.red), linear_share(colour.green), linear_share(colour.blue)};
 }
 
 Rgb srgb(const Colour& colour) {

@@ -96,6 +96,7 @@ std::optional<Coincidence> find_coincidence(const Points& V,
   const std::vector<int> vertices = finite_vertices(V, boundary);
   if (vertices.empty()) return std::nullopt;
   std::vector<std::array<int, 2>> joined;
+  joined.reserve(boundary.size());
   for (const auto& [v, w] : boundary) joined.push_back({std::min(v, w), std::max(v, w)});
   std::sort(joined.begin(), joined.end());
 

@@ -24,9 +24,9 @@ namespace {
 
 namespace bg = boost::geometry;
 using TreePoint = bg::model::point<double, 3, bg::cs::cartesian>;
-using Box = bg::model::box<TreePoint>;
-using Entry = std::pair<Box, int>;  // a triangle
-using Tree = bg::index::rtree<Entry, bg::index::rstar<16>>;
+using FaceBox = bg::model::box<TreePoint>;
+using FaceEntry = std::pair<FaceBox, int>;  // a triangle
+using FaceTree = bg::index::rtree<FaceEntry, bg::index::rstar<16>>;
 
 constexpr double largest_gap = 1e-11;  // the certificate allows seams a residual of 1e-12
 constexpr int most_copies = 100000;    // of infinitely many
@@ -45,7 +45,7 @@ TriangleCorners corners_of(const Points& positions, const Faces& faces, int f) {
 }
 
 // A box around the triangle and all within largest_gap of it.
-Box box_around(Space space, const TriangleCorners& corners) {
+FaceBox box_around(Space space, const TriangleCorners& corners) {
   const auto& [a, b, c] = corners;
   const Vector3 margin = Vector3::Constant(bulge(space, corners) + 2 * largest_gap);
   const Vector3 low = a.cwiseMin(b).cwiseMin(c) - margin, high = a.cwiseMax(b).cwiseMax(c) + margin;
@@ -65,7 +65,7 @@ struct PointLocator::State {
   Points positions;  // in the canonical frame
   Faces faces;
   std::vector<Isometry> elements;
-  Tree tree;
+  FaceTree tree;
 
   TriangleCorners corners(int f) const { return corners_of(positions, faces, f); }
 
@@ -78,10 +78,10 @@ struct PointLocator::State {
         positive[f] = orientation_sign(a, b, c) > 0;
       }
     });
-    std::vector<Entry> entries;
+    std::vector<FaceEntry> entries;
     for (int f = 0; f < static_cast<int>(faces.rows()); ++f)
       if (positive[f]) entries.emplace_back(box_around(space, corners(f)), f);
-    tree = Tree(entries);
+    tree = FaceTree(entries);
   }
 
   // The triangles whose boxes hold the point.
@@ -89,12 +89,12 @@ struct PointLocator::State {
     found.clear();
     tree.query(
         bg::index::intersects(TreePoint(point.x(), point.y(), point.z())),
-        boost::make_function_output_iterator([&](const Entry& entry) { found.push_back(entry.second); }));
+        boost::make_function_output_iterator([&](const FaceEntry& entry) { found.push_back(entry.second); }));
     std::sort(found.begin(), found.end());
   }
 
   bool may_hold(const Vector3& point) const {
-    const Box bounds = tree.bounds();
+    const FaceBox bounds = tree.bounds();
     return bg::covered_by(TreePoint(point.x(), point.y(), point.z()), bounds);
   }
 
@@ -141,11 +141,8 @@ struct PointLocator::State {
 
 PointLocator::PointLocator(const Embedding& embedding, int copies) {
   require_sound(embedding);
-  state_ = std::make_unique<State>(State{embedding.space(),
-                                         embedding.canonical_positions(),
-                                         embedding.faces,
-                                         group_of(embedding.target, copies).elements(),
-                                         {}});
+  state_ = std::make_unique<State>(State{embedding.space(), embedding.canonical_positions(), embedding.faces,
+                                         group_of(embedding.target, copies).elements(), FaceTree()});
   state_->grow_tree();
 }
 

@@ -252,6 +252,7 @@ bool are_opposite(const std::vector<Mark>& marks) {
 std::vector<double> metric_angles(const std::vector<Mark>& marks) {
   const bool slides = are_opposite(marks);
   std::vector<double> angles;
+  angles.reserve(marks.size());
   for (const Mark& mark : marks) angles.push_back((slides ? 2 : 1) * mark.angle);
   return angles;
 }

@@ -24,7 +24,7 @@ constexpr int dividing_rounds = 2;  // after every division
 int face_count(const Mesh& mesh) { return static_cast<int>(mesh.F.rows()); }
 int vertex_count(const Mesh& mesh) { return static_cast<int>(mesh.V.rows()); }
 
-Connectivity connect(const Mesh& mesh) { return orbitutte::connect(mesh.F, vertex_count(mesh)); }
+Connectivity connectivity_of(const Mesh& mesh) { return connect(mesh.F, vertex_count(mesh)); }
 
 // One half-edge of every edge, the one with the lower index.
 std::vector<int> halfedge_of_edges(const Connectivity& connectivity) {
@@ -104,7 +104,7 @@ std::vector<int> edges_by_length(const Mesh& mesh, const Connectivity& connectiv
 // Splits the longest edges, at most one of every face, until there are `faces` faces or a share of the edges
 // is split.
 void split_long_edges(Mesh& mesh, const SmoothSurface& surface, int faces) {
-  const Connectivity connectivity = connect(mesh);
+  const Connectivity connectivity = connectivity_of(mesh);
   const std::vector<int> halfedge = halfedge_of_edges(connectivity);
   std::vector<char> is_split(mesh.F.rows(), 0);
   int m = vertex_count(mesh), f = face_count(mesh);
@@ -152,7 +152,7 @@ bool lies_wrong(const Mesh& mesh, const SmoothSurface& surface, int a, int b, in
 // number of flips.
 int flip_edges(Mesh& mesh, const SmoothSurface& surface) {
   constexpr double rounding = 1e-9;
-  const Connectivity connectivity = connect(mesh);
+  const Connectivity connectivity = connectivity_of(mesh);
   std::vector<char> at_flip(mesh.V.rows(), 0);
   int flips = 0;
   for (int h = 0; h < static_cast<int>(mesh.F.size()); ++h) {
@@ -234,7 +234,7 @@ bool lies_wrong(const Mesh& mesh, const Points& normal, int f) {
 void relax(Mesh& mesh, const SmoothSurface& surface) {
   const Mesh before = mesh;
   const Points normal_before = normals(mesh.V, surface);
-  mesh.V = centred(mesh, surface, connect(mesh));
+  mesh.V = centred(mesh, surface, connectivity_of(mesh));
   Points normal = normals(mesh.V, surface);
   for (bool put_back = true; put_back;) {
     put_back = false;
@@ -261,7 +261,7 @@ void relax_and_flip(Mesh& mesh, const SmoothSurface& surface, int rounds) {
 
 // How many faces to grow before the divisions. Closed triangle meshes have an even number of faces.
 int grown_faces(const Mesh& mesh, int faces, int divisions) {
-  const auto& opposite = connect(mesh).opposite;
+  const auto& opposite = connectivity_of(mesh).opposite;
   const bool closed = std::find(opposite.begin(), opposite.end(), -1) == opposite.end();
   const int unit = closed ? 2 : 1;
   const double wanted = std::ldexp(faces, -2 * divisions) / unit;
@@ -270,7 +270,7 @@ int grown_faces(const Mesh& mesh, int faces, int divisions) {
 
 // Divides every triangle into four at the midpoints of its edges.
 Mesh divided(const Mesh& mesh, const SmoothSurface& surface) {
-  const Connectivity connectivity = connect(mesh);
+  const Connectivity connectivity = connectivity_of(mesh);
   const std::vector<int> halfedge = halfedge_of_edges(connectivity);
   const int n = vertex_count(mesh), edges = static_cast<int>(connectivity.edges.size());
   Mesh result;
@@ -311,7 +311,7 @@ Mesh even_mesh(Mesh mesh, const SmoothSurface& surface, int faces) {
   for (int division = 0; division < divisions; ++division) {
     mesh = divided(mesh, surface);
     if (face_count(mesh) <= most_flipped_faces) flip_to_delaunay(mesh, surface);
-    const Connectivity connectivity = connect(mesh);
+    const Connectivity connectivity = connectivity_of(mesh);
     for (int round = 0; round < dividing_rounds; ++round) mesh.V = centred(mesh, surface, connectivity);
   }
   return mesh;

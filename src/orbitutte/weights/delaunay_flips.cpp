@@ -29,7 +29,7 @@ double sixteen_squared_areas(double a, double b, double c) {
 struct PlanePoint {
   double x, y;
 };
-PlanePoint lay_out(double d, double r, double s) {
+PlanePoint apex_over(double d, double r, double s) {
   return {(d * d + (r - s) * (r + s)) / (2 * d),
           std::sqrt(std::max(0.0, sixteen_squared_areas(d, r, s))) / (2 * d)};
 }
@@ -135,8 +135,8 @@ class DelaunayFlips {
   double diagonal(const Flip& flip, double unit) const {
     const std::vector<double>& length = T_.length;
     const double ab = length[flip.h];
-    const PlanePoint k = lay_out(ab, length[previous_halfedge(flip.h)], length[next_halfedge(flip.h)]),
-                     l = lay_out(ab, unit * length[flip.al], unit * length[flip.lb]);
+    const PlanePoint k = apex_over(ab, length[previous_halfedge(flip.h)], length[next_halfedge(flip.h)]),
+                     l = apex_over(ab, unit * length[flip.al], unit * length[flip.lb]);
     return std::hypot(k.x - l.x, k.y + l.y);
   }
 
