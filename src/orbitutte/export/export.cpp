@@ -210,6 +210,7 @@ std::string glb_bytes(const ExportedModel& model) {
     colours.push_back(distortion_colour(quality[source[v]]));
   }
   std::vector<std::uint32_t> indices;
+  indices.reserve(static_cast<std::size_t>(model.surface.triangles.size()));
   for (int h = 0; h < static_cast<int>(model.surface.triangles.size()); ++h)
     indices.push_back(static_cast<std::uint32_t>(rows[corner_of(model.surface, h)]));
   GltfModel gltf;

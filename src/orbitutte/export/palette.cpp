@@ -61,6 +61,7 @@ Colour face_colour(const ColourScale& scale, const FaceDistortion& face) {
 
 std::vector<Rgb> scale_colours(Measure measure, int count) {
   std::vector<Rgb> colours;
+  colours.reserve(static_cast<std::size_t>(count));
   for (int k = 0; k < count; ++k)
     colours.push_back(srgb(scale_colour(measure, static_cast<double>(k) / (count - 1))));
   return colours;
