@@ -74,7 +74,7 @@ def copy_pages(work: Path) -> None:
 
 # The command line
 
-OPTION = re.compile(r"^  (-\S+|[a-z]\w*)(?: ([A-Z]+)(?:=(\S+))?)?( REQUIRED)?(?: Needs: \S+)?(?:\s{2,}(.*))?$")
+OPTION = re.compile(r"^  (-\S+|[a-z]\w*)(?: ([A-Z]+)(?:=(\S+))?)?( REQUIRED)?(?: \.\.\.)?(?: Needs: \S+)?(?:\s{2,}(.*))?$")
 
 
 def option_rows(text: str) -> list[list[str]]:

@@ -9,20 +9,19 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 cd "$build"
 
-# Everything that the build makes, and what of it the target needs.
-ninja -t targets all | sed -n 's/: [^:]*$//p' | sort -u >"$scratch/made"
-if ! ninja -t inputs orbitutte_product >"$scratch/inputs" 2>/dev/null; then
-  echo "skipped: this version of ninja cannot list the inputs of a target"
-  exit 0
-fi
-sort -u "$scratch/inputs" >"$scratch/needed"
-
 # What is installed out of the build: the scripts of CMake name it.
+ninja -t targets all | sed -n 's/: [^:]*$//p' | sort -u >"$scratch/made"
 find . -name cmake_install.cmake -not -path './install/*' -exec grep -ohE "\"$build/[^\"]+\"" {} + | tr -d '"' | sed "s|^$build/||" | sort -u |
   comm -12 - "$scratch/made" >"$scratch/installed"
 [ "$(wc -l <"$scratch/installed")" -ge 3 ] || { echo "FAILED: only these are installed: $(cat "$scratch/installed")" >&2; exit 1; }
-missing=$(comm -23 "$scratch/installed" "$scratch/needed")
-[ -z "$missing" ] || { echo "FAILED: installed, but not built by orbitutte_product: $missing" >&2; exit 1; }
+
+# Every command that makes one of these files is a command of the target.
+ninja -t commands orbitutte_product | sort -u >"$scratch/commands"
+while read -r file; do
+  ninja -t commands "$file" | sort -u | comm -23 - "$scratch/commands" | grep . >"$scratch/missing" || continue
+  echo "FAILED: installed, but not built by orbitutte_product: $file" >&2
+  exit 1
+done <"$scratch/installed"
 echo "orbitutte_product builds the $(wc -l <"$scratch/installed") files that are installed"
 
 # A build that was configured only.
