@@ -41,6 +41,12 @@ struct ConeCopies {
   std::vector<int> copies;
 };
 
+/// What the position of a cut vertex has beyond its doubles.
+struct Offset {
+  int vertex = -1;
+  Vector3 d = Vector3::Zero();
+};
+
 /// The cut mesh on its target, and how its boundary is glued.
 struct Embedding {
   Target target;
@@ -63,6 +69,10 @@ struct Embedding {
   /// The faces of the input in their order, on cut vertices, if some have more than three corners; otherwise
   /// none.
   Polygons polygons;
+
+  /// Where doubles do not resolve the map: the position of a cut vertex is exactly the sum of its row of
+  /// `positions` and all of its offsets. Ascending by vertex, the largest of a vertex first.
+  std::vector<Offset> offsets;
 
   const Space& space() const { return target.space; }
 
