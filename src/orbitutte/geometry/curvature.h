@@ -2,6 +2,7 @@
 // The distance of two points from their difference, by one power series for all three geometries.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -64,6 +65,15 @@ struct Curvature {
         return {d * d, d / std::sinh(d)};
       }
     }
+  }
+
+  /// d/sn d of two neighbours, from their squared chord alone.
+  static double over_sn(double squared_chord) {
+    const double s = squared_chord / 4;
+    if constexpr (k == 0) return 1;
+    if (s < 0x1p-6) return from_series<terms>(s).over_sn;
+    const double d = k == 1 ? 2 * std::asin(std::min(std::sqrt(s), 1.0)) : 2 * std::asinh(std::sqrt(s));
+    return k == 1 ? d / std::max(std::sin(d), 1e-8) : d / std::sinh(d);
   }
 
  private:

@@ -111,17 +111,16 @@ int index_among(std::vector<Isometry>& distinct, const Isometry& isometry) {
   return static_cast<int>(distinct.size()) - 1;
 }
 
+Vector3 BoundaryConditions::feasible(int vertex, Vector3 p) const {
+  const int b = basis_of[vertex];
+  if (b == held_in_place) return held.row(vertex);
+  if (b != in_space) p += mirrors[b] * p;  // twice the middle between a point and its mirror image
+  return space.retract(p);
+}
+
 void BoundaryConditions::make_feasible(Points& positions) const {
-  for (Eigen::Index v = 0; v < positions.rows(); ++v) {
-    const int b = basis_of[v];
-    if (b == held_in_place) {
-      positions.row(v) = held.row(v);
-      continue;
-    }
-    Vector3 p = positions.row(v);
-    if (b != in_space) p += mirrors[b] * p;  // twice the middle between a point and its mirror image
-    positions.row(v) = space.retract(p);
-  }
+  for (Eigen::Index v = 0; v < positions.rows(); ++v)
+    positions.row(v) = feasible(static_cast<int>(v), positions.row(v));
 }
 
 Points BoundaryConditions::spread(const Points& positions, const std::vector<int>& source_vertex) const {

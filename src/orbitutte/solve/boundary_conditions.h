@@ -33,6 +33,10 @@ struct BoundaryConditions {
   const Isometry& transform(int cut_vertex) const { return transforms[transform_of[cut_vertex]]; }
   const Room& basis(int vertex) const { return bases[basis_of[vertex]]; }
 
+  /// The point nearest to p that the conditions allow for an input vertex: where it is held, on its mirror,
+  /// in the space.
+  Vector3 feasible(int vertex, Vector3 p) const;
+
   /// Moves positions of input vertices (n x 3) to the nearest that the conditions allow: to where they are
   /// held, onto the mirrors, onto the space.
   void make_feasible(Points& positions) const;

@@ -77,13 +77,12 @@ DirichletEnergy::Value DirichletEnergy::evaluate(const Points& positions) const 
 template <int k>
 DirichletEnergy::Pull DirichletEnergy::pull_at(const Points& p, int v) const {
   const Vector3 here = p.row(v);
-  Pull pull = {Vector3::Zero(), 0, 0};
+  Pull pull = {Vector3::Zero(), 0};
   for (int at = start_[v]; at < start_[v + 1]; ++at) {
     const Vector3 there = image(p, incidences_[at]);
     const double w = incidences_[at].w;
     const auto d = Curvature<k>::distance(here, there);
     pull.energy += w * d.squared;
-    pull.weight += w * d.over_sn;
     pull.force += w * d.over_sn * (there - here);
   }
   if (basis_of_[v] != 0) pull.force = projectors_[basis_of_[v]] * pull.force;
@@ -108,34 +107,29 @@ void DirichletEnergy::make_feasible(Points& vectors) const {
     if (basis_of_[v] != 0) vectors.row(v) = projectors_[basis_of_[v]] * Vector3(vectors.row(v));
 }
 
-void DirichletEnergy::relax(Points& p, int v) const {
-  visit_curvature(space_, [&]<int k>(Curvature<k>) {
-    const Pull pull = pull_at<k>(p, v);
-    if (pull.weight > 0) p.row(v) = Curvature<k>::retract(p.row(v).transpose() + pull.force / pull.weight);
-  });
+std::vector<double> DirichletEnergy::shortest_edges(const Points& positions) const {
+  std::vector<double> shortest(positions.rows(), std::numeric_limits<double>::infinity());
+  for (int v = 0; v < static_cast<int>(shortest.size()); ++v)
+    for (int k = start_[v]; k < start_[v + 1]; ++k)
+      shortest[v] =
+          std::min(shortest[v], (image(positions, incidences_[k]) - Vector3(positions.row(v))).norm());
+  return shortest;
 }
 
 std::pair<int, double> DirichletEnergy::smallest_spot(const Points& positions) const {
-  std::pair<int, double> spot = {0, std::numeric_limits<double>::infinity()};
-  for (int v = 0; v < static_cast<int>(positions.rows()); ++v) {
-    for (int k = start_[v]; k < start_[v + 1]; ++k) {
-      const double length = (image(positions, incidences_[k]) - Vector3(positions.row(v))).norm();
-      if (length < spot.second) spot = {v, length};
-    }
-  }
-  return spot;
+  const std::vector<double> shortest = shortest_edges(positions);
+  const auto at = std::min_element(shortest.begin(), shortest.end());
+  return {static_cast<int>(at - shortest.begin()), *at};
 }
 
-void DirichletEnergy::relax_small(Points& positions, double length, int sweeps) const {
-  std::vector<int> small;
-  for (int v = 0; v < static_cast<int>(positions.rows()); ++v) {
-    bool any = false;
-    for (int k = start_[v]; k < start_[v + 1] && !any; ++k)
-      any = (image(positions, incidences_[k]) - Vector3(positions.row(v))).norm() < length;
-    if (any) small.push_back(v);
+std::vector<Neighbour> DirichletEnergy::neighbours(int vertex, Elements& elements) const {
+  std::vector<Neighbour> result;
+  for (int k = start_[vertex]; k < start_[vertex + 1]; ++k) {
+    const auto& [neighbour, transform, w] = incidences_[k];
+    const Isometry& g = transforms_[transform / 2];
+    result.push_back({neighbour, transform < 2 ? 0 : elements.index(transform % 2 == 0 ? g : g.inverse()), w});
   }
-  for (int sweep = 0; sweep < sweeps; ++sweep)
-    for (const int v : small) relax(positions, v);
+  return result;
 }
 
 }  // namespace orbitutte

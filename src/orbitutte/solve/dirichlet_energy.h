@@ -9,6 +9,7 @@
 #include "orbitutte/mesh/connectivity.h"
 #include "orbitutte/mesh/edge_weights.h"
 #include "orbitutte/solve/boundary_conditions.h"
+#include "orbitutte/solve/elements.h"
 
 namespace orbitutte {
 
@@ -52,10 +53,11 @@ class DirichletEnergy {
   /// The vertex with the shortest edge, and that edge's length.
   std::pair<int, double> smallest_spot(const Points& positions) const;
 
-  /// Gauss-Seidel sweeps over the vertices with an edge shorter than `length`: each moves to the weighted
-  /// mean of its neighbours, computed from differences, so that it ends within a unit in the last place of
-  /// it.
-  void relax_small(Points& positions, double length, int sweeps) const;
+  /// The length of the shortest edge of every vertex (n).
+  std::vector<double> shortest_edges(const Points& positions) const;
+
+  /// What a vertex sees along its edges; the elements that it needs are put into `elements`.
+  std::vector<Neighbour> neighbours(int vertex, Elements& elements) const;
 
   Space space() const { return space_; }
 
@@ -72,15 +74,13 @@ class DirichletEnergy {
 
   Vector3 image(const Points& p, const Incidence& incidence) const;
 
-  // The tangential, feasible part of sum over j of w_ij d/sn d (g_ij p_j - p_i) at vertex i, and the sums
-  // that are met on the way.
+  // The tangential, feasible part of sum over j of w_ij d/sn d (g_ij p_j - p_i) at vertex i.
   struct Pull {
     Vector3 force;
-    double energy, weight;  // sum of w d^2, and of w d/sn d
+    double energy;  // sum of w d^2
   };
   template <int k>
   Pull pull_at(const Points& p, int v) const;
-  void relax(Points& p, int v) const;
 
   Space space_;
   std::vector<Isometry> transforms_;

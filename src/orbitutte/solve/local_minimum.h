@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// The minimum of the energy over a few vertices, the others held.
+#pragma once
+
+#include <Eigen/SparseCholesky>
+#include <vector>
+
+#include "orbitutte/solve/movable_positions.h"
+
+namespace orbitutte {
+
+/// What a vertex sees along its edges.
+struct Neighbourhood {
+  int vertex = -1;
+  std::vector<Neighbour> neighbours;
+};
+
+/// Where the map is flat on the scale of its edges, the Laplacian is the energy's Hessian (up to a factor two),
+/// and one sparse factor in doubles serves for as many digits as the positions have: forces come from
+/// differences, and each step gains some ten digits.
+class LocalMinimum {
+ public:
+  /// One neighbourhood of each vertex that may move, ascending; held vertices among them stay where they are.
+  LocalMinimum(const Gluing& gluing, const MovablePositions& positions,
+               std::vector<Neighbourhood> neighbourhoods);
+
+  /// One Newton step. Returns the longest move of a vertex, relative to its shortest edge before.
+  double step(MovablePositions& positions) const;
+
+  /// Steps until no vertex moves by more than a small part of its shortest edge. Did that come about?
+  bool settle(MovablePositions& positions) const;
+
+ private:
+  using Basis = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, 2>;
+
+  Basis basis_at(const Gluing& gluing, const Vector3& p, int vertex) const;
+
+  Space space_;
+  std::vector<Neighbourhood> neighbourhoods_;
+  std::vector<Basis> bases_;  // of the tangent plane and the room of each vertex
+  std::vector<int> first_;    // the first unknown of each vertex, and the number of all
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
+};
+
+}  // namespace orbitutte

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/solve/movable_positions.h"
+
+#include <cmath>
+#include <limits>
+
+#include "orbitutte/geometry/orientation.h"
+
+namespace orbitutte {
+namespace {
+
+template <typename Real>
+Vector3Of<Real> retracted(int curvature, const Vector3Of<Real>& p) {
+  if (curvature == 0) return p / p.z();
+  const Real squared = p.z() * p.z() + curvature * (p.x() * p.x() + p.y() * p.y());
+  return p / sqrt(squared);
+}
+
+template <typename Real>
+Vector3 to_double(const Vector3Of<Real>& p) {
+  return {static_cast<double>(p.x()), static_cast<double>(p.y()), static_cast<double>(p.z())};
+}
+
+}  // namespace
+
+Vector3 PlainPositions::difference(int v, int u, int element) const {
+  const Vector3 there = positions_.row(u), here = positions_.row(v);
+  return (element == 0 ? there : gluing_.elements[element] * there) - here;
+}
+
+void PlainPositions::move(int v, const Vector3& step) {
+  journal_.emplace_back(v, positions_.row(v));
+  positions_.row(v) = gluing_.boundary.feasible(v, positions_.row(v).transpose() + step);
+}
+
+void PlainPositions::shift(int v, const Vector3& step) {
+  journal_.emplace_back(v, positions_.row(v));
+  positions_.row(v) += step;
+}
+
+bool PlainPositions::is_positive(int face) const {
+  const auto corner = [&](int k) -> Vector3 {
+    const int v = gluing_.cut.F(face, k), source = gluing_.cut.source_vertex[v];
+    const Vector3 p = positions_.row(source);
+    return v == source ? p : gluing_.boundary.transform(v) * p;
+  };
+  return orientation_sign(corner(0), corner(1), corner(2)) > 0;
+}
+
+void PlainPositions::take_back(std::size_t moves) {
+  for (; journal_.size() > moves; journal_.pop_back()) positions_.row(journal_.back().first) = journal_.back().second;
+}
+
+template <typename Real>
+PrecisePositions<Real>::PrecisePositions(Gluing gluing, const Points& positions, const Target& target)
+    : gluing_(gluing), group_(target), positions_(positions), slot_(positions.rows(), -1) {
+  const BoundaryConditions& boundary = gluing.boundary;
+  for (const Isometry& transform : boundary.transforms) transforms_.push_back(group_.element(transform));
+  for (const Isometry& mirror : boundary.mirrors) mirrors_.push_back(group_.element(mirror));
+  for (const ConeCopies& cone : boundary.cones)
+    if (boundary.basis_of[cone.vertex] == held_in_place)
+      store(cone.vertex, group_.held_point(boundary.held.row(cone.vertex).transpose()));
+}
+
+template <typename Real>
+typename PrecisePositions<Real>::Vector PrecisePositions<Real>::precise(int v) const {
+  if (slot_[v] >= 0) return digits_[slot_[v]];
+  return Vector(positions_(v, 0), positions_(v, 1), positions_(v, 2));
+}
+
+template <typename Real>
+const typename PrecisePositions<Real>::Matrix& PrecisePositions<Real>::element(int k) const {
+  if (static_cast<int>(elements_.size()) <= k) elements_.resize(k + 1);
+  if (!elements_[k]) elements_[k] = group_.element(gluing_.elements[k]);
+  return *elements_[k];
+}
+
+template <typename Real>
+Vector3 PrecisePositions<Real>::difference(int v, int u, int k) const {
+  if (slot_[v] < 0 && slot_[u] < 0) {
+    const Vector3 there = positions_.row(u), here = positions_.row(v);
+    return (k == 0 ? there : gluing_.elements[k] * there) - here;
+  }
+  const Vector there = k == 0 ? precise(u) : Vector(element(k) * precise(u));
+  return to_double<Real>(there - precise(v));
+}
+
+template <typename Real>
+void PrecisePositions<Real>::store(int v, const Vector& p) {
+  if (slot_[v] < 0) {
+    slot_[v] = static_cast<int>(digits_.size());
+    digits_.emplace_back();
+  }
+  digits_[slot_[v]] = p;
+  positions_.row(v) = to_double<Real>(p);
+}
+
+template <typename Real>
+void PrecisePositions<Real>::move(int v, const Vector3& step) {
+  journal_.emplace_back(v, precise(v));
+  Vector p = journal_.back().second + Vector(step.x(), step.y(), step.z());
+  if (const int basis = gluing_.boundary.basis_of[v]; basis != in_space) p += Vector(mirrors_[basis] * p);
+  store(v, retracted<Real>(gluing_.boundary.space.curvature(), p));
+}
+
+template <typename Real>
+void PrecisePositions<Real>::shift(int v, const Vector3& step) {
+  journal_.emplace_back(v, precise(v));
+  store(v, journal_.back().second + Vector(step.x(), step.y(), step.z()));
+}
+
+template <typename Real>
+void PrecisePositions<Real>::refine(int v) {
+  if (slot_[v] < 0) move(v, Vector3::Zero());
+}
+
+template <typename Real>
+typename PrecisePositions<Real>::Vector PrecisePositions<Real>::cut_position(int cut_vertex) const {
+  const int source = gluing_.cut.source_vertex[cut_vertex];
+  if (cut_vertex == source) return precise(source);
+  return transforms_[gluing_.boundary.transform_of[cut_vertex]] * precise(source);
+}
+
+template <typename Real>
+bool PrecisePositions<Real>::is_positive(int face) const {
+  const auto v = gluing_.cut.F.row(face);
+  bool any = false;
+  for (const int corner : v) any = any || slot_[gluing_.cut.source_vertex[corner]] >= 0;
+  if (!any) {
+    const auto corner = [&](int k) -> Vector3 {
+      const int source = gluing_.cut.source_vertex[v[k]];
+      const Vector3 p = positions_.row(source);
+      return v[k] == source ? p : gluing_.boundary.transform(v[k]) * p;
+    };
+    return orientation_sign(corner(0), corner(1), corner(2)) > 0;
+  }
+  const Vector a = cut_position(v[0]), ab = cut_position(v[1]) - a, ac = cut_position(v[2]) - a;
+  return a.dot(Vector(ab.cross(ac))) > 0;
+}
+
+template <typename Real>
+void PrecisePositions<Real>::take_back(std::size_t moves) {
+  for (; journal_.size() > moves; journal_.pop_back()) store(journal_.back().first, journal_.back().second);
+}
+
+template <typename Real>
+Points PrecisePositions<Real>::spread(const std::vector<double>& shortest_edge,
+                                      std::vector<Offset>& offsets) const {
+  constexpr double part = 0x1p-50;  // of the shortest edge, which is left out
+  constexpr int most = 60;          // offsets of a vertex
+  const std::vector<int>& source_vertex = gluing_.cut.source_vertex;
+  Points result = gluing_.boundary.spread(positions_, source_vertex);
+  for (int c = 0; c < static_cast<int>(source_vertex.size()); ++c) {
+    const int v = source_vertex[c];
+    if (slot_[v] < 0) continue;
+    Vector rest = cut_position(c);
+    const Vector3 first = to_double<Real>(rest);
+    result.row(c) = first;
+    rest -= Vector(first.x(), first.y(), first.z());
+    for (int k = 0; k < most; ++k) {
+      const Vector3 d = to_double<Real>(rest);
+      offsets.push_back({c, d});
+      rest -= Vector(d.x(), d.y(), d.z());
+      if (to_double<Real>(rest).cwiseAbs().maxCoeff() <= part * shortest_edge[v]) break;
+    }
+  }
+  return result;
+}
+
+template class PrecisePositions<Precise>;
+template class PrecisePositions<MostPrecise>;
+
+}  // namespace orbitutte

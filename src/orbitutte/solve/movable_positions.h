@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+// The positions of a glued map while single vertices move: in doubles, or with more digits where it shrinks.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "orbitutte/cut/cut.h"
+#include "orbitutte/geometry/precise.h"
+#include "orbitutte/orbifold/precise_group.h"
+#include "orbitutte/solve/boundary_conditions.h"
+#include "orbitutte/solve/elements.h"
+
+namespace orbitutte {
+
+/// How the vertices of a map are glued, seen from one another.
+struct Gluing {
+  const CutMesh& cut;
+  const BoundaryConditions& boundary;
+  const Elements& elements;
+};
+
+/// The positions of the input vertices. What is read are differences, which keep their digits however near
+/// two vertices are to each other.
+class MovablePositions {
+ public:
+  virtual ~MovablePositions() = default;
+
+  /// elements[element] * p_u - p_v.
+  virtual Vector3 difference(int v, int u, int element) const = 0;
+
+  /// p_v in doubles.
+  virtual Vector3 rounded(int v) const = 0;
+
+  /// Adds a step, and takes the vertex back to its room (onto its mirror) and to the space.
+  virtual void move(int v, const Vector3& step) = 0;
+
+  /// Adds a step, and nothing else.
+  virtual void shift(int v, const Vector3& step) = 0;
+
+  /// Is the face of the cut mesh positively oriented, exactly as its corners will be stored?
+  virtual bool is_positive(int face) const = 0;
+
+  /// How many moves and shifts there were that have not been taken back.
+  virtual std::size_t moves() const = 0;
+
+  /// Takes all but the first so many back.
+  virtual void take_back(std::size_t moves) = 0;
+};
+
+/// In doubles.
+class PlainPositions final : public MovablePositions {
+ public:
+  /// positions: n x 3. Both must outlive it.
+  PlainPositions(Gluing gluing, Points& positions) : gluing_(gluing), positions_(positions) {}
+
+  Vector3 difference(int v, int u, int element) const override;
+  Vector3 rounded(int v) const override { return positions_.row(v); }
+  void move(int v, const Vector3& step) override;
+  void shift(int v, const Vector3& step) override;
+  bool is_positive(int face) const override;
+  std::size_t moves() const override { return journal_.size(); }
+  void take_back(std::size_t moves) override;
+
+ private:
+  Gluing gluing_;
+  Points& positions_;
+  std::vector<std::pair<int, Vector3>> journal_;  // where vertices were before their moves
+};
+
+/// Doubles, and more digits for the vertices that have been moved. The map must lie in the canonical frame of
+/// its target.
+template <typename Real>
+class PrecisePositions final : public MovablePositions {
+ public:
+  PrecisePositions(Gluing gluing, const Points& positions, const Target& target);
+
+  Vector3 difference(int v, int u, int element) const override;
+  Vector3 rounded(int v) const override { return positions_.row(v); }
+  void move(int v, const Vector3& step) override;
+  void shift(int v, const Vector3& step) override;
+  bool is_positive(int face) const override;
+  std::size_t moves() const override { return journal_.size(); }
+  void take_back(std::size_t moves) override;
+
+  /// Gives a vertex more digits where it is: on its mirror, in its space.
+  void refine(int v);
+
+  /// Positions of all cut vertices (n_cut x 3), and their offsets: of every copy of a vertex that has more
+  /// digits, down to a small part of its shortest edge. shortest_edge: n.
+  Points spread(const std::vector<double>& shortest_edge, std::vector<Offset>& offsets) const;
+
+ private:
+  using Vector = Vector3Of<Real>;
+  using Matrix = Matrix3Of<Real>;
+
+  Vector precise(int v) const;
+  Vector cut_position(int cut_vertex) const;
+  const Matrix& element(int k) const;
+  void store(int v, const Vector& p);
+
+  Gluing gluing_;
+  PreciseGroup<Real> group_;
+  Points positions_;
+  std::vector<int> slot_;  // n: an index into digits_, or -1
+  std::vector<Vector> digits_;
+  std::vector<std::pair<int, Vector>> journal_;
+  mutable std::vector<std::optional<Matrix>> elements_;
+  std::vector<Matrix> transforms_, mirrors_;  // BoundaryConditions::transforms and mirrors
+};
+
+}  // namespace orbitutte

@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/solve/repair.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "orbitutte/solve/kernel.h"
+
+namespace orbitutte {
+namespace {
+
+constexpr int most_sweeps = 60, sweeps_per_ring = 6, smoothing_sweeps = 8, halvings = 6;
+constexpr int most_rings = 7;
+constexpr double clamp = 0.01;    // in place of weights that are not positive
+constexpr double enough = 0.3;     // of the largest margin that a star allows
+constexpr double flattest = 1e-6;  // a source triangle's least height, relative to its base
+
+enum class PatchWeights { cotan, mean_value };
+
+// A star at one moment: its triangles v, a, b in the tangent plane at v, and in the source.
+struct Shape {
+  Eigen::Matrix<double, 3, 2> axes;  // of the tangent plane, counterclockwise from outside; on a mirror the first
+                                     // lies along it
+  bool on_mirror = false;
+  double radius = 0;  // the longest edge at v
+  struct Triangle {
+    Vector3 a, b;         // from p_v
+    double value;         // det[p_v a b]
+    Vector3 gradient;     // of the determinant by p_v
+    double height, base;  // in the source
+    bool is_flat;         // there
+    std::array<double, 3> source;  // squared lengths of (v, a), (v, b), (a, b)
+  };
+  std::vector<Triangle> triangles;
+};
+
+class Repair {
+ public:
+  Repair(const RepairSite& site, MovablePositions& positions)
+      : site_(site), positions_(positions), space_(site.gluing.boundary.space) {}
+
+  std::vector<int> run(const std::vector<int>& turned) {
+    if (!open_stars(turned) && !relax_patches(turned)) return {};
+    const std::set<int> around = with_neighbours(vertices_of(turned));
+    for (int sweep = 0; sweep < smoothing_sweeps; ++sweep) {
+      bool any = false;
+      for (const int v : around) any = smooth(v) || any;
+      if (!any) break;
+    }
+    return {moved_.begin(), moved_.end()};
+  }
+
+ private:
+  // Single vertices, sweep by sweep, in reach of the faces that are not positive.
+  bool open_stars(const std::vector<int>& turned) {
+    const std::size_t before = positions_.moves();
+    std::vector<int> broken = turned;
+    std::set<int> reached = vertices_of(turned);
+    for (int sweep = 0; sweep < most_sweeps && !broken.empty(); ++sweep) {
+      std::set<int> vertices = vertices_of(broken);
+      for (int ring = 0; ring < sweep / sweeps_per_ring; ++ring) vertices = with_neighbours(vertices);
+      for (const int v : vertices) open_star(v);
+      reached.merge(vertices);
+      broken = nonpositive_at(reached);
+    }
+    if (broken.empty()) return true;
+    positions_.take_back(before);
+    moved_.clear();
+    return false;
+  }
+
+  // Tutte's embedding of patches that grow, their rings held.
+  bool relax_patches(const std::vector<int>& turned) {
+    std::set<int> patch = vertices_of(turned);
+    for (int ring = 0; ring <= most_rings; ++ring, patch = with_neighbours(patch)) {
+      for (const PatchWeights weights : {PatchWeights::cotan, PatchWeights::mean_value}) {
+        const std::size_t before = positions_.moves();
+        std::vector<Neighbourhood> neighbourhoods;
+        for (const int v : patch)
+          if (site_.may_move[v]) neighbourhoods.push_back(neighbourhood(v, weights));
+        for (const Neighbourhood& at : neighbourhoods) moved_.insert(at.vertex);
+        if (!neighbourhoods.empty())
+          LocalMinimum(site_.gluing, positions_, std::move(neighbourhoods)).settle(positions_);
+        if (nonpositive_at(patch).empty()) return true;
+        positions_.take_back(before);
+        moved_.clear();
+      }
+    }
+    return false;
+  }
+
+  // The edges of the input at v, with positive weights that are symmetric.
+  Neighbourhood neighbourhood(int v, PatchWeights weights) const {
+    std::map<std::pair<int, int>, double> sum;  // by neighbour and element
+    const auto source = [&](int u) -> Vector3 { return site_.surface.V.row(u); };
+    for (const StarTriangle& at : site_.stars.around(v)) {
+      const std::array<Vector3, 3> corners = {source(v), source(at.a), source(at.b)};
+      sum[{at.a, at.element_a}] += edge_weight(corners, weights);
+      sum[{at.b, at.element_b}] += edge_weight({corners[0], corners[2], corners[1]}, weights);
+    }
+    Neighbourhood result = {v, {}};
+    for (const auto& [neighbour, weight] : sum)
+      result.neighbours.push_back({neighbour.first, neighbour.second, weight > 0 ? weight : clamp});
+    return result;
+  }
+
+  // What a triangle adds to the weight of the edge between its first two corners; nothing if it is flat.
+  static double edge_weight(const std::array<Vector3, 3>& corners, PatchWeights weights) {
+    const auto& [v, a, b] = corners;
+    const Vector3 va = a - v, vb = b - v, ab = b - a;
+    const double twice_area = va.cross(vb).norm(), length = va.norm();
+    if (!(twice_area > flattest * length * length)) return 0;
+    if (weights == PatchWeights::cotan) return 0.5 * vb.dot(ab) / twice_area;
+    // tan(angle/2) = (1 - cos)/sin at both ends
+    const double at_v = (length * vb.norm() - va.dot(vb)) / twice_area,
+                 at_a = (length * ab.norm() + va.dot(ab)) / twice_area;
+    return (at_v + at_a) / length;
+  }
+
+  std::set<int> vertices_of(const std::vector<int>& faces) const {
+    std::set<int> vertices;
+    for (const int f : faces)
+      for (const int v : site_.surface.triangles.row(f)) vertices.insert(v);
+    return vertices;
+  }
+
+  std::set<int> with_neighbours(const std::set<int>& vertices) const {
+    std::set<int> result = vertices;
+    for (const int v : vertices)
+      for (const StarTriangle& triangle : site_.stars.around(v)) result.insert({triangle.a, triangle.b});
+    return result;
+  }
+
+  std::vector<int> nonpositive_at(const std::set<int>& vertices) const {
+    std::set<int> faces;
+    for (const int v : vertices)
+      for (const StarTriangle& triangle : site_.stars.around(v)) faces.insert(triangle.face);
+    std::vector<int> result;
+    for (const int f : faces)
+      if (!positions_.is_positive(f)) result.push_back(f);
+    return result;
+  }
+
+  Shape shape_of(int v, const std::vector<StarTriangle>& star) const {
+    Shape shape;
+    const Vector3 p = positions_.rounded(v);
+    const auto source = [&](int u) -> Vector3 { return site_.surface.V.row(u); };
+    for (const StarTriangle& at : star) {
+      Shape::Triangle& triangle = shape.triangles.emplace_back();
+      const Vector3 a = positions_.difference(v, at.a, at.element_a),
+                    b = positions_.difference(v, at.b, at.element_b);
+      triangle.a = a;
+      triangle.b = b;
+      triangle.value = p.dot(a.cross(b));
+      triangle.gradient = p.cross(b - a) + a.cross(b);
+      const Vector3 va = source(at.a) - source(v), vb = source(at.b) - source(v);
+      triangle.source = {va.squaredNorm(), vb.squaredNorm(), (vb - va).squaredNorm()};
+      triangle.base = std::sqrt(triangle.source[2]);
+      const double height = triangle.base > 0 ? va.cross(vb).norm() / triangle.base : 0.0,
+                   least = flattest * std::max(triangle.base, va.norm());
+      triangle.is_flat = !(height > least);
+      triangle.height = std::max(height, least);
+      shape.radius = std::max({shape.radius, a.norm(), b.norm()});
+    }
+    set_axes(v, p, shape);
+    return shape;
+  }
+
+  void set_axes(int v, const Vector3& p, Shape& shape) const {
+    const Room& room = site_.gluing.boundary.basis(v);
+    shape.on_mirror = site_.gluing.boundary.basis_of[v] != in_space;
+    Vector3 first = Vector3::Zero();
+    for (Eigen::Index k = 0; k < room.cols(); ++k)
+      if (const Vector3 along = space_.tangent(p, room.col(k)); space_.norm(along) > space_.norm(first))
+        first = along;
+    first /= space_.norm(first);
+    // The second makes det[p e1 e2] positive: along the cross product, made tangent.
+    Vector3 second = space_.tangent(p, p.cross(first));
+    second -= space_.dot(first, second) * first;
+    shape.axes << first, second / space_.norm(second);
+  }
+
+  // Moves v to where its triangles have room, if one of them has none.
+  void open_star(int v) {
+    if (!site_.may_move[v]) return;
+    const std::vector<StarTriangle> star = site_.stars.around(v);
+    if (are_positive(star)) return;
+    const Shape shape = shape_of(v, star);
+    if (!(shape.radius > 0)) return;
+    const double source_radius = longest_source_edge(shape);
+    std::vector<KernelCondition> conditions;
+    for (const Shape::Triangle& triangle : shape.triangles) {
+      const Eigen::Vector2d gradient = shape.axes.transpose() * triangle.gradient;
+      const double length = std::max(triangle.gradient.norm(), std::numeric_limits<double>::min());
+      conditions.push_back({gradient / length, triangle.value / length / shape.radius,
+                            source_radius > 0 ? triangle.height / source_radius : 1});
+    }
+    const KernelStep widest = widest_step(conditions, {1, shape.on_mirror ? 0 : 1});
+    double fraction = 1;  // of the way, on which the least margin grows at least in proportion
+    if (widest.margin > 0) fraction = shortest_fraction(conditions, widest);
+    positions_.move(v, shape.axes * (fraction * shape.radius * widest.step));
+    moved_.insert(v);
+  }
+
+  bool are_positive(const std::vector<StarTriangle>& star) const {
+    return std::all_of(star.begin(), star.end(),
+                       [&](const StarTriangle& at) { return positions_.is_positive(at.face); });
+  }
+
+  static double longest_source_edge(const Shape& shape) {
+    double longest = 0;
+    for (const Shape::Triangle& triangle : shape.triangles)
+      longest = std::max({longest, triangle.source[0], triangle.source[1]});
+    return std::sqrt(longest);
+  }
+
+  // How far towards the widest step the least margin is enough, by bisection of a concave function.
+  static double shortest_fraction(const std::vector<KernelCondition>& conditions, const KernelStep& widest) {
+    double low = 0, high = 1;
+    for (int k = 0; k < 30; ++k) {
+      const double middle = 0.5 * (low + high);
+      const bool holds = std::all_of(conditions.begin(), conditions.end(), [&](const KernelCondition& at) {
+        return at.margin(middle * widest.step) >= enough * widest.margin;
+      });
+      (holds ? high : low) = middle;
+    }
+    return high;
+  }
+
+  // The sum over the star of the ratios of singular values, were v moved by a tangent step; infinite unless
+  // all triangles are positive.
+  static double distortion(const Shape& shape, const Vector3& step) {
+    double sum = 0;
+    for (const Shape::Triangle& triangle : shape.triangles) {
+      const double twice_area = triangle.value + triangle.gradient.dot(step);
+      if (!(twice_area > 0)) return std::numeric_limits<double>::infinity();
+      if (triangle.is_flat) continue;
+      // s1/s2 + s2/s1 from the squared lengths of both triangles (J. Pinkall, K. Polthier 1993): the Dirichlet
+      // energy of the linear map over the area of its image.
+      const double a2 = (triangle.a - step).squaredNorm(), b2 = (triangle.b - step).squaredNorm(),
+                   c2 = (triangle.b - triangle.a).squaredNorm();
+      const auto& [A2, B2, C2] = triangle.source;
+      const double area = 0.5 * triangle.height * triangle.base;  // of the source
+      // sum over edges of cot(opposite angle in the source) * squared length of the image
+      const double energy =
+          ((B2 + C2 - A2) * a2 + (A2 + C2 - B2) * b2 + (A2 + B2 - C2) * c2) / (8 * std::max(area, 1e-300));
+      const double ratio = std::max(energy / (0.5 * twice_area), 2.0);  // s1/s2 + s2/s1
+      sum += 0.5 * (ratio + std::sqrt(std::max(ratio * ratio - 4, 0.0)));
+    }
+    return sum;
+  }
+
+  bool smooth(int v) {
+    if (!site_.may_move[v]) return false;
+    const std::vector<StarTriangle> star = site_.stars.around(v);
+    const Shape shape = shape_of(v, star);
+    const double at_first = distortion(shape, Vector3::Zero());
+    if (!std::isfinite(at_first)) return false;
+    Eigen::Vector2d best(0, 0);
+    double least = at_first, length = 0.25 * shortest_edge(shape);
+    const int directions = shape.on_mirror ? 2 : 8;
+    for (int k = 0; k < halvings;) {
+      const Eigen::Vector2d from = best;
+      for (int d = 0; d < directions; ++d) {
+        const double angle = 2 * std::numbers::pi * d / directions;
+        const Eigen::Vector2d tried = from + length * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+        if (const double there = distortion(shape, shape.axes * tried); there < least) {
+          least = there;
+          best = tried;
+        }
+      }
+      if (best == from) {
+        length /= 2;
+        ++k;
+      }
+    }
+    if (!(least < 0.999 * at_first)) return false;
+    const std::size_t before = positions_.moves();
+    positions_.move(v, shape.axes * best);
+    if (!are_positive(star)) {
+      positions_.take_back(before);
+      return false;
+    }
+    moved_.insert(v);
+    return true;
+  }
+
+  static double shortest_edge(const Shape& shape) {
+    double shortest = std::numeric_limits<double>::infinity();
+    for (const Shape::Triangle& triangle : shape.triangles)
+      shortest = std::min({shortest, triangle.a.norm(), triangle.b.norm()});
+    return shortest;
+  }
+
+  const RepairSite& site_;
+  MovablePositions& positions_;
+  Space space_;
+  std::set<int> moved_;
+};
+
+}  // namespace
+
+std::vector<int> repair(const RepairSite& site, const std::vector<int>& turned, MovablePositions& positions) {
+  return Repair(site, positions).run(turned);
+}
+
+}  // namespace orbitutte

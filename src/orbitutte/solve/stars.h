@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// The triangles around a vertex of a glued map.
+#pragma once
+
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "orbitutte/cut/cut.h"
+#include "orbitutte/solve/boundary_conditions.h"
+#include "orbitutte/solve/elements.h"
+
+namespace orbitutte {
+
+/// A triangle seen from one of its vertices v: v, a, b counterclockwise, with a at elements[element_a] * p_a
+/// and b likewise.
+struct StarTriangle {
+  int face = -1;
+  int a = -1, b = -1;
+  int element_a = 0, element_b = 0;
+};
+
+/// The star of every input vertex, across all seams.
+class Stars {
+ public:
+  /// Puts the elements that it needs into `elements`. All arguments must outlive it.
+  Stars(const CutMesh& cut, const BoundaryConditions& boundary, Elements& elements);
+
+  std::vector<StarTriangle> around(int vertex) const;
+
+ private:
+  int element_between(int from, int to) const;
+
+  const CutMesh& cut_;
+  const BoundaryConditions& boundary_;
+  std::vector<int> start_, halfedges_;            // those that begin at copies of vertex v
+  std::map<std::pair<int, int>, int> element_of_;  // by BoundaryConditions::transform_of of both ends
+};
+
+}  // namespace orbitutte
