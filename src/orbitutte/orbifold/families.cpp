@@ -203,6 +203,22 @@ Tile crossed_lune(const Target& target, const Arrangement& marks) {
   return tile;
 }
 
+// Chambers (Family::chamber).
+
+std::vector<int> triangle_of_marks(const Target& target) {
+  return {target.marks[0].order(), target.marks[1].order(), target.marks[2].order()};
+}
+
+// n*m: half the kite.
+std::vector<int> triangle_at_mirror(const Target& target) {
+  return {target.marks[0].order(), 2 * target.marks[1].order(), 2};
+}
+
+// Between the meridians of longitude 0 and pi/2N and the equator: for N about one axis.
+std::vector<int> triangle_at_equator(const Target& target) { return {2 * target.marks[0].order(), 2, 2}; }
+
+std::vector<int> square_of_marks(const Target& /*target*/) { return {2, 2, 2, 2}; }
+
 constexpr int N = 0;  // the free order in a pattern
 
 ConwaySymbol rotations(std::vector<int> orders) { return {std::move(orders), {}, false, false}; }
@@ -230,28 +246,34 @@ const std::string one_vertex = "one vertex";
 const std::vector<Family>& family_table() {
   constexpr Topology sphere = Topology::sphere, disk = Topology::disk;
   static const std::vector<Family> table = {
-      {"532", "60", three_vertices, rotations({2, 3, 5}), sphere, doubled_triangle},
-      {"432", "24", three_vertices, rotations({2, 3, 4}), sphere, doubled_triangle},
-      {"332", "12", three_vertices, rotations({2, 3, 3}), sphere, doubled_triangle},
-      {"22N", "2N", three_vertices, rotations({2, 2, N}), sphere, doubled_triangle},
-      {"NN", "N", two_vertices, rotations({N, N}), sphere, glued_lune},
-      {"*532", "120", three_boundary_vertices, corners({2, 3, 5}), disk, mirrored_triangle},
-      {"*432", "48", three_boundary_vertices, corners({2, 3, 4}), disk, mirrored_triangle},
-      {"*332", "24", three_boundary_vertices, corners({2, 3, 3}), disk, mirrored_triangle},
-      {"*22N", "4N", three_boundary_vertices, corners({2, 2, N}), disk, mirrored_triangle},
-      {"*NN", "2N", two_boundary_vertices, corners({N, N}), disk, mirrored_lune},
-      {"3*2", "24", vertex_on_each_side, mixed(3, {2}), disk, mirrored_kite, true},
-      {"2*N", "4N", vertex_on_each_side, mixed(2, {N}), disk, mirrored_kite, true},
-      {"N*", "2N", one_vertex_inside, mixed(N, {}), disk, sector, true},
-      {"Nx", "2N", one_vertex, crossed(N), Topology::projective_plane, crossed_lune, false, 1},
-      {"333", infinite, three_vertices, rotations({3, 3, 3}), sphere, doubled_triangle},
-      {"442", infinite, three_vertices, rotations({2, 4, 4}), sphere, doubled_triangle},
-      {"632", infinite, three_vertices, rotations({2, 3, 6}), sphere, doubled_triangle},
-      {"2222", infinite, four_vertices, rotations({2, 2, 2, 2}), sphere, pillow},
-      {"*333", infinite, three_boundary_vertices, corners({3, 3, 3}), disk, mirrored_triangle},
-      {"*442", infinite, three_boundary_vertices, corners({2, 4, 4}), disk, mirrored_triangle},
-      {"*632", infinite, three_boundary_vertices, corners({2, 3, 6}), disk, mirrored_triangle},
-      {"*2222", infinite, four_boundary_vertices, corners({2, 2, 2, 2}), disk, mirrored_square},
+      {"532", "60", three_vertices, rotations({2, 3, 5}), sphere, doubled_triangle, triangle_of_marks},
+      {"432", "24", three_vertices, rotations({2, 3, 4}), sphere, doubled_triangle, triangle_of_marks},
+      {"332", "12", three_vertices, rotations({2, 3, 3}), sphere, doubled_triangle, triangle_of_marks},
+      {"22N", "2N", three_vertices, rotations({2, 2, N}), sphere, doubled_triangle, triangle_of_marks},
+      {"NN", "N", two_vertices, rotations({N, N}), sphere, glued_lune, triangle_at_equator},
+      {"*532", "120", three_boundary_vertices, corners({2, 3, 5}), disk, mirrored_triangle,
+       triangle_of_marks},
+      {"*432", "48", three_boundary_vertices, corners({2, 3, 4}), disk, mirrored_triangle, triangle_of_marks},
+      {"*332", "24", three_boundary_vertices, corners({2, 3, 3}), disk, mirrored_triangle, triangle_of_marks},
+      {"*22N", "4N", three_boundary_vertices, corners({2, 2, N}), disk, mirrored_triangle, triangle_of_marks},
+      {"*NN", "2N", two_boundary_vertices, corners({N, N}), disk, mirrored_lune, triangle_at_equator},
+      {"3*2", "24", vertex_on_each_side, mixed(3, {2}), disk, mirrored_kite, triangle_at_mirror, true},
+      {"2*N", "4N", vertex_on_each_side, mixed(2, {N}), disk, mirrored_kite, triangle_at_mirror, true},
+      {"N*", "2N", one_vertex_inside, mixed(N, {}), disk, sector, triangle_at_equator, true},
+      {"Nx", "2N", one_vertex, crossed(N), Topology::projective_plane, crossed_lune, triangle_at_equator,
+       false, 1},
+      {"333", infinite, three_vertices, rotations({3, 3, 3}), sphere, doubled_triangle, triangle_of_marks},
+      {"442", infinite, three_vertices, rotations({2, 4, 4}), sphere, doubled_triangle, triangle_of_marks},
+      {"632", infinite, three_vertices, rotations({2, 3, 6}), sphere, doubled_triangle, triangle_of_marks},
+      {"2222", infinite, four_vertices, rotations({2, 2, 2, 2}), sphere, pillow, square_of_marks},
+      {"*333", infinite, three_boundary_vertices, corners({3, 3, 3}), disk, mirrored_triangle,
+       triangle_of_marks},
+      {"*442", infinite, three_boundary_vertices, corners({2, 4, 4}), disk, mirrored_triangle,
+       triangle_of_marks},
+      {"*632", infinite, three_boundary_vertices, corners({2, 3, 6}), disk, mirrored_triangle,
+       triangle_of_marks},
+      {"*2222", infinite, four_boundary_vertices, corners({2, 2, 2, 2}), disk, mirrored_square,
+       square_of_marks},
   };
   return table;
 }
