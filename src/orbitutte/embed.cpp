@@ -2,13 +2,13 @@
 #include "orbitutte/embed.h"
 
 #include <algorithm>
-#include <numeric>
+#include <functional>
 
 #include "orbitutte/cones/extremities.h"
 #include "orbitutte/inspect/weak_places.h"
 #include "orbitutte/parallel.h"
 #include "orbitutte/preparation.h"
-#include "orbitutte/solve/placement.h"
+#include "orbitutte/solve/remedies.h"
 #include "orbitutte/warnings.h"
 
 namespace orbitutte {
@@ -36,10 +36,50 @@ GluingProblem gluing_problem(const EmbedRequest& request, const EdgeWeights& wei
           boundary_conditions(surface, cut, tile, request.orbifold, request.options.spread)};
 }
 
-// Certificate and distortion of result.embedding.
+// The minimum that was placed, as an embedding.
+Embedding embedding_of(const GluingProblem& problem, const SpreadMap& map) {
+  const CutMesh& cut = problem.cut;
+  const BoundaryConditions& boundary = map.placed.boundary;
+  return {problem.target,
+          map.placed.frame,
+          map.positions,
+          cut.F,
+          cut.source_vertex,
+          boundary.seams,
+          boundary.cones,
+          problem.surface.polygons_on(cut.F, cut.turned),
+          map.offsets};
+}
+
+void append(const std::vector<std::string>& more, std::vector<std::string>& warnings) {
+  warnings.insert(warnings.end(), more.begin(), more.end());
+}
+
+// Puts the map into the result, with its certificate.
+void take(const GluingProblem& problem, const SpreadMap& map, EmbedResult& result) {
+  result.embedding = embedding_of(problem, map);
+  result.moved_vertices = map.moved_vertices;
+  result.certificate = certify(problem.surface, result.embedding);
+}
+
+// Where the minimum, rounded to doubles, is no bijection: the first remedy that makes it one is taken.
+void mend(const GluingProblem& problem, const Placement& placed, EmbedResult& result) {
+  for (const auto& remedy : {with_faces_repaired, with_limbs_resolved, with_more_digits}) {
+    const std::optional<SpreadMap> map = remedy(problem, placed);
+    if (!map) continue;
+    EmbedResult mended = result;
+    take(problem, *map, mended);
+    if (!mended.certificate.bijective) continue;
+    result = std::move(mended);
+    result.minimum.positions = map->placed.minimum.positions;
+    result.minimum.energy = energy_of(problem, map->placed);
+    return;
+  }
+}
+
+// What else is known of the map in the result.
 void judge(const EmbedRequest& request, EmbedResult& result) {
   const Surface& surface = request.prepared.surface;
-  result.certificate = certify(surface, result.embedding);
   if (!result.certificate.bijective && result.weights.triangulation)
     result.intrinsic_certificate =
         certify_intrinsic(surface, result.embedding, *result.weights.triangulation);
@@ -50,103 +90,72 @@ void judge(const EmbedRequest& request, EmbedResult& result) {
     refuse(*result.intrinsic_certificate, result.minimum, request.options.tolerance);
 }
 
-void append(const std::vector<std::string>& more, std::vector<std::string>& warnings) {
-  warnings.insert(warnings.end(), more.begin(), more.end());
+// Warnings about the map in the result.
+std::vector<std::string> warnings_of(const EmbedRequest& request, const GluingProblem& problem,
+                                     const Placement& placed, const EmbedResult& result) {
+  std::vector<std::string> warnings = warnings_about(result.weights, ears_of(problem, placed));
+  append(request.prepared.warnings, warnings);
+  if (const std::vector<int>& nonpositive = result.certificate.nonpositive_faces; !nonpositive.empty()) {
+    const FaceView faces = problem.surface.faces();
+    const auto mirrors = mirrors_of(placed.tile, placed.boundary, problem.cut.source_vertex);
+    const std::vector<int> collapsing = collapsing_faces(faces, mirrors, request.marked_vertices);
+    append(warnings_of_collapse(faces, collapsing, nonpositive), warnings);
+  }
+  return warnings;
 }
 
-// The method, from the surface to the certificate. kept_faces: see find_weights.
-EmbedResult embed_once(const EmbedRequest& request, const std::vector<int>& kept_faces,
-                       EmbeddingCache& cache) {
-  const auto& [prepared, orbifold, marked_vertices, options] = request;
-  const Surface& surface = prepared.surface;
+// The method, from the surface to the certificate.
+EmbedResult embed_once(const EmbedRequest& request, EmbeddingCache& cache) {
+  const Surface& surface = request.prepared.surface;
+  const EmbedOptions& options = request.options;
   EmbedResult result;
   Stages stage(options.progress, result.timings);
   result.threads = thread_count();
   result.backend = options.laplacian.backend;
 
-  stage("weights", [&] { result.weights = find_weights(request, kept_faces, cache.weights); });  // section 4
-  stage("cut", [&] { find_cut(request, result.weights, cache); });  // section 4.1
-  const CutMesh& cut = cache.cut.cut;
-
+  stage("weights", [&] { result.weights = find_weights(request, cache.weights); });  // section 4
+  stage("cut", [&] { find_cut(request, result.weights, cache); });                   // section 4.1
+  const GluingProblem problem = gluing_problem(request, result.weights, cache);
   LbfgsOptions lbfgs;
   lbfgs.tolerance = options.tolerance;
   lbfgs.max_iterations = options.max_iterations;
-  Placement placed = place(gluing_problem(request, result.weights, cache), lbfgs, stage);  // (2)
-  result.minimum = std::move(placed.minimum);
-  const Tile& tile = placed.tile;
-  const BoundaryConditions& boundary = placed.boundary;
+  const Placement placed = place(problem, lbfgs, stage);  // (2)
+  result.minimum = placed.minimum;
+  stage("certify", [&] { take(problem, spread_map(problem, placed), result); });
+  if (!result.certificate.bijective && result.minimum.termination == Termination::converged)
+    stage("mend", [&] { mend(problem, placed, result); });
+  stage("measure", [&] { judge(request, result); });
 
-  result.embedding = {
-      orbifold,          placed.frame,   Points(),       cut.F,
-      cut.source_vertex, boundary.seams, boundary.cones, surface.polygons_on(cut.F, cut.turned)};
-  const std::vector<Ear> ears = find_ears(result.embedding.input_faces(), tile, boundary);
-  round_outward(ears, result.minimum.positions);
-  result.embedding.positions = boundary.spread(result.minimum.positions, cut.source_vertex);
-  stage("certify", [&] { judge(request, result); });
-
-  result.warnings = warnings_about(result.weights, ears);
-  append(prepared.warnings, result.warnings);
-  if (const std::vector<int>& nonpositive = result.certificate.nonpositive_faces; !nonpositive.empty()) {
-    const auto mirrors = mirrors_of(tile, boundary, cut.source_vertex);
-    const std::vector<int> collapsing = collapsing_faces(surface.faces(), mirrors, marked_vertices);
-    append(warnings_of_collapse(surface.faces(), collapsing, nonpositive), result.warnings);
-  }
+  result.warnings = warnings_of(request, problem, placed, result);
   result.topology = surface.topology;
   result.unreferenced_vertices = surface.unreferenced_vertices;
   result.zero_area_faces = surface.zero_area_faces;
   return result;
 }
 
-// Can it help to keep the faces that the result turns over? Where they are many, it is double precision that
-// does not resolve them.
-bool may_keep_faces(const EmbedResult& result) {
-  const auto turned = static_cast<Eigen::Index>(result.certificate.nonpositive_faces.size());
-  return result.weights.triangulation && result.minimum.termination == Termination::converged && turned > 0 &&
-         turned <= 1 + result.embedding.faces.rows() / 50;
+// Weights that are tried, in this order, where the standard ones give no bijection.
+std::vector<WeightKind> other_weights(const Surface& surface) {
+  if (surface.has_polygons()) return {WeightKind::uniform};
+  return {WeightKind::cotan, WeightKind::mean_value, WeightKind::uniform};
 }
 
-// `kept` with the faces that share a vertex with one of `faces`; ascending.
-std::vector<int> with_faces_around(const std::vector<int>& faces, const std::vector<int>& kept,
-                                   const Surface& surface) {
-  const Faces& F = surface.triangles;
-  std::vector<char> near(surface.V.rows(), 0), chosen(F.rows(), 0);
-  for (const int f : kept) chosen[f] = 1;
-  for (const int f : faces)
-    for (const int v : F.row(f)) near[v] = 1;
-  std::vector<int> result;
-  for (int f = 0; f < static_cast<int>(F.rows()); ++f)
-    if (chosen[f] || near[F(f, 0)] || near[F(f, 1)] || near[F(f, 2)]) result.push_back(f);
-  return result;
-}
-
-std::vector<int> all_faces(const Faces& F) {
-  std::vector<int> faces(F.rows());
-  std::iota(faces.begin(), faces.end(), 0);
-  return faces;
-}
-
-// The triangulation that has the weights may be embedded while thin triangles of the input, which are not
-// among its faces, are turned over. Then those and the faces around them become faces of it, and the map is
-// computed again, up to a few times; at last with all faces kept, which leaves the paper's weights but for
-// the cones. The first that is certified is the result; where none is, the very first.
-EmbedResult embed_or_keep_faces(const EmbedRequest& request, EmbeddingCache& cache) {
-  const Surface& surface = request.prepared.surface;
-  constexpr int attempts = 4;
-  std::vector<int> kept;
-  EmbedResult first = embed_once(request, kept, cache);
-  if (!may_keep_faces(first)) return first;
-  std::vector<int> turned = first.certificate.nonpositive_faces;
-  for (int k = 0; k < attempts; ++k) {
-    const bool is_last = k + 1 == attempts;
-    kept = is_last ? all_faces(surface.triangles) : with_faces_around(turned, kept, surface);
-    EmbedResult next = embed_once(request, kept, cache);
+// Where no weights were asked for and the standard ones give no bijection, the first others that do are taken;
+// where none do, the result is that of the standard ones.
+EmbedResult embed_with_some_weights(const EmbedRequest& request, EmbeddingCache& cache) {
+  const EmbedOptions& options = request.options;
+  EmbedResult first = embed_once(request, cache);
+  if (first.certificate.bijective || options.weights.kind != WeightKind::standard ||
+      !options.weights_file.empty())
+    return first;
+  for (const WeightKind kind : other_weights(request.prepared.surface)) {
+    EmbedOptions other = options;
+    other.weights.kind = kind;
+    EmbedResult next = embed_once({request.prepared, request.orbifold, request.marked_vertices, other}, cache);
     first.timings.insert(first.timings.end(), next.timings.begin(), next.timings.end());
-    if (next.certificate.bijective) {
-      next.timings = first.timings;
-      return next;
-    }
-    if (!may_keep_faces(next)) k = std::max(k, attempts - 2);
-    turned = next.certificate.nonpositive_faces;
+    if (!next.certificate.bijective) continue;
+    next.timings = first.timings;
+    next.warnings.push_back(warning_of_replaced_weights(first, next));
+    return next;
   }
   return first;
 }
@@ -169,7 +178,7 @@ EmbedResult embed_validated(const Validate& validate, const Target& orbifold,
     const PreparedSurface prepared = stage("validate", validate);
     const EmbedRequest request = {prepared, orbifold, marked_vertices, options};
     require_fit(request);
-    EmbedResult result = embed_or_keep_faces(request, cache);
+    EmbedResult result = embed_with_some_weights(request, cache);
     result.timings.insert(result.timings.begin(), timings.begin(), timings.end());
     return result;
   });

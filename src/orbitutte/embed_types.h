@@ -35,6 +35,8 @@ struct EmbedResult {
   Embedding embedding;
   EdgeWeights weights;
   Minimum minimum;          ///< how the optimiser fared; its positions are those of the input vertices
+  /// Input vertices that were moved off the minimum, so that thin triangles are positively oriented; ascending.
+  std::vector<int> moved_vertices;
   Certificate certificate;  ///< of the input's triangles
   /// Of the triangulation that has the weights, where it is not the input's and that is not bijective.
   std::optional<Certificate> intrinsic_certificate;

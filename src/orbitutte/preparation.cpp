@@ -96,17 +96,16 @@ void require_fit(const EmbedRequest& request) {
   require_no_edge(request.prepared.surface.connectivity, opposite_vertices(request), orbifold);
 }
 
-EdgeWeights find_weights(const EmbedRequest& request, const std::vector<int>& kept_faces,
-                         KnownWeights& known) {
+EdgeWeights find_weights(const EmbedRequest& request, KnownWeights& known) {
   const Surface& surface = request.prepared.surface;
   const EmbedOptions& options = request.options;
-  if (!known.weights || known.kept_faces != kept_faces)
-    known.weights = options.weights_file.empty() ? edge_weights(surface, options.weights, {kept_faces})
+  if (!known.weights || known.kind != options.weights.kind)
+    known.weights = options.weights_file.empty() ? edge_weights(surface, options.weights)
                                                  : read_weights(options.weights_file, surface.connectivity);
-  known.kept_faces = kept_faces;
-  const UnflippedEdges unflipped = {kept_faces, opposite_vertices(request)};
-  return sharpened_at_cones(kept_apart(*known.weights, surface, options.weights, unflipped),
-                            cone_angles(request.orbifold, request.marked_vertices), unflipped.kept_apart);
+  known.kind = options.weights.kind;
+  const Pairs opposite = opposite_vertices(request);
+  return sharpened_at_cones(kept_apart(*known.weights, surface, options.weights, {{}, opposite}),
+                            cone_angles(request.orbifold, request.marked_vertices), opposite);
 }
 
 void find_cut(const EmbedRequest& request, const EdgeWeights& weights, EmbeddingCache& cache) {

@@ -33,8 +33,8 @@ struct EmbedRequest {
 /// The weights before they were sharpened at cones.
 struct KnownWeights {
   std::optional<EdgeWeights> weights;
-  /// The kept faces with which these were computed.
-  std::vector<int> kept_faces;
+  /// What was asked for then.
+  WeightKind kind = WeightKind::standard;
 };
 
 /// The last cut.
@@ -66,10 +66,8 @@ void require_fit(const EmbedRequest& request);
 /// names it and both remedies.
 void require_topology(const Surface& surface, const Target& orbifold);
 
-/// The weights (section 4), those of a metric that is flat at the cones. No edge of the kept faces, triangles
-/// of the surface, is flipped.
-EdgeWeights find_weights(const EmbedRequest& request, const std::vector<int>& kept_faces,
-                         KnownWeights& known);
+/// The weights (section 4), those of a metric that is flat at the cones.
+EdgeWeights find_weights(const EmbedRequest& request, KnownWeights& known);
 
 /// Cuts the surface through its marked vertices (section 4.1), and finds the elimination order of its
 /// Laplacian, whose edges have the weights, at the same time.

@@ -82,4 +82,12 @@ std::vector<std::string> warnings_of_collapse(const FaceView& faces, const std::
       unavoidable, nonpositive.size(), collapsing.front())};
 }
 
+std::string warning_of_replaced_weights(const EmbedResult& standard, const EmbedResult& taken) {
+  return fmt::format(
+      "the standard weights ({}) turn {} faces over, so the weights '{}' were taken, with which the map is a "
+      "bijection; '--weights {}' keeps the others",
+      name(standard.weights.kind), standard.certificate.nonpositive_faces.size(), name(taken.weights.kind),
+      name(standard.weights.kind));
+}
+
 }  // namespace orbitutte

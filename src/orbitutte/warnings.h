@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "orbitutte/embed_types.h"
 #include "orbitutte/solve/ears.h"
 #include "orbitutte/weights/weights.h"
 
@@ -25,5 +26,8 @@ std::vector<std::vector<int>> mirrors_of(const Tile& tile, const BoundaryConditi
 /// are among the collapsing ones, or beside them. None, or one warning.
 std::vector<std::string> warnings_of_collapse(const FaceView& faces, const std::vector<int>& collapsing,
                                               const std::vector<int>& nonpositive);
+
+/// About weights that were taken in place of the standard ones, which gave no bijection.
+std::string warning_of_replaced_weights(const EmbedResult& standard, const EmbedResult& taken);
 
 }  // namespace orbitutte

@@ -3,7 +3,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <limits>
 
 namespace orbitutte {
 namespace {
@@ -65,8 +64,7 @@ int count_faces(const std::vector<Ear>& ears) {
 }
 
 void round_outward(const std::vector<Ear>& ears, Points& positions) {
-  constexpr double few_units = 8 * std::numeric_limits<double>::epsilon();
-  for (const Ear& ear : ears) positions.row(ear.tip) += few_units * ear.outward.transpose();
+  for (const Ear& ear : ears) positions.row(ear.tip) += outward_rounding * ear.outward.transpose();
 }
 
 }  // namespace orbitutte

@@ -2,6 +2,7 @@
 // Faces that a mirror or a held side flattens.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "orbitutte/solve/boundary_conditions.h"
@@ -22,6 +23,9 @@ std::vector<Ear> find_ears(const FaceView& faces, const Tile& tile, const Bounda
 
 /// How many faces the tips belong to.
 int count_faces(const std::vector<Ear>& ears);
+
+/// How far round_outward moves a tip: a few units in the last place.
+constexpr double outward_rounding = 8 * std::numeric_limits<double>::epsilon();
 
 /// Rounds the tips of the ears outwards from their mirrors and sides, by a few units in the last place: as
 /// near to the great circle as any rounded point of it, and the stored face is positively oriented instead of

@@ -8,10 +8,10 @@
 namespace orbitutte {
 namespace {
 
-// Elements of a group, each with a number; 0 is the identity.
-class Elements {
+// ElementTable of a group, each with a number; 0 is the identity.
+class ElementTable {
  public:
-  explicit Elements(std::vector<Isometry> distinct) : distinct_(std::move(distinct)) {}
+  explicit ElementTable(std::vector<Isometry> distinct) : distinct_(std::move(distinct)) {}
 
   int number(const Isometry& element) { return index_among(distinct_, element); }
 
@@ -43,7 +43,7 @@ CutEdge cut_edge(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
 // For every edge of a bank the element that takes what lies beyond it, in the cut mesh, to where it
 // continues the face at the edge.
-std::map<CutEdge, int> changes_at_banks(const std::vector<Seam>& seams, Elements& elements) {
+std::map<CutEdge, int> changes_at_banks(const std::vector<Seam>& seams, ElementTable& elements) {
   std::map<CutEdge, int> changes;
   for (const Seam& seam : seams) {
     if (seam.left == seam.right) continue;
@@ -59,7 +59,7 @@ std::map<CutEdge, int> changes_at_banks(const std::vector<Seam>& seams, Elements
 // The faces in their frames, all of them the cut mesh's before the first flip.
 class Frames {
  public:
-  Frames(const Faces& F, const CutMesh& cut, const BoundaryConditions& boundary, Elements& elements)
+  Frames(const Faces& F, const CutMesh& cut, const BoundaryConditions& boundary, ElementTable& elements)
       : elements_(elements), corner_(F.size()), change_(F.size(), 0) {
     for (int h = 0; h < static_cast<int>(F.size()); ++h)
       corner_[h] = boundary.transform_of[copy_at(F, cut, h)];
@@ -110,7 +110,7 @@ class Frames {
     return -1;
   }
 
-  Elements& elements_;
+  ElementTable& elements_;
   std::vector<int> corner_;  // of every half-edge: the transform of the vertex where it begins
   std::vector<int> change_;  // of every half-edge: takes the frame of the face beyond it to that of its own
 };
@@ -120,7 +120,7 @@ class Frames {
 GluedEdges flipped_edges(const Surface& surface, const IntrinsicTriangulation& triangulation,
                          const CutMesh& cut, const BoundaryConditions& boundary) {
   const Faces& F = surface.triangles;
-  Elements elements(boundary.transforms);
+  ElementTable elements(boundary.transforms);
   Frames frames(F, cut, boundary, elements);
   frames.open_banks(F, surface.connectivity, cut, changes_at_banks(boundary.seams, elements));
   for (const Flip& flip : triangulation.flips) frames.apply(flip);

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "orbitutte/solve/movable_positions.h"
 
-#include <cmath>
-#include <limits>
+#include <algorithm>
 
 #include "orbitutte/geometry/orientation.h"
 
@@ -10,15 +9,18 @@ namespace orbitutte {
 namespace {
 
 template <typename Real>
-Vector3Of<Real> retracted(int curvature, const Vector3Of<Real>& p) {
-  if (curvature == 0) return p / p.z();
-  const Real squared = p.z() * p.z() + curvature * (p.x() * p.x() + p.y() * p.y());
-  return p / sqrt(squared);
-}
-
-template <typename Real>
 Vector3 to_double(const Vector3Of<Real>& p) {
   return {static_cast<double>(p.x()), static_cast<double>(p.y()), static_cast<double>(p.z())};
+}
+
+// The corners as they are spread over the cut mesh.
+bool is_positive_in_doubles(const Gluing& gluing, const Points& positions, int face) {
+  const auto corner = [&](int k) -> Vector3 {
+    const int v = gluing.cut.F(face, k), source = gluing.cut.source_vertex[v];
+    const Vector3 p = positions.row(source);
+    return v == source ? p : gluing.boundary.transform(v) * p;
+  };
+  return orientation_sign(corner(0), corner(1), corner(2)) > 0;
 }
 
 }  // namespace
@@ -38,14 +40,7 @@ void PlainPositions::shift(int v, const Vector3& step) {
   positions_.row(v) += step;
 }
 
-bool PlainPositions::is_positive(int face) const {
-  const auto corner = [&](int k) -> Vector3 {
-    const int v = gluing_.cut.F(face, k), source = gluing_.cut.source_vertex[v];
-    const Vector3 p = positions_.row(source);
-    return v == source ? p : gluing_.boundary.transform(v) * p;
-  };
-  return orientation_sign(corner(0), corner(1), corner(2)) > 0;
-}
+bool PlainPositions::is_positive(int face) const { return is_positive_in_doubles(gluing_, positions_, face); }
 
 void PlainPositions::take_back(std::size_t moves) {
   for (; journal_.size() > moves; journal_.pop_back()) positions_.row(journal_.back().first) = journal_.back().second;
@@ -57,9 +52,6 @@ PrecisePositions<Real>::PrecisePositions(Gluing gluing, const Points& positions,
   const BoundaryConditions& boundary = gluing.boundary;
   for (const Isometry& transform : boundary.transforms) transforms_.push_back(group_.element(transform));
   for (const Isometry& mirror : boundary.mirrors) mirrors_.push_back(group_.element(mirror));
-  for (const ConeCopies& cone : boundary.cones)
-    if (boundary.basis_of[cone.vertex] == held_in_place)
-      store(cone.vertex, group_.held_point(boundary.held.row(cone.vertex).transpose()));
 }
 
 template <typename Real>
@@ -96,51 +88,64 @@ void PrecisePositions<Real>::store(int v, const Vector& p) {
 }
 
 template <typename Real>
+typename PrecisePositions<Real>::Vector PrecisePositions<Real>::feasible(int v, Vector p) const {
+  const int basis = gluing_.boundary.basis_of[v];
+  if (basis == held_in_place) return group_.held_point(gluing_.boundary.held.row(v).transpose());
+  if (basis != in_space) p += Vector(mirrors_[basis] * p);
+  return group_.retract(p);
+}
+
+template <typename Real>
 void PrecisePositions<Real>::move(int v, const Vector3& step) {
   journal_.emplace_back(v, precise(v));
-  Vector p = journal_.back().second + Vector(step.x(), step.y(), step.z());
-  if (const int basis = gluing_.boundary.basis_of[v]; basis != in_space) p += Vector(mirrors_[basis] * p);
-  store(v, retracted<Real>(gluing_.boundary.space.curvature(), p));
+  if (slot_[v] < 0)
+    positions_.row(v) = gluing_.boundary.feasible(v, positions_.row(v).transpose() + step);
+  else
+    store(v, feasible(v, journal_.back().second + Vector(step.x(), step.y(), step.z())));
 }
 
 template <typename Real>
 void PrecisePositions<Real>::shift(int v, const Vector3& step) {
   journal_.emplace_back(v, precise(v));
-  store(v, journal_.back().second + Vector(step.x(), step.y(), step.z()));
+  if (slot_[v] < 0)
+    positions_.row(v) += step;
+  else
+    store(v, journal_.back().second + Vector(step.x(), step.y(), step.z()));
 }
 
 template <typename Real>
 void PrecisePositions<Real>::refine(int v) {
-  if (slot_[v] < 0) move(v, Vector3::Zero());
+  if (slot_[v] < 0) store(v, feasible(v, precise(v)));
 }
 
+// As it will be stored: what has no more digits is a double at every copy.
 template <typename Real>
 typename PrecisePositions<Real>::Vector PrecisePositions<Real>::cut_position(int cut_vertex) const {
   const int source = gluing_.cut.source_vertex[cut_vertex];
   if (cut_vertex == source) return precise(source);
-  return transforms_[gluing_.boundary.transform_of[cut_vertex]] * precise(source);
+  if (slot_[source] >= 0) return transforms_[gluing_.boundary.transform_of[cut_vertex]] * precise(source);
+  const Vector3 p = gluing_.boundary.transform(cut_vertex) * positions_.row(source).transpose();
+  return Vector(p.x(), p.y(), p.z());
 }
 
 template <typename Real>
 bool PrecisePositions<Real>::is_positive(int face) const {
   const auto v = gluing_.cut.F.row(face);
-  bool any = false;
-  for (const int corner : v) any = any || slot_[gluing_.cut.source_vertex[corner]] >= 0;
-  if (!any) {
-    const auto corner = [&](int k) -> Vector3 {
-      const int source = gluing_.cut.source_vertex[v[k]];
-      const Vector3 p = positions_.row(source);
-      return v[k] == source ? p : gluing_.boundary.transform(v[k]) * p;
-    };
-    return orientation_sign(corner(0), corner(1), corner(2)) > 0;
-  }
+  if (std::none_of(v.begin(), v.end(), [&](int c) { return slot_[gluing_.cut.source_vertex[c]] >= 0; }))
+    return is_positive_in_doubles(gluing_, positions_, face);
   const Vector a = cut_position(v[0]), ab = cut_position(v[1]) - a, ac = cut_position(v[2]) - a;
   return a.dot(Vector(ab.cross(ac))) > 0;
 }
 
 template <typename Real>
 void PrecisePositions<Real>::take_back(std::size_t moves) {
-  for (; journal_.size() > moves; journal_.pop_back()) store(journal_.back().first, journal_.back().second);
+  for (; journal_.size() > moves; journal_.pop_back()) {
+    const auto& [v, p] = journal_.back();
+    if (slot_[v] < 0)
+      positions_.row(v) = to_double<Real>(p);
+    else
+      store(v, p);
+  }
 }
 
 template <typename Real>

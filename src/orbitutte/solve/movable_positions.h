@@ -69,8 +69,8 @@ class PlainPositions final : public MovablePositions {
   std::vector<std::pair<int, Vector3>> journal_;  // where vertices were before their moves
 };
 
-/// Doubles, and more digits for the vertices that have been moved. The map must lie in the canonical frame of
-/// its target.
+/// Doubles, and more digits for the vertices that are refined. The map must lie in the canonical frame of its
+/// target.
 template <typename Real>
 class PrecisePositions final : public MovablePositions {
  public:
@@ -84,11 +84,11 @@ class PrecisePositions final : public MovablePositions {
   std::size_t moves() const override { return journal_.size(); }
   void take_back(std::size_t moves) override;
 
-  /// Gives a vertex more digits where it is: on its mirror, in its space.
+  /// Gives a vertex more digits where it is: where it is held, on its mirror, in its space.
   void refine(int v);
 
-  /// Positions of all cut vertices (n_cut x 3), and their offsets: of every copy of a vertex that has more
-  /// digits, down to a small part of its shortest edge. shortest_edge: n.
+  /// Positions of all cut vertices (n_cut x 3), and the offsets of every copy of a refined vertex, down to a
+  /// small part of its shortest edge. shortest_edge: n.
   Points spread(const std::vector<double>& shortest_edge, std::vector<Offset>& offsets) const;
 
  private:
@@ -96,6 +96,7 @@ class PrecisePositions final : public MovablePositions {
   using Matrix = Matrix3Of<Real>;
 
   Vector precise(int v) const;
+  Vector feasible(int v, Vector p) const;
   Vector cut_position(int cut_vertex) const;
   const Matrix& element(int k) const;
   void store(int v, const Vector& p);

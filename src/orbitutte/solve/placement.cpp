@@ -6,10 +6,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 #include "orbitutte/solve/flipped_edges.h"
-#include "orbitutte/solve/frame.h"
 #include "orbitutte/solve/initial_embedding.h"
 
 namespace orbitutte {
@@ -84,18 +82,6 @@ void fix_rotation(const GluingProblem& problem, Placement& placed) {
   placed.boundary.make_feasible(positions);
 }
 
-// Moves the map where the tile is free to move: to where small spots are resolved.
-void resolve(const GluingProblem& problem, const DirichletEnergy& energy, Placement& placed) {
-  Points& positions = placed.minimum.positions;
-  const std::optional<Isometry> frame =
-      stays_put(placed.tile) ? std::nullopt : resolving_frame(energy, positions);
-  if (!frame) return;
-  placed.frame = *frame;
-  move(problem, *frame, placed);
-  const DirichletEnergy there(glued_along(problem, placed.boundary), problem.weights, placed.boundary);
-  positions = settle_in_frame(positions, *frame, there, placed.boundary);
-}
-
 }  // namespace
 
 GluedEdges glued_along(const GluingProblem& problem, const BoundaryConditions& boundary) {
@@ -104,11 +90,26 @@ GluedEdges glued_along(const GluingProblem& problem, const BoundaryConditions& b
                        : glued_edges(problem.cut, problem.surface.connectivity, boundary);
 }
 
+double energy_of(const GluingProblem& problem, const Placement& placed) {
+  return DirichletEnergy(glued_along(problem, placed.boundary), problem.weights, placed.boundary)
+      .evaluate(placed.minimum.positions)
+      .energy;
+}
+
 BoundaryConditions boundary_conditions(const Surface& surface, const CutMesh& cut, const Tile& tile,
                                        const Target& target, Spread spread) {
   BoundaryConditions boundary = glue(cut, tile, target);
   hold_sides(surface, cut, tile, spread, boundary);
   return boundary;
+}
+
+Placement moved(const GluingProblem& problem, const Isometry& isometry, const Placement& placed) {
+  Placement result = placed;
+  move(problem, isometry, result);
+  result.minimum.positions = isometry.on_rows(placed.minimum.positions);
+  result.boundary.make_feasible(result.minimum.positions);
+  result.frame = isometry * placed.frame;
+  return result;
 }
 
 Placement place(const GluingProblem& problem, const LbfgsOptions& options, Stages& stage) {
@@ -131,7 +132,6 @@ Placement place(const GluingProblem& problem, const LbfgsOptions& options, Stage
       stage("optimize", [&] { return minimize(energy, laplacian, start, lbfgs); });  // algorithm 1
   fix_poles(problem, placed);
   fix_rotation(problem, placed);
-  resolve(problem, energy, placed);
   return placed;
 }
 

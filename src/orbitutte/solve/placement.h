@@ -34,14 +34,19 @@ struct Placement {
 /// that has them.
 GluedEdges glued_along(const GluingProblem& problem, const BoundaryConditions& boundary);
 
+/// The energy (2) of a map that was placed, its positions in doubles.
+double energy_of(const GluingProblem& problem, const Placement& placed);
+
 /// Equations (3), (4) and (7), and the sides that theorem 1 holds.
 BoundaryConditions boundary_conditions(const Surface& surface, const CutMesh& cut, const Tile& tile,
                                        const Target& target, Spread spread);
 
+/// The same moved by an isometry that keeps orientations, its frame with it.
+Placement moved(const GluingProblem& problem, const Isometry& isometry, const Placement& placed);
+
 /// Factorises, starts (appendix B) and minimises (algorithm 1, with `options`, whose callback is not called).
-/// A map that the target leaves free to rotate is turned so that one vertex has longitude 0; where edges are
-/// tiny, the map is moved to a frame that resolves them. Throws MeshError if an edge joins marked vertices
-/// whose images are opposite to each other.
+/// A map that the target leaves free to rotate is turned so that one vertex has longitude 0. Throws MeshError
+/// if an edge joins marked vertices whose images are opposite to each other.
 Placement place(const GluingProblem& problem, const LbfgsOptions& options, Stages& stage);
 
 }  // namespace orbitutte

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/solve/remedies.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "orbitutte/parallel.h"
+#include "orbitutte/solve/repair.h"
+
+namespace orbitutte {
+namespace {
+
+constexpr double small = 1e-6;  // edges shorter than this belong to a limb
+
+// The map's gluing, and all that its remedies ask of it.
+struct Site {
+  Site(const GluingProblem& the_problem, const Placement& the_placed)
+      : problem(the_problem),
+        placed(the_placed),
+        energy(glued_along(problem, placed.boundary), problem.weights, placed.boundary),
+        stars(problem.cut, placed.boundary, elements),
+        ears(ears_of(problem, placed)),
+        may_move(placed.boundary.basis_of.size()) {
+    for (std::size_t v = 0; v < may_move.size(); ++v)
+      may_move[v] = placed.boundary.basis_of[v] != held_in_place;
+    for (const Ear& ear : ears) may_move[ear.tip] = 0;
+  }
+
+  const GluingProblem& problem;
+  const Placement& placed;
+  Elements elements;
+  DirichletEnergy energy;
+  Stars stars;
+  std::vector<Ear> ears;
+  std::vector<char> may_move;
+  Gluing gluing = {problem.cut, placed.boundary, elements};
+};
+
+// The length of the shortest edge of a vertex, be it the input's or of the triangulation with the weights.
+double shortest_edge(Site& site, const MovablePositions& positions, int v) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const StarTriangle& at : site.stars.around(v))
+    shortest = std::min({shortest, positions.difference(v, at.a, at.element_a).norm(),
+                         positions.difference(v, at.b, at.element_b).norm()});
+  for (const Neighbour& at : site.energy.neighbours(v, site.elements))
+    shortest = std::min(shortest, positions.difference(v, at.vertex, at.element).norm());
+  return shortest;
+}
+
+std::vector<int> vertices_of_limbs(Site& site, const MovablePositions& positions) {
+  const int n = static_cast<int>(site.may_move.size());
+  std::vector<int> result;
+  for (int v = 0; v < n; ++v)
+    if (shortest_edge(site, positions, v) < small) result.push_back(v);
+  return result;
+}
+
+// The minimum over the limbs; false if it is not found.
+bool settle_limbs(Site& site, const std::vector<int>& limbs, MovablePositions& positions) {
+  std::vector<Neighbourhood> neighbourhoods;
+  for (const int v : limbs)
+    if (site.placed.boundary.basis_of[v] != held_in_place)
+      neighbourhoods.push_back({v, site.energy.neighbours(v, site.elements)});
+  if (neighbourhoods.empty()) return true;
+  return LocalMinimum(site.gluing, positions, std::move(neighbourhoods)).settle(positions);
+}
+
+// A few units in the last place; where edges are shorter than that, a small part of them.
+void round_ears(Site& site, MovablePositions& positions) {
+  for (const Ear& ear : site.ears) {
+    constexpr double part = 1e-3;
+    const double length = std::min(outward_rounding, part * shortest_edge(site, positions, ear.tip));
+    positions.shift(ear.tip, length * ear.outward);
+  }
+}
+
+std::vector<int> nonpositive_faces(const Site& site, const MovablePositions& positions) {
+  const int m = static_cast<int>(site.problem.cut.F.rows());
+  std::vector<char> positive(m);
+  parallel_ranges(m, [&](int begin, int end) {
+    for (int f = begin; f < end; ++f) positive[f] = positions.is_positive(f);
+  });
+  std::vector<int> result;
+  for (int f = 0; f < m; ++f)
+    if (!positive[f]) result.push_back(f);
+  return result;
+}
+
+// Where many faces are turned over, the weights are at fault, and to move single vertices would not do.
+bool may_be_repaired(const Site& site, const std::vector<int>& turned) {
+  return static_cast<Eigen::Index>(turned.size()) <= 1 + site.problem.cut.F.rows() / 20;
+}
+
+// Rounds ears outward and repairs turned faces. The vertices that moved for it; nothing if faces remain.
+std::optional<std::vector<int>> finish(Site& site, MovablePositions& positions) {
+  round_ears(site, positions);
+  const std::vector<int> turned = nonpositive_faces(site, positions);
+  if (turned.empty()) return std::vector<int>();
+  if (!may_be_repaired(site, turned)) return std::nullopt;
+  std::vector<int> moved =
+      repair({site.problem.surface, site.gluing, site.stars, site.may_move}, turned, positions);
+  if (moved.empty()) return std::nullopt;
+  return moved;
+}
+
+SpreadMap spread_map(const GluingProblem& problem, Placement placed, std::vector<int> moved) {
+  Points all = placed.boundary.spread(placed.minimum.positions, problem.cut.source_vertex);
+  return {std::move(placed), std::move(all), {}, std::move(moved)};
+}
+
+// With the limbs refined; nothing as in with_more_digits. too_coarse: told if Real has too few digits.
+template <typename Real>
+std::optional<SpreadMap> refined(const GluingProblem& problem, const Placement& placed, double finest,
+                                 bool& too_coarse) {
+  Site site(problem, placed);
+  PrecisePositions<Real> positions(site.gluing, placed.minimum.positions, problem.target);
+  const std::vector<int> limbs = vertices_of_limbs(site, positions);
+  if (limbs.empty()) return std::nullopt;
+  for (const int v : limbs) positions.refine(v);
+  const bool settled = settle_limbs(site, limbs, positions);
+  std::vector<double> shortest(site.may_move.size(), std::numeric_limits<double>::infinity());
+  double least = 1;
+  for (const int v : limbs) least = std::min(least, shortest_edge(site, positions, v));
+  too_coarse = least < finest;
+  if (!settled || too_coarse) return std::nullopt;
+  const std::optional<std::vector<int>> moved = finish(site, positions);
+  if (!moved) return std::nullopt;
+  for (const int v : limbs) shortest[v] = shortest_edge(site, positions, v);
+  SpreadMap result = {placed, {}, {}, *moved};
+  result.positions = positions.spread(shortest, result.offsets);
+  result.placed.minimum.positions = result.positions.topRows(placed.minimum.positions.rows());
+  return result;
+}
+
+}  // namespace
+
+std::vector<Ear> ears_of(const GluingProblem& problem, const Placement& placed) {
+  const Polygons polygons = problem.surface.polygons_on(problem.cut.F, problem.cut.turned);
+  return find_ears(polygons.count() > 0 ? FaceView(polygons) : FaceView(problem.cut.F), placed.tile,
+                   placed.boundary);
+}
+
+SpreadMap spread_map(const GluingProblem& problem, const Placement& placed) {
+  Placement rounded = placed;
+  round_outward(ears_of(problem, placed), rounded.minimum.positions);
+  return spread_map(problem, std::move(rounded), {});
+}
+
+std::optional<SpreadMap> with_faces_repaired(const GluingProblem& problem, const Placement& placed) {
+  Placement result = placed;
+  Site site(problem, placed);
+  PlainPositions positions(site.gluing, result.minimum.positions);
+  if (site.energy.smallest_spot(result.minimum.positions).second < small) return std::nullopt;
+  std::optional<std::vector<int>> moved = finish(site, positions);
+  if (!moved) return std::nullopt;
+  return spread_map(problem, std::move(result), std::move(*moved));
+}
+
+std::optional<SpreadMap> with_limbs_resolved(const GluingProblem& problem, const Placement& placed) {
+  if (stays_put(placed.tile)) return std::nullopt;
+  const DirichletEnergy energy(glued_along(problem, placed.boundary), problem.weights, placed.boundary);
+  const auto [vertex, length] = energy.smallest_spot(placed.minimum.positions);
+  if (!(length < small)) return std::nullopt;
+  const Isometry frame = problem.target.space.to_origin(placed.minimum.positions.row(vertex));
+  const Placement there = moved(problem, frame, placed);
+  Placement result = there;
+  Site site(problem, there);
+  PlainPositions positions(site.gluing, result.minimum.positions);
+  if (!settle_limbs(site, vertices_of_limbs(site, positions), positions)) return std::nullopt;
+  std::optional<std::vector<int>> moved_vertices = finish(site, positions);
+  if (!moved_vertices) return std::nullopt;
+  return spread_map(problem, std::move(result), std::move(*moved_vertices));
+}
+
+std::optional<SpreadMap> with_more_digits(const GluingProblem& problem, const Placement& placed) {
+  constexpr double finest = 1e-60, finest_of_all = 1e-290;  // edges
+  bool too_coarse = false;
+  std::optional<SpreadMap> result = refined<Precise>(problem, placed, finest, too_coarse);
+  if (too_coarse) result = refined<MostPrecise>(problem, placed, finest_of_all, too_coarse);
+  return result;
+}
+
+}  // namespace orbitutte

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// What is done where the minimum, rounded to doubles, is no bijection: thin triangles of the input, and limbs that
+// shrink below what doubles resolve.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "orbitutte/solve/ears.h"
+#include "orbitutte/solve/placement.h"
+
+namespace orbitutte {
+
+/// A map as it is judged and written.
+struct SpreadMap {
+  /// Tile, gluing and frame; its positions are those of the input vertices, in doubles.
+  Placement placed;
+
+  /// n_cut x 3.
+  Points positions;
+  std::vector<Offset> offsets;
+
+  /// Input vertices that were moved off the minimum, ascending.
+  std::vector<int> moved_vertices;
+};
+
+/// The map as it was placed, its ears rounded outward.
+SpreadMap spread_map(const GluingProblem& problem, const Placement& placed);
+
+/// The faces that become arcs, of the cut mesh.
+std::vector<Ear> ears_of(const GluingProblem& problem, const Placement& placed);
+
+/// The same with turned faces repaired in place. Nothing if that fails, or if edges are as short as in
+/// with_limbs_resolved, to which it is left.
+std::optional<SpreadMap> with_faces_repaired(const GluingProblem& problem, const Placement& placed);
+
+/// The same turned to where doubles resolve the smallest limb, all limbs settled there, and turned faces
+/// repaired. Nothing if no edge is shorter than 1e-6, if the tile may not be turned, or if that fails.
+std::optional<SpreadMap> with_limbs_resolved(const GluingProblem& problem, const Placement& placed);
+
+/// The same with more digits in the limbs, as many as the shortest edge asks for.
+std::optional<SpreadMap> with_more_digits(const GluingProblem& problem, const Placement& placed);
+
+}  // namespace orbitutte
