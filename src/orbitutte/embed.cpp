@@ -26,14 +26,14 @@ GluingProblem gluing_problem(const EmbedRequest& request, const EdgeWeights& wei
                              const EmbeddingCache& cache) {
   const Surface& surface = request.prepared.surface;
   const CutMesh& cut = cache.cut.cut;
-  const Tile tile = basic_tile(request.orbifold, cut.arrangement);  // appendix A
+  const Tile tile = basic_tile(request.target, cut.arrangement);  // appendix A
   return {surface,
           cut,
-          request.orbifold,
+          request.target,
           weights,
           {request.options.laplacian, cache.laplacians},
           tile,
-          boundary_conditions(surface, cut, tile, request.orbifold, request.options.spread)};
+          boundary_conditions(surface, cut, tile, request.target, request.options.spread)};
 }
 
 // Certificate and distortion of result.embedding.
@@ -57,7 +57,7 @@ void append(const std::vector<std::string>& more, std::vector<std::string>& warn
 // The method, from the surface to the certificate. kept_faces: see find_weights.
 EmbedResult embed_once(const EmbedRequest& request, const std::vector<int>& kept_faces,
                        EmbeddingCache& cache) {
-  const auto& [prepared, orbifold, marked_vertices, options] = request;
+  const auto& [prepared, target, cones, options] = request;
   const Surface& surface = prepared.surface;
   EmbedResult result;
   Stages stage(options.progress, result.timings);
@@ -76,10 +76,15 @@ EmbedResult embed_once(const EmbedRequest& request, const std::vector<int>& kept
   const Tile& tile = placed.tile;
   const BoundaryConditions& boundary = placed.boundary;
 
-  result.embedding = {
-      orbifold,          placed.frame,   Points(),       cut.F,
-      cut.source_vertex, boundary.seams, boundary.cones, surface.polygons_on(cut.F, cut.turned)};
-  const std::vector<Ear> ears = find_ears(result.embedding.input_faces(), tile, boundary);
+  result.embedding = {target,
+                      placed.frame,
+                      Points(),
+                      cut.F,
+                      cut.source_vertex,
+                      boundary.seams,
+                      boundary.cones,
+                      surface.polygons_on(cut.F, cut.turned)};
+  const std::vector<Ear> ears = find_ears(result.embedding.faces(), tile, boundary);
   round_outward(ears, result.minimum.positions);
   result.embedding.positions = boundary.spread(result.minimum.positions, cut.source_vertex);
   stage("certify", [&] { judge(request, result); });
@@ -88,7 +93,7 @@ EmbedResult embed_once(const EmbedRequest& request, const std::vector<int>& kept
   append(prepared.warnings, result.warnings);
   if (const std::vector<int>& nonpositive = result.certificate.nonpositive_faces; !nonpositive.empty()) {
     const auto mirrors = mirrors_of(tile, boundary, cut.source_vertex);
-    const std::vector<int> collapsing = collapsing_faces(surface.faces(), mirrors, marked_vertices);
+    const std::vector<int> collapsing = collapsing_faces(surface.faces(), mirrors, cones);
     append(warnings_of_collapse(surface.faces(), collapsing, nonpositive), result.warnings);
   }
   result.topology = surface.topology;
@@ -102,13 +107,13 @@ EmbedResult embed_once(const EmbedRequest& request, const std::vector<int>& kept
 bool may_keep_faces(const EmbedResult& result) {
   const auto turned = static_cast<Eigen::Index>(result.certificate.nonpositive_faces.size());
   return result.weights.triangulation && result.minimum.termination == Termination::converged && turned > 0 &&
-         turned <= 1 + result.embedding.faces.rows() / 50;
+         turned <= 1 + result.embedding.triangles.rows() / 50;
 }
 
 // `kept` with the faces that share a vertex with one of `faces`; ascending.
 std::vector<int> with_faces_around(const std::vector<int>& faces, const std::vector<int>& kept,
                                    const Surface& surface) {
-  const Faces& F = surface.triangles;
+  const Triangles& F = surface.triangles;
   std::vector<char> near(surface.V.rows(), 0), chosen(F.rows(), 0);
   for (const int f : kept) chosen[f] = 1;
   for (const int f : faces)
@@ -119,7 +124,7 @@ std::vector<int> with_faces_around(const std::vector<int>& faces, const std::vec
   return result;
 }
 
-std::vector<int> all_faces(const Faces& F) {
+std::vector<int> all_faces(const Triangles& F) {
   std::vector<int> faces(F.rows());
   std::iota(faces.begin(), faces.end(), 0);
   return faces;
@@ -160,14 +165,13 @@ auto with_threads_of(const EmbedOptions& options, const Compute& compute) {
 
 // Validates, as the first stage, what is then embedded. validate() returns the prepared surface.
 template <typename Validate>
-EmbedResult embed_validated(const Validate& validate, const Target& orbifold,
-                            const std::vector<int>& marked_vertices, const EmbedOptions& options,
-                            EmbeddingCache& cache) {
+EmbedResult embed_validated(const Validate& validate, const Target& target, const std::vector<int>& cones,
+                            const EmbedOptions& options, EmbeddingCache& cache) {
   return with_threads_of(options, [&] {
     Timings timings;
     Stages stage(options.progress, timings);
     const PreparedSurface prepared = stage("validate", validate);
-    const EmbedRequest request = {prepared, orbifold, marked_vertices, options};
+    const EmbedRequest request = {prepared, target, cones, options};
     require_fit(request);
     EmbedResult result = embed_or_keep_faces(request, cache);
     result.timings.insert(result.timings.begin(), timings.begin(), timings.end());
@@ -176,7 +180,7 @@ EmbedResult embed_validated(const Validate& validate, const Target& orbifold,
 }
 
 template <typename AnyMesh>
-EmbedResult embed_mesh(const AnyMesh& mesh, const Target& orbifold, const std::vector<int>& marked_vertices,
+EmbedResult embed_mesh(const AnyMesh& mesh, const Target& target, const std::vector<int>& cones,
                        const EmbedOptions& options) {
   Surface surface;
   const auto validate = [&] {
@@ -184,26 +188,26 @@ EmbedResult embed_mesh(const AnyMesh& mesh, const Target& orbifold, const std::v
     return prepare(surface, options);
   };
   EmbeddingCache cache(Kept::order);
-  return embed_validated(validate, orbifold, marked_vertices, options, cache);
+  return embed_validated(validate, target, cones, options, cache);
 }
 
 }  // namespace
 
-EmbedResult embed(const Surface& surface, const Target& orbifold, const std::vector<int>& marked_vertices,
+EmbedResult embed(const Surface& surface, const Target& target, const std::vector<int>& cones,
                   const EmbedOptions& options) {
   const auto validate = [&] { return prepare(surface, options); };
   EmbeddingCache cache(Kept::order);
-  return embed_validated(validate, orbifold, marked_vertices, options, cache);
+  return embed_validated(validate, target, cones, options, cache);
 }
 
-EmbedResult embed(const Mesh& mesh, const Target& orbifold, const std::vector<int>& marked_vertices,
+EmbedResult embed(const Mesh& mesh, const Target& target, const std::vector<int>& cones,
                   const EmbedOptions& options) {
-  return embed_mesh(mesh, orbifold, marked_vertices, options);
+  return embed_mesh(mesh, target, cones, options);
 }
 
-EmbedResult embed(const PolygonMesh& mesh, const Target& orbifold, const std::vector<int>& marked_vertices,
+EmbedResult embed(const PolygonMesh& mesh, const Target& target, const std::vector<int>& cones,
                   const EmbedOptions& options) {
-  return embed_mesh(mesh, orbifold, marked_vertices, options);
+  return embed_mesh(mesh, target, cones, options);
 }
 
 struct EmbeddingSolver::State {
@@ -231,24 +235,24 @@ EmbeddingSolver::EmbeddingSolver(PolygonMesh mesh, const EmbedOptions& options)
 EmbeddingSolver::~EmbeddingSolver() = default;
 EmbeddingSolver::EmbeddingSolver(EmbeddingSolver&&) noexcept = default;
 
-EmbedResult EmbeddingSolver::embed(const Target& orbifold, const std::vector<int>& marked_vertices) {
+EmbedResult EmbeddingSolver::embed(const Target& target, const std::vector<int>& cones) {
   State& state = *state_;
   const auto validate = [&] { return state.prepared; };
-  return embed_validated(validate, orbifold, marked_vertices, state.options, state.cache);
+  return embed_validated(validate, target, cones, state.options, state.cache);
 }
 
-std::vector<int> choose_marked_vertices(const Surface& surface, const Target& orbifold) {
-  require_topology(surface, orbifold);
-  const int outer = static_cast<int>(orbifold.marks.size()) - orbifold.inner_marks;
-  return extremities(surface, {orbifold.inner_marks, outer, are_opposite(orbifold.marks)});
+std::vector<int> choose_cones(const Surface& surface, const Target& target) {
+  require_topology(surface, target);
+  const int outer = static_cast<int>(target.marks.size()) - target.inner_marks;
+  return choose_extremities(surface, {target.inner_marks, outer, are_opposite(target.marks)});
 }
 
-std::vector<int> choose_marked_vertices(const Mesh& mesh, const Target& orbifold) {
-  return choose_marked_vertices(make_surface(mesh), orbifold);
+std::vector<int> choose_cones(const Mesh& mesh, const Target& target) {
+  return choose_cones(make_surface(mesh), target);
 }
 
-std::vector<int> choose_marked_vertices(const PolygonMesh& mesh, const Target& orbifold) {
-  return choose_marked_vertices(make_surface(mesh), orbifold);
+std::vector<int> choose_cones(const PolygonMesh& mesh, const Target& target) {
+  return choose_cones(make_surface(mesh), target);
 }
 
 }  // namespace orbitutte

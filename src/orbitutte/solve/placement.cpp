@@ -47,7 +47,7 @@ int vertex_far_from_poles(const BoundaryConditions& boundary, const Points& posi
 
 // Moves the map, the tile and its gluing.
 void move(const GluingProblem& problem, const Isometry& isometry, Placement& placed) {
-  placed.tile = moved(placed.tile, isometry);
+  placed.tile = moved_tile(placed.tile, isometry);
   placed.boundary = glue(problem.cut, placed.tile, problem.target);
 }
 
@@ -88,7 +88,7 @@ void fix_rotation(const GluingProblem& problem, Placement& placed) {
 void resolve(const GluingProblem& problem, const DirichletEnergy& energy, Placement& placed) {
   Points& positions = placed.minimum.positions;
   const std::optional<Isometry> frame =
-      stays_put(placed.tile) ? std::nullopt : resolving_frame(energy, positions);
+      has_held_side(placed.tile) ? std::nullopt : resolving_frame(energy, positions);
   if (!frame) return;
   placed.frame = *frame;
   move(problem, *frame, placed);
