@@ -11,7 +11,7 @@ SOURCE = ROOT / "src/orbitutte"
 PLAIN = "plain values"  # files at the root of src/orbitutte that every layer may know
 LAYERS = [PLAIN, "geometry", "mesh", "io", "inspect", "samples", "weights", "cut", "orbifold", "linear", "solve", "verify", "cones", "map",
           "embed", "report", "export", "page", "render"]
-ROOT_FILES = {"types": PLAIN, "errors": PLAIN, "progress": PLAIN, "parallel": PLAIN, "memory": PLAIN, "options": PLAIN, "minimum": PLAIN,
+ROOT_FILES = {"names": PLAIN, "types": PLAIN, "errors": PLAIN, "progress": PLAIN, "parallel": PLAIN, "memory": PLAIN, "options": PLAIN, "minimum": PLAIN,
               "version": PLAIN, "embed_types": "embed", "embed": "embed", "preparation": "embed", "warnings": "embed"}
 # The certificate shares no code with what it judges; only `embed` and `map` compose.
 NEVER = {("verify", layer) for layer in ("weights", "cut", "linear", "solve", "cones")} | {("map", "solve"), ("map", "linear")}

@@ -27,17 +27,10 @@ std::vector<int> parse_cones(const std::string& text) {
   return cones;
 }
 
-WeightKind parse_weights(const std::string& text) {
-  for (const WeightKind kind : {WeightKind::standard, WeightKind::cotan, WeightKind::delaunay,
-                                WeightKind::mean_value, WeightKind::uniform})
-    if (text == name(kind)) return kind;
-  throw ArgumentError(
-      fmt::format("--weights is '{}'; it may be standard, cotan, delaunay, mean-value or uniform", text));
-}
-
 Surface read_source(const std::string& path, Embedding& embedding) {
   Surface surface = make_surface(read_mesh(path));
-  if (embedding.polygons.start == surface.polygons.start) embedding.faces = cut_triangles(surface, embedding);
+  if (embedding.polygons.start == surface.polygons.start)
+    embedding.triangles = cut_triangles(surface, embedding);
   return surface;
 }
 

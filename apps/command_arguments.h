@@ -13,9 +13,6 @@ namespace orbitutte::cli {
 /// Vertices separated by commas. Throws ArgumentError.
 std::vector<int> parse_cones(const std::string& text);
 
-/// The kind of weights that a name tells. Throws ArgumentError naming all.
-WeightKind parse_weights(const std::string& text);
-
 /// Reads the mesh of an embedding, whose faces are divided into the same triangles. Throws FileError, and
 /// MeshError naming the first defect; where the embedding is none of the mesh, what takes both tells.
 Surface read_source(const std::string& path, Embedding& embedding);

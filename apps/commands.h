@@ -8,7 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "orbitutte/export/texture_chart.h"
 #include "orbitutte/export/tiling.h"
+#include "orbitutte/mesh/edge_weights.h"
+#include "orbitutte/options.h"
+#include "orbitutte/render/render.h"
+#include "orbitutte/samples/sample.h"
 
 namespace orbitutte::cli {
 
@@ -24,8 +29,8 @@ enum ExitCode {
 
 struct EmbedArguments {
   std::string mesh, orbifold, cones, output, report;
-  std::string polygon, spread = "arc-length";
-  std::string weights = "standard", weights_file;
+  std::string polygon, spread = name_of(Spread::arc_length);
+  std::string weights = name_of(WeightKind::standard), weights_file;
   double clamp = 0.01, tolerance = 1e-9;
   std::uint64_t cut_seed = 0;
   int max_iterations = 2000, threads = 0;
@@ -52,18 +57,18 @@ int verify_command(const VerifyArguments& arguments);
 
 struct TileArguments {
   std::string embedding, report, output;
-  int copies = default_patch;
+  int copies = default_plane_copies;
 };
 int tile_command(const TileArguments& arguments);
 
 struct ExportArguments {
-  std::string embedding, report, mesh, output, chart = "stereographic";
+  std::string embedding, report, mesh, output, chart = name_of(TextureChart::stereographic);
 };
 int export_command(const ExportArguments& arguments);
 
 struct RenderArguments {
   std::string embedding, report, mesh, output;
-  std::string panel = "sheet", view, up, size;
+  std::string panel = name_of(Panel::sheet), view, up, size;
 };
 int render_command(const RenderArguments& arguments);
 
@@ -73,14 +78,14 @@ struct ReportArguments {
 int report_command(const ReportArguments& arguments);
 
 struct CompareArguments {
-  std::string mesh, cones = "auto", weights = "standard", output;
+  std::string mesh, cones = "auto", weights = name_of(WeightKind::standard), output;
   std::vector<std::string> orbifolds;
   bool json = false;
 };
 int compare_command(const CompareArguments& arguments);
 
 struct SampleArguments {
-  std::string output, shape = "figure";
+  std::string output, shape = name_of(SampleShape::figure);
   int faces = 20000;
 };
 int sample_command(const SampleArguments& arguments);

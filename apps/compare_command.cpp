@@ -18,7 +18,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct Compared {
-  Target orbifold;
+  Target target;
   EmbedResult result;
 };
 
@@ -32,16 +32,15 @@ std::vector<std::string> symbols_or_both_spaces(const std::vector<std::string>& 
 void print_row(const Compared& compared) {
   const Distortion& d = compared.result.distortion;
   fmt::print("{:<10} {:<10} {:>9.4g} {:>9.4g} {:>9.4g} {:>10.4g} {:>9.4g} {:>9.4g}  {}\n",
-             compared.orbifold.space.name(), compared.orbifold.signature, d.area.mean, d.area.std,
-             d.area.median, d.area.max, d.angle.mean, d.angle.max,
-             compared.result.certificate.bijective ? "yes" : "no");
+             compared.target.space.name(), compared.target.signature, d.area.mean, d.area.std, d.area.median,
+             d.area.max, d.angle.mean, d.angle.max, compared.result.certificate.bijective ? "yes" : "no");
 }
 
 Json to_json(const Compared& compared) {
   const Distortion& d = compared.result.distortion;
   return {
-      {"orbifold", compared.orbifold.signature},
-      {"space", compared.orbifold.space.name()},
+      {"orbifold", compared.target.signature},
+      {"space", compared.target.space.name()},
       {"energy", compared.result.minimum.energy},
       {"bijective", compared.result.certificate.bijective},
       {"area", {{"mean", d.area.mean}, {"std", d.area.std}, {"median", d.area.median}, {"max", d.area.max}}},
@@ -50,8 +49,8 @@ Json to_json(const Compared& compared) {
 
 ComparedMap compared_map(const Surface& surface, const Compared& compared) {
   const std::string verdict = compared.result.certificate.bijective ? "" : " (not certified)";
-  return {compared.orbifold.space.name() + ": " + compared.orbifold.signature + verdict,
-          compared.result.distortion.area, measure_faces(surface, compared.result.embedding)};
+  return {compared.target.space.name() + ": " + compared.target.signature + verdict,
+          compared.result.distortion.area, measure_triangles(surface, compared.result.embedding)};
 }
 
 }  // namespace
@@ -59,16 +58,16 @@ ComparedMap compared_map(const Surface& surface, const Compared& compared) {
 int compare_command(const CompareArguments& arguments) {
   const Surface surface = make_surface(read_mesh(arguments.mesh));
   EmbedOptions options;
-  options.weights.kind = parse_weights(arguments.weights);
+  options.weights.kind = parse_choice<WeightKind>(arguments.weights, "--weights");
 
   std::vector<Compared> maps;
   std::vector<ComparedMap> pictures;
   std::vector<int> cones;
   if (arguments.cones != "auto") cones = parse_cones(arguments.cones);
   for (const std::string& symbol : symbols_or_both_spaces(arguments.orbifolds, surface.topology)) {
-    const Target orbifold = parse_orbifold(symbol);
-    if (cones.empty()) cones = choose_marked_vertices(surface, orbifold);
-    maps.push_back({orbifold, embed(surface, orbifold, cones, options)});
+    const Target target = parse_orbifold(symbol);
+    if (cones.empty()) cones = choose_cones(surface, target);
+    maps.push_back({target, embed(surface, target, cones, options)});
     pictures.push_back(compared_map(surface, maps.back()));
   }
   if (arguments.json) {

@@ -62,14 +62,8 @@ class ProgressLine {
   bool shown_;
 };
 
-Spread parse_spread(const std::string& text) {
-  if (text == "arc-length") return Spread::arc_length;
-  if (text == "equidistant") return Spread::equidistant;
-  throw ArgumentError(fmt::format("--spread is '{}'; it may be arc-length or equidistant", text));
-}
-
 // What is asked for: an orbifold, or a polygon with its corners.
-Target orbifold_from(const EmbedArguments& arguments) {
+Target target_from(const EmbedArguments& arguments) {
   const bool polygon = arguments.orbifold == polygon_signature;
   if (!polygon && !arguments.polygon.empty())
     throw ArgumentError(
@@ -89,10 +83,10 @@ Target orbifold_from(const EmbedArguments& arguments) {
 
 EmbedOptions options_from(const EmbedArguments& arguments) {
   EmbedOptions options;
-  options.weights = {parse_weights(arguments.weights), arguments.clamp};
+  options.weights = {parse_choice<WeightKind>(arguments.weights, "--weights"), arguments.clamp};
   options.weights_file = arguments.weights_file;
   options.cut.seed = arguments.cut_seed;
-  options.spread = parse_spread(arguments.spread);
+  options.spread = parse_choice<Spread>(arguments.spread, "--spread");
   options.tolerance = arguments.tolerance;
   options.max_iterations = arguments.max_iterations;
   options.threads = arguments.threads;
@@ -137,10 +131,10 @@ void summarize(const EmbedArguments& arguments, const EmbedResult& result) {
   std::vector<int> cones;
   for (const ConeCopies& cone : result.embedding.cones) cones.push_back(cone.vertex);
   tell("{}: {} vertices, {} faces, a {}, onto {} ({}), cones {}\n", arguments.mesh, minimum.positions.rows(),
-       result.embedding.input_faces().count(), name(result.topology), result.embedding.target.signature,
+       result.embedding.faces().count(), name_of(result.topology), result.embedding.target.signature,
        group_text(result.embedding.target), fmt::join(cones, ","));
   tell("energy {:.12g} after {} iterations, gradient {:.1e}: {}\n", minimum.energy, minimum.iterations,
-       minimum.gradient_norm, name(minimum.termination));
+       minimum.gradient_norm, name_of(minimum.termination));
   tell("area: within a factor of 4 of the mean scale on {} of the surface, shrunk by more than 64 on {}\n",
        percent(distortion.within_4), percent(distortion.below_64));
   tell("angles: median distortion {:.4g}, where 1 is none\n", distortion.angle.median);
@@ -175,7 +169,7 @@ void explain(const EmbedArguments& arguments, const EmbedResult& result) {
   const std::size_t turned = result.certificate.nonpositive_faces.size();
   if (turned > 0) {
     tell("orbitutte: not certified: {} of {} faces are not positive on the sphere, the first face {}\n",
-         turned, result.embedding.input_faces().count(), result.certificate.nonpositive_faces.front());
+         turned, result.embedding.faces().count(), result.certificate.nonpositive_faces.front());
   } else {
     tell("orbitutte: not certified, although every face is positive on the sphere\n");
   }
@@ -191,16 +185,16 @@ void explain(const EmbedArguments& arguments, const EmbedResult& result) {
 int embed_command(const EmbedArguments& arguments) {
   const Stopwatch total;
   EmbedOptions options = options_from(arguments);
-  const Target orbifold = orbifold_from(arguments);
+  const Target target = target_from(arguments);
   const bool automatic = arguments.cones == "auto";
-  std::vector<int> cones = corner_vertices(orbifold);
+  std::vector<int> cones = corner_vertices(target);
   if (cones.empty() && !automatic) cones = parse_cones(arguments.cones);
 
   RunRecord run;
   const auto [surface, reader_warnings] = read_input(arguments.mesh, run);
 
   if (automatic) {
-    cones = choose_marked_vertices(surface, orbifold);
+    cones = choose_cones(surface, target);
     if (!arguments.quiet) tell("--cones {}\n", fmt::join(cones, ","));
   }
   const ProgressLine line(arguments.quiet);
@@ -208,7 +202,7 @@ int embed_command(const EmbedArguments& arguments) {
     line.show(progress);
     return true;
   };
-  EmbedResult result = embed(surface, orbifold, cones, options);
+  EmbedResult result = embed(surface, target, cones, options);
   result.warnings.insert(result.warnings.begin(), reader_warnings.begin(), reader_warnings.end());
   line.clear();
   for (const std::string& warning : result.warnings) tell("orbitutte: warning: {}\n", warning);

@@ -9,7 +9,7 @@
 namespace orbitutte::cli {
 
 int export_command(const ExportArguments& arguments) {
-  const TextureChart chart = parse_texture_chart(arguments.chart);
+  const TextureChart chart = parse_choice<TextureChart>(arguments.chart, "--chart");
   const Embedding embedding = read_embedding(arguments.embedding, read_report(arguments.report));
   const ExportedModel model = exported_model(make_surface(read_mesh(arguments.mesh)), embedding, chart);
   write_model(arguments.output, model);
@@ -17,7 +17,7 @@ int export_command(const ExportArguments& arguments) {
       "{}: {} vertices, {} texture coordinates, {} faces; largest area distortion of the {} chart "
       "{:.3g}\n",
       arguments.output, model.surface.V.rows(), model.texture.uv.rows(), model.surface.faces().count(),
-      name(chart), model.texture.max_area_distortion);
+      name_of(chart), model.texture.max_area_distortion);
   if (model.texture.torn_faces > 0)
     tell("orbitutte: warning: {} faces lie across the outer edge of the chart; choose another chart\n",
          model.texture.torn_faces);

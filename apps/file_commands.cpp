@@ -29,7 +29,7 @@ void print_theorem2(const Theorem2& theorem2) {
                theorem2.holds() ? "hold" : "do not hold");
   } else {
     if (theorem2.max_edge_length > 0) print_rows(theorem2.checks());
-    fmt::print("theorem 2: {}: {}\n", name(theorem2.status), theorem2.detail);
+    fmt::print("theorem 2: {}: {}\n", name_of(theorem2.status), theorem2.detail);
   }
 }
 
@@ -78,14 +78,14 @@ int tile_command(const TileArguments& arguments) {
         "on "
         "one mirror, so that they coincide with their mirror images\n",
         tiling.left_out.size(), tiling.left_out.front());
-  tell("{}: {} tiles, {} vertices, {} faces\n", arguments.output, tiling.tiles, tiling.mesh.V.rows(),
+  tell("{}: {} copies, {} vertices, {} faces\n", arguments.output, tiling.copy_count(), tiling.mesh.V.rows(),
        tiling.faces().count());
   return succeeded;
 }
 
 int sample_command(const SampleArguments& arguments) {
   SampleOptions options;
-  options.shape = sample_shape(arguments.shape);
+  options.shape = parse_choice<SampleShape>(arguments.shape, "--shape");
   options.faces = arguments.faces;
   if (passes_through_itself(options.shape) && mesh_format(arguments.output) == MeshFormat::stl)
     throw ArgumentError(
@@ -102,7 +102,7 @@ std::string version_text() {
   const Backend backend = available_backends().front();
   const InertiaMethod inertia = available_inertia_methods().front();
   return fmt::format("orbitutte {} ({})\nlinear algebra: {}, BLAS: {}; inertia: {}\nlicence: {}", version,
-                     commit, name(backend), blas_description(), name(inertia),
+                     commit, name_of(backend), blas_description(), name_of(inertia),
                      licence_text(backend, inertia));
 }
 

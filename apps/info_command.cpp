@@ -17,7 +17,7 @@ constexpr int sound = 0, defective = 3;
 double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
 void print_text(const std::string& path, const Inspection& inspection, const std::vector<WeakPlace>& places) {
-  fmt::print("{}: {}\n", path, inspection.defects.empty() ? name(inspection.topology) : "defective");
+  fmt::print("{}: {}\n", path, inspection.defects.empty() ? name_of(inspection.topology) : "defective");
   fmt::print("  vertices {} ({} in no face), edges {}, faces {} ({} triangles, up to {} corners)\n",
              inspection.vertices, inspection.unreferenced_vertices, inspection.edges, inspection.faces,
              inspection.triangles, inspection.max_face_degree);
@@ -48,7 +48,7 @@ void print_text(const std::string& path, const Inspection& inspection, const std
 int info_command(const InfoArguments& arguments) {
   const PolygonMesh mesh = read_mesh(arguments.mesh);
   const Inspection inspection = inspect(mesh);
-  const std::vector<WeakPlace> places = weak_places(mesh, inspection);
+  const std::vector<WeakPlace> places = weak_places_if_sound(mesh, inspection);
   for (const std::string& warning : mesh.warnings) tell("orbitutte: warning: {}\n", warning);
   if (arguments.json) {
     fmt::print("{}", inspection_json(arguments.mesh, mesh, inspection, places));
@@ -62,7 +62,7 @@ int types_command(const TypesArguments& arguments) {
   if (!arguments.json) {
     fmt::print("{:<8} {:>11}  {:<16} {}\n", "family", "group order", "input", "marked points");
     for (const FamilyDescription& family : families())
-      fmt::print("{:<8} {:>11}  {:<16} {}\n", family.family, family.group_order, name(family.topology),
+      fmt::print("{:<8} {:>11}  {:<16} {}\n", family.family, family.group_order, name_of(family.topology),
                  family.marked_points);
     fmt::print("N is 2 or more, in Nx also 1. Commas separate orders of two digits: 2,2,12.\n");
     fmt::print(

@@ -14,9 +14,9 @@ constexpr int drawn = 0;
 // What can be said before the mesh is read.
 RenderOptions options_from(const RenderArguments& arguments) {
   RenderOptions options;
-  options.panel = parse_panel(arguments.panel);
-  if (!arguments.size.empty()) parse_size(arguments.size, options);
-  if (!arguments.up.empty()) options.up = parse_up(arguments.up);
+  options.panel = parse_choice<Panel>(arguments.panel, "--panel");
+  if (!arguments.size.empty()) parse_picture_size(arguments.size, options);
+  if (!arguments.up.empty()) options.up = parse_up_direction(arguments.up);
   return options;
 }
 
@@ -28,7 +28,8 @@ int render_command(const RenderArguments& arguments) {
   Embedding embedding = read_embedding(arguments.embedding, report);
   const Surface surface = read_source(arguments.mesh, embedding);
   if (!arguments.view.empty())
-    options.view = parse_view(arguments.view, options.up ? *options.up : default_up(surface));
+    options.view =
+        parse_view_direction(arguments.view, options.up ? *options.up : default_up_direction(surface));
   const std::string title = std::filesystem::path(arguments.mesh).filename().string();
   write_picture(arguments.output, {surface, embedding, report, title}, options);
   return drawn;

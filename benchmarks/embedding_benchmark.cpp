@@ -34,8 +34,8 @@ struct Arguments {
 // Divides every triangle into four at the midpoints of its edges. The vertices keep their numbers.
 Mesh subdivided(const Mesh& mesh) {
   const int n = static_cast<int>(mesh.V.rows());
-  const Connectivity connectivity = connect(mesh.F, n);
-  Mesh fine = {Points(n + connectivity.edges.size(), 3), Faces(4 * mesh.F.rows(), 3)};
+  const Connectivity connectivity = connectivity_of(mesh.F, n);
+  Mesh fine = {Points(n + connectivity.edges.size(), 3), Triangles(4 * mesh.F.rows(), 3)};
   fine.V.topRows(n) = mesh.V;
   for (std::size_t e = 0; e < connectivity.edges.size(); ++e) {
     const auto [i, j] = connectivity.edges[e];

@@ -8,8 +8,8 @@
 int main() {
   using namespace orbitutte;
   const Mesh mesh = sample_mesh({SampleShape::figure, 8000});
-  const Target orbifold = parse_orbifold("432");
-  const std::vector<int> cones = choose_marked_vertices(mesh, orbifold);
+  const Target target = parse_orbifold("432");
+  const std::vector<int> cones = choose_cones(mesh, target);
 
   EmbedOptions options;
   options.progress = [](const Progress& progress) {
@@ -17,9 +17,9 @@ int main() {
       std::printf("iteration %2d: E = %.12g\n", progress.iteration, progress.energy);
     return true;  // false would cancel
   };
-  const EmbedResult result = embed(mesh, orbifold, cones, options);
+  const EmbedResult result = embed(mesh, target, cones, options);
 
-  std::printf("%s after %d iterations, %s\n", name(result.minimum.termination).c_str(),
+  std::printf("%s after %d iterations, %s\n", name_of(result.minimum.termination).c_str(),
               result.minimum.iterations,
               result.certificate.bijective ? "certified bijective" : "not certified");
   for (const Check& check : result.certificate.checks)

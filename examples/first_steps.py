@@ -14,7 +14,7 @@ sphere = orbitutte.tile(embedding)  # 24 copies, welded
 orbitutte.write_mesh("tiling.obj", sphere.V, sphere.F)
 
 north = embedding.locate([0, 0, 1])  # what lies at the north pole?
-print("north pole: face", north.face, "of copy", north.element, "at", embedding.source_points(north.face, north.barycentric))
+print("north pole: triangle", north.triangle, "of copy", north.copy, "at", embedding.source_points(north.triangle, north.barycentric))
 
 embedding.save("map.ply", "map.json")  # as the command line writes them
 embedding.render("map.png", size=(800, 614))  # mesh, sphere, distortion and more on one sheet

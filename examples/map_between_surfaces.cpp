@@ -19,7 +19,7 @@ Points map_between(const Mesh& first, const Embedding& out, const Mesh& second, 
   for (int v = 0; v < found.count(); ++v) {
     images.row(v).setZero();
     for (int k = 0; k < 3; ++k) {
-      const int corner = back.source_vertex[back.faces(found.face[v], k)];
+      const int corner = back.source_vertex[back.triangles(found.triangle[v], k)];
       images.row(v) += found.barycentric(v, k) * second.V.row(corner);
     }
   }
@@ -34,13 +34,13 @@ Mesh turned(Mesh mesh) {
 }
 
 int main() {
-  const Target orbifold = parse_orbifold("432");
+  const Target target = parse_orbifold("432");
   bool certified = true;
   for (const int faces : {1000, 4000, 16000}) {
     const Mesh first = sample_mesh({SampleShape::figure, faces});
     const Mesh second = sample_mesh({SampleShape::figure, faces * 3 / 2});  // other vertices, other triangles
-    const EmbedResult out = embed(first, orbifold, sample_cones(SampleShape::figure, first));
-    const EmbedResult back = embed(turned(second), orbifold, sample_cones(SampleShape::figure, second));
+    const EmbedResult out = embed(first, target, sample_cones(SampleShape::figure, first));
+    const EmbedResult back = embed(turned(second), target, sample_cones(SampleShape::figure, second));
     const Points images = map_between(first, out.embedding, second, back.embedding);
 
     const auto distance = (images - first.V).rowwise().norm();

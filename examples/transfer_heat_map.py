@@ -42,7 +42,7 @@ heat = np.linalg.norm(V - V[first.cones[2].vertex], axis=1)  # warm at the third
 heat = 1 - heat / heat.max()
 
 where = first.locate(second.canonical_positions[: len(W)])  # every vertex of the second surface, on the first one
-corners = first.source_vertex[first.triangles[where.face]]
+corners = first.source_vertex[first.triangles[where.triangle]]
 carried = np.einsum("vk,vk->v", heat[corners], where.barycentric)
 
 with open("heat_map.svg", "w", encoding="utf-8") as file:

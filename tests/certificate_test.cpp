@@ -88,9 +88,9 @@ struct Corner {
 // A corner of the cut mesh whose vertex, and those next to it, lie inside the tile.
 Corner inner_corner(const Embedding& embedding) {
   const std::set<int> on_seams = seam_vertices(embedding);
-  for (int f = static_cast<int>(embedding.faces.rows()) / 2; f < embedding.faces.rows(); ++f) {
+  for (int f = static_cast<int>(embedding.triangles.rows()) / 2; f < embedding.triangles.rows(); ++f) {
     bool inside = true;
-    for (const int v : embedding.faces.row(f)) inside = inside && !on_seams.count(v);
+    for (const int v : embedding.triangles.row(f)) inside = inside && !on_seams.count(v);
     if (inside) return {f, 0};
   }
   ADD_FAILURE() << "every face touches a seam";
@@ -99,16 +99,16 @@ Corner inner_corner(const Embedding& embedding) {
 
 // A corner at this vertex.
 Corner corner_at(const Embedding& embedding, int vertex) {
-  for (int f = 0; f < embedding.faces.rows(); ++f)
+  for (int f = 0; f < embedding.triangles.rows(); ++f)
     for (int k = 0; k < 3; ++k)
-      if (embedding.faces(f, k) == vertex) return {f, k};
+      if (embedding.triangles(f, k) == vertex) return {f, k};
   ADD_FAILURE() << "no face uses vertex " << vertex;
   return {0, 0};
 }
 
 // The corner's vertex, mirrored in the opposite edge of its face.
 Vector3 across_opposite_edge(const Embedding& embedding, const Corner& at) {
-  const auto v = embedding.faces.row(at.face);
+  const auto v = embedding.triangles.row(at.face);
   const Vector3 q = position(embedding, v[(at.corner + 1) % 3]),
                 r = position(embedding, v[(at.corner + 2) % 3]);
   return hand_made::reflection(q.cross(r)) * position(embedding, v[at.corner]);
@@ -187,7 +187,7 @@ TEST(Certificate, InnerVertexMovedAcrossAnEdgeIsSeen) {
   for (const char* signature : {"532", "223", "33", "*432", "*22", "3*2", "5*"}) {
     Embedding embedding = sample(signature).embedding();
     const Corner at = inner_corner(embedding);
-    embedding.positions.row(embedding.faces(at.face, at.corner)) =
+    embedding.positions.row(embedding.triangles(at.face, at.corner)) =
         across_opposite_edge(embedding, at).transpose();
     EXPECT_THAT(rejection(sample(signature).mesh, embedding), Contains("positive_faces")) << signature;
     EXPECT_THAT(certify(test::unjudged(sample(signature).mesh), embedding).nonpositive_faces,
@@ -227,8 +227,8 @@ TEST(Certificate, VertexPutOntoItsNeighbourLeavesAFaceWithoutArea) {
   for (const char* signature : {"532", "33", "*432", "*22", "3*2", "5*"}) {
     Embedding embedding = sample(signature).embedding();
     const Corner at = inner_corner(embedding);
-    embedding.positions.row(embedding.faces(at.face, 0)) =
-        embedding.positions.row(embedding.faces(at.face, 1)).eval();
+    embedding.positions.row(embedding.triangles(at.face, 0)) =
+        embedding.positions.row(embedding.triangles(at.face, 1)).eval();
     EXPECT_THAT(rejection(sample(signature).mesh, embedding), Contains("positive_faces")) << signature;
     EXPECT_THAT(certify(test::unjudged(sample(signature).mesh), embedding).nonpositive_faces,
                 Contains(at.face))
@@ -255,7 +255,7 @@ TEST(Certificate, MeshTurnedInsideOutIsSeen) {
   Mesh mesh = sample("33").mesh;
   Embedding embedding = sample("33").embedding();
   mesh.F.col(1).swap(mesh.F.col(2));
-  embedding.faces.col(1).swap(embedding.faces.col(2));
+  embedding.triangles.col(1).swap(embedding.triangles.col(2));
   EXPECT_THAT(rejection(mesh, embedding),
               UnorderedElementsAre("positive_faces", "signed_area", "cone_angles"));
 }
@@ -386,20 +386,20 @@ test::SampleEmbedding with_a_sphere_too_many(const test::SampleEmbedding& origin
 
   // The fan of a vertex inside the tile, and the slit from its first to its third neighbour.
   const Corner inner = inner_corner(tile);
-  const int middle = tile.faces(inner.face, inner.corner);
-  const Connectivity connectivity = connect(tile.faces, n_cut);
+  const int middle = tile.triangles(inner.face, inner.corner);
+  const Connectivity connectivity = connectivity_of(tile.triangles, n_cut);
   std::vector<int> fan;
   int h = 3 * inner.face + inner.corner;
   do {
     fan.push_back(h);
     h = connectivity.opposite[previous_halfedge(h)];
   } while (h != fan.front());
-  const int u = target(tile.faces, fan[0]), v = target(tile.faces, fan[2]);
+  const int u = halfedge_target(tile.triangles, fan[0]), v = halfedge_target(tile.triangles, fan[2]);
 
   // Vertices: the input's, the sphere's, then the copies that the cut had added.
   std::vector<int> face_in_sphere(m);
   for (int f = 0; f < test::face_count(sphere.mesh); ++f)
-    if (sphere.tile[f] == 0) face_in_sphere[sphere.source_face[f]] = f;
+    if (sphere.copy[f] == 0) face_in_sphere[sphere.source_face[f]] = f;
   const auto sphere_vertex = [&](int vertex) {
     const Corner at = corner_at(tile, vertex);
     return sphere.mesh.F(face_in_sphere[at.face], at.corner);
@@ -413,14 +413,14 @@ test::SampleEmbedding with_a_sphere_too_many(const test::SampleEmbedding& origin
   embedding.source_vertex.clear();
   for (int k = 0; k < n + added; ++k) embedding.source_vertex.push_back(k);
   for (int k = n; k < n_cut; ++k) embedding.source_vertex.push_back(tile.source_vertex[k]);
-  embedding.faces.resize(m + sphere.mesh.F.rows(), 3);
-  embedding.faces << tile.faces.unaryExpr(moved), (sphere.mesh.F.array() + n).matrix();
+  embedding.triangles.resize(m + sphere.mesh.F.rows(), 3);
+  embedding.triangles << tile.triangles.unaryExpr(moved), (sphere.mesh.F.array() + n).matrix();
   const int u_too = n + sphere_vertex(u), v_too = n + sphere_vertex(v);
-  for (int& vertex : embedding.faces.bottomRows(sphere.mesh.F.rows()).reshaped())
+  for (int& vertex : embedding.triangles.bottomRows(sphere.mesh.F.rows()).reshaped())
     vertex = vertex == u_too ? u : vertex == v_too ? v : vertex;
   for (const int corner : {fan[0], fan[1]}) {  // the faces on one side of the slit change places
-    embedding.faces(corner / 3, corner % 3) = middle_too;
-    embedding.faces(m + face_in_sphere[corner / 3], corner % 3) = middle;
+    embedding.triangles(corner / 3, corner % 3) = middle_too;
+    embedding.triangles(m + face_in_sphere[corner / 3], corner % 3) = middle;
   }
   for (Seam& seam : embedding.seams)
     for (std::vector<int>* bank : {&seam.left, &seam.right})
@@ -430,7 +430,7 @@ test::SampleEmbedding with_a_sphere_too_many(const test::SampleEmbedding& origin
 
   result.mesh.V.resize(n + added, 3);
   result.mesh.V << original.mesh.V, sphere.mesh.V;
-  result.mesh.F = embedding.faces.unaryExpr([&](int vertex) { return embedding.source_vertex[vertex]; });
+  result.mesh.F = embedding.triangles.unaryExpr([&](int vertex) { return embedding.source_vertex[vertex]; });
   return result;
 }
 
@@ -497,7 +497,7 @@ TEST(Certificate, SeamsThatDoNotGlueTheWholeBoundaryAreSeen) {
       e.seams[0].right.push_back(e.seams[0].right.front());
     });
     seam_fault([](Embedding& e) {  // a bank that leaves the boundary
-      const int v = e.faces(inner_corner(e).face, 0);
+      const int v = e.triangles(inner_corner(e).face, 0);
       e.seams[0].left.push_back(v);
       e.seams[0].right.push_back(v);
     });
@@ -622,7 +622,7 @@ TEST(Certificate, ConesAtTheWrongVerticesAreSeenByTheirAngles) {
               UnorderedElementsAre("cone_angles"));
   EXPECT_THAT(rejection("33",
                         [](Embedding& e) {
-                          const int v = e.faces(inner_corner(e).face, 0);
+                          const int v = e.triangles(inner_corner(e).face, 0);
                           e.cones[0] = {v, Mark::of_order(3, ConeKind::rotation), {v}};
                         }),
               UnorderedElementsAre("cone_angles"));
@@ -671,12 +671,12 @@ TEST(Certificate, FacesThatAreNotTheInputsAreSeen) {
     const auto cut_fault = [&](const std::function<void(Embedding&)>& plant) {
       EXPECT_THAT(rejection(signature, plant), UnorderedElementsAre("cut_mesh")) << signature;
     };
-    cut_fault([](Embedding& e) { e.faces.row(3).swap(e.faces.row(200)); });
-    cut_fault([](Embedding& e) { std::swap(e.faces(3, 0), e.faces(3, 1)); });
-    cut_fault([](Embedding& e) { e.faces.row(3) << e.faces(3, 1), e.faces(3, 2), e.faces(3, 0); });
-    cut_fault([](Embedding& e) { e.faces(3, 0) = e.faces(3, 1); });
-    cut_fault([](Embedding& e) { e.faces.conservativeResize(e.faces.rows() - 1, 3); });
-    cut_fault([](Embedding& e) { e.faces.resize(0, 3); });
+    cut_fault([](Embedding& e) { e.triangles.row(3).swap(e.triangles.row(200)); });
+    cut_fault([](Embedding& e) { std::swap(e.triangles(3, 0), e.triangles(3, 1)); });
+    cut_fault([](Embedding& e) { e.triangles.row(3) << e.triangles(3, 1), e.triangles(3, 2), e.triangles(3, 0); });
+    cut_fault([](Embedding& e) { e.triangles(3, 0) = e.triangles(3, 1); });
+    cut_fault([](Embedding& e) { e.triangles.conservativeResize(e.triangles.rows() - 1, 3); });
+    cut_fault([](Embedding& e) { e.triangles.resize(0, 3); });
     cut_fault([](Embedding& e) { std::swap(e.source_vertex[1], e.source_vertex[2]); });
     cut_fault([](Embedding& e) { e.source_vertex.back() = 0, e.source_vertex[0] = 1; });
     cut_fault([](Embedding& e) { e.source_vertex.pop_back(); });
@@ -696,7 +696,7 @@ TEST(Certificate, UncutSphereIsSeen) {
   for (const char* signature : {"532", "33"}) {
     const Mesh& mesh = sample(signature).mesh;
     Embedding embedding = sample(signature).embedding();
-    embedding.faces = mesh.F;
+    embedding.triangles = mesh.F;
     embedding.positions.conservativeResize(mesh.V.rows(), 3);
     embedding.source_vertex.resize(mesh.V.rows());
     for (ConeCopies& cone : embedding.cones) cone.copies = {cone.vertex};
@@ -710,12 +710,12 @@ TEST(Certificate, UncutSphereIsSeen) {
 
 // Gives the corners a vertex of their own at the same place.
 void split(Embedding& embedding, const std::vector<Corner>& corners) {
-  const int old = embedding.faces(corners[0].face, corners[0].corner),
+  const int old = embedding.triangles(corners[0].face, corners[0].corner),
             copy = static_cast<int>(embedding.source_vertex.size());
   embedding.source_vertex.push_back(embedding.source_vertex[old]);
   embedding.positions.conservativeResize(copy + 1, 3);
   embedding.positions.row(copy) = embedding.positions.row(old).eval();
-  for (const Corner& at : corners) embedding.faces(at.face, at.corner) = copy;
+  for (const Corner& at : corners) embedding.triangles(at.face, at.corner) = copy;
 }
 
 TEST(Certificate, MeshThatIsCutOnceMoreIsSeen) {
@@ -739,7 +739,7 @@ TEST(Certificate, MeshThatIsCutOnceMoreIsSeen) {
     // All faces on their own.
     EXPECT_THAT(rejection(signature,
                           [](Embedding& e) {
-                            for (int f = 0; f < e.faces.rows(); ++f)
+                            for (int f = 0; f < e.triangles.rows(); ++f)
                               for (int k = 0; k < 3; ++k) split(e, {{f, k}});
                           }),
                 Contains("seam_gluing"))
@@ -774,7 +774,7 @@ TEST(Certificate, IndicesOutOfRangeAreRejectedWithoutACrash) {
       std::vector<int*> places = {&embedding.target.group_order};
       switch (random() % 4) {
         case 0:
-          for (int& v : embedding.faces.reshaped()) places.push_back(&v);
+          for (int& v : embedding.triangles.reshaped()) places.push_back(&v);
           break;
         case 1:
           for (int& v : embedding.source_vertex) places.push_back(&v);
@@ -815,7 +815,7 @@ TEST(Certificate, FaultsThatAgreeWithEachOtherAreRejectedWithoutACrash) {
       EXPECT_FALSE(accepted(signature, [&](Embedding& e) {
         for (ConeCopies& cone : e.cones) cone.vertex = wrong, cone.copies = {wrong};
       }));
-      EXPECT_FALSE(accepted(signature, [&](Embedding& e) { e.faces.setConstant(wrong); }));
+      EXPECT_FALSE(accepted(signature, [&](Embedding& e) { e.triangles.setConstant(wrong); }));
       EXPECT_FALSE(accepted(signature, [&](Embedding& e) {
         std::fill(e.source_vertex.begin(), e.source_vertex.end(), wrong);
       }));

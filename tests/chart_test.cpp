@@ -94,7 +94,8 @@ TEST(Charts, NothingToShowGivesAnEmptyChartAndNoSvg) {
 TEST(ColourScales, HoldNineTenthsOfTheFaces) {
   for (const std::string signature : {"432", "*532", "5*"}) {
     const test::SampleEmbedding& sample = sample_embedding(signature);
-    const std::vector<FaceDistortion> faces = measure_faces(test::unjudged(sample.mesh), sample.embedding());
+    const std::vector<FaceDistortion> faces =
+        measure_triangles(test::unjudged(sample.mesh), sample.embedding());
     for (const Measure measure : {Measure::area, Measure::angle}) {
       const std::vector<double> values = values_of(measure, faces);
       const ColourScale scale = colour_scale(measure, values);

@@ -42,7 +42,7 @@ std::vector<Example> examples() {
           {test::united(test::octahedron(), test::round_disk(2)), 3, false, true}};
 }
 
-Connectivity connectivity_of(const Mesh& mesh) { return connect(mesh.F, vertex_count(mesh)); }
+Connectivity connectivity_of(const Mesh& mesh) { return connectivity_of(mesh.F, vertex_count(mesh)); }
 
 int edge_count(const Connectivity& connectivity) { return static_cast<int>(connectivity.edges.size()); }
 
@@ -52,15 +52,15 @@ TEST(Connectivity, NextAndPreviousGoAroundTheFace) {
     EXPECT_EQ(next_halfedge(h) / 3, h / 3);
     EXPECT_EQ(previous_halfedge(next_halfedge(h)), h);
     EXPECT_EQ(next_halfedge(next_halfedge(next_halfedge(h))), h);
-    EXPECT_EQ(target(mesh.F, h), origin(mesh.F, next_halfedge(h)));
-    EXPECT_EQ(origin(mesh.F, h), mesh.F(h / 3, h % 3));
+    EXPECT_EQ(halfedge_target(mesh.F, h), halfedge_origin(mesh.F, next_halfedge(h)));
+    EXPECT_EQ(halfedge_origin(mesh.F, h), mesh.F(h / 3, h % 3));
   }
 }
 
 TEST(Connectivity, OppositeOfTheOppositeIsTheHalfEdgeItself) {
   for (const Example& example : examples()) {
     const Connectivity connectivity = connectivity_of(example.mesh);
-    const Faces& F = example.mesh.F;
+    const Triangles& F = example.mesh.F;
     for (int h = 0; h < F.size(); ++h) {
       const int o = connectivity.opposite[h];
       if (o < 0) continue;
@@ -68,8 +68,8 @@ TEST(Connectivity, OppositeOfTheOppositeIsTheHalfEdgeItself) {
       EXPECT_EQ(connectivity.opposite[o], h);
       EXPECT_EQ(connectivity.edge_of[o], connectivity.edge_of[h]);
       if (example.orientable) {
-        EXPECT_EQ(origin(F, o), target(F, h));
-        EXPECT_EQ(target(F, o), origin(F, h));
+        EXPECT_EQ(halfedge_origin(F, o), halfedge_target(F, h));
+        EXPECT_EQ(halfedge_target(F, o), halfedge_origin(F, h));
       }
     }
   }
@@ -103,7 +103,8 @@ TEST(Connectivity, EdgesAreThePairsThatFacesJoinInLexicographicOrder) {
     const Connectivity connectivity = connectivity_of(example.mesh);
     std::set<std::array<int, 2>> expected;
     for (int h = 0; h < example.mesh.F.size(); ++h) {
-      const auto [i, j] = std::minmax({origin(example.mesh.F, h), target(example.mesh.F, h)});
+      const auto [i, j] =
+          std::minmax({halfedge_origin(example.mesh.F, h), halfedge_target(example.mesh.F, h)});
       expected.insert({i, j});
       EXPECT_EQ(connectivity.edges[connectivity.edge_of[h]], (std::array<int, 2>{i, j}));
     }
@@ -115,7 +116,7 @@ TEST(Connectivity, NeighborsAreBothEndsOfEveryEdge) {
   for (const Example& example : examples()) {
     const Connectivity connectivity = connectivity_of(example.mesh);
     const int n = vertex_count(example.mesh);
-    const Neighbors around = neighbors(connectivity.edges, n);
+    const Neighbors around = vertex_neighbors(connectivity.edges, n);
     ASSERT_EQ(static_cast<int>(around.start.size()), n + 1);
     EXPECT_EQ(around.start.front(), 0);
     EXPECT_EQ(around.start.back(), 2 * edge_count(connectivity));
@@ -133,18 +134,18 @@ TEST(Connectivity, NeighborsAreBothEndsOfEveryEdge) {
 
 TEST(Connectivity, VerticesWithoutFacesHaveNoNeighbors) {
   const Mesh mesh = test::octahedron();
-  const Connectivity connectivity = connect(mesh.F, 9);
-  const Neighbors around = neighbors(connectivity.edges, 9);
+  const Connectivity connectivity = connectivity_of(mesh.F, 9);
+  const Neighbors around = vertex_neighbors(connectivity.edges, 9);
   EXPECT_EQ(edge_count(connectivity), 12);
   for (int v = 6; v < 9; ++v) EXPECT_EQ(around.start[v], around.start[v + 1]);
 }
 
 TEST(Connectivity, OfNoFacesIsEmpty) {
-  const Connectivity connectivity = connect(Faces(0, 3), 0);
+  const Connectivity connectivity = connectivity_of(Triangles(0, 3), 0);
   EXPECT_TRUE(connectivity.edges.empty());
   EXPECT_TRUE(connectivity.edge_of.empty());
   EXPECT_TRUE(connectivity.opposite.empty());
-  EXPECT_EQ(neighbors(connectivity.edges, 0).start, std::vector<int>{0});
+  EXPECT_EQ(vertex_neighbors(connectivity.edges, 0).start, std::vector<int>{0});
 }
 
 RC_GTEST_PROP(Connectivity, DoesNotDependOnTheNumbersOfVerticesAndFaces, (std::uint32_t seed)) {

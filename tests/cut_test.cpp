@@ -61,7 +61,7 @@ std::string fault_in_faces(const Mesh& mesh, const CutMesh& cut) {
 /// The half-edges of the boundary, in its order; fewer where consecutive vertices are joined by none.
 std::vector<int> boundary_halfedges(const CutMesh& cut) {
   std::map<std::pair<int, int>, int> halfedge;
-  for (int h = 0; h < cut.F.size(); ++h) halfedge[{origin(cut.F, h), target(cut.F, h)}] = h;
+  for (int h = 0; h < cut.F.size(); ++h) halfedge[{halfedge_origin(cut.F, h), halfedge_target(cut.F, h)}] = h;
   std::vector<int> result;
   for (std::size_t k = 0; k < cut.boundary.size(); ++k) {
     const auto at = halfedge.find({cut.boundary[k], cut.boundary[(k + 1) % cut.boundary.size()]});
@@ -85,7 +85,7 @@ int component_count(int faces, const std::vector<std::pair<int, int>>& glued) {
 /// Connected, of Euler characteristic 1, with one boundary curve that meets no vertex twice, and glued like
 /// the input everywhere else.
 std::string fault_in_disk(const Mesh& mesh, const CutMesh& cut) {
-  const std::vector<int> opposite = connect(mesh.F, vertex_count(mesh)).opposite;
+  const std::vector<int> opposite = connectivity_of(mesh.F, vertex_count(mesh)).opposite;
   const std::vector<int> around = boundary_halfedges(cut);
   const std::set<int> outer(around.begin(), around.end());
   const int b = static_cast<int>(cut.boundary.size()), halfedges = static_cast<int>(cut.F.size());
@@ -100,7 +100,9 @@ std::string fault_in_disk(const Mesh& mesh, const CutMesh& cut) {
       continue;
     }
     if (o < 0 || outer.count(o)) return "there is a boundary beside the boundary";
-    if (origin(cut.F, o) != target(cut.F, h) || target(cut.F, o) != origin(cut.F, h)) return "a gap is open";
+    if (halfedge_origin(cut.F, o) != halfedge_target(cut.F, h) ||
+        halfedge_target(cut.F, o) != halfedge_origin(cut.F, h))
+      return "a gap is open";
     glued.emplace_back(h / 3, o / 3);
   }
   if (component_count(face_count(mesh), glued) != 1) return "the mesh falls apart";
@@ -222,7 +224,7 @@ TEST(Cut, AddsOneCopyForEveryInnerVertexOfThePath) {
 
 TEST(Cut, BetweenTwoMarksIsAShortestPath) {
   const Mesh mesh = test::perturbed(test::icosphere(2), 0.03, 4);
-  const Connectivity connectivity = connect(mesh.F, vertex_count(mesh));
+  const Connectivity connectivity = connectivity_of(mesh.F, vertex_count(mesh));
   const EdgeGraph graph = edge_length_graph(test::unjudged(mesh));
   const CutMesh cut = cut_open(mesh, {0, 11});
   double length = 0;
@@ -336,9 +338,9 @@ RC_GTEST_PROP(Cut, OfADiskArrangesAnyMarksAlongTheBoundary, (std::uint32_t seed)
 
 std::vector<char> on_boundary(const Mesh& mesh) {
   std::vector<char> result(vertex_count(mesh), 0);
-  const Connectivity connectivity = connect(mesh.F, vertex_count(mesh));
+  const Connectivity connectivity = connectivity_of(mesh.F, vertex_count(mesh));
   for (int h = 0; h < mesh.F.size(); ++h)
-    if (connectivity.opposite[h] < 0) result[origin(mesh.F, h)] = 1;
+    if (connectivity.opposite[h] < 0) result[halfedge_origin(mesh.F, h)] = 1;
   return result;
 }
 
@@ -487,9 +489,10 @@ std::string fault_in_projective_plane(const Mesh& mesh, int mark, std::uint64_t 
   if (fault.empty()) fault = fault_in_disk(turned, cut);
   if (fault.empty()) fault = fault_in_arrangement(cut, {mark});
   if (fault.empty()) fault = fault_in_loop(cut, mark);
-  const Connectivity connectivity = connect(mesh.F, vertex_count(mesh));
+  const Connectivity connectivity = connectivity_of(mesh.F, vertex_count(mesh));
   for (int h = 0; h < cut.F.size() && fault.empty(); ++h) {
-    const auto [i, j] = std::minmax(cut.source_vertex[origin(cut.F, h)], cut.source_vertex[target(cut.F, h)]);
+    const auto [i, j] = std::minmax(cut.source_vertex[halfedge_origin(cut.F, h)],
+                                    cut.source_vertex[halfedge_target(cut.F, h)]);
     if (connectivity.edges[cut.edge_of[h]] != std::array<int, 2>{i, j})
       fault = "a half-edge is of another edge";
   }
@@ -553,7 +556,7 @@ TEST(Cut, NoMarkOrTwoOnAProjectivePlaneAreRefused) {
 TEST(Cut, EdgeLengthsArePositiveAndAlmostThoseInSpace) {
   Mesh mesh = test::icosphere(1);
   mesh.V.row(0) = mesh.V.row(mesh.F(0, 1));  // an edge of length zero
-  const Connectivity connectivity = connect(mesh.F, vertex_count(mesh));
+  const Connectivity connectivity = connectivity_of(mesh.F, vertex_count(mesh));
   const EdgeGraph graph = edge_length_graph(test::unjudged(mesh));
   ASSERT_EQ(graph.length.size(), connectivity.edges.size());
   EXPECT_EQ(graph.vertex_count(), vertex_count(mesh));

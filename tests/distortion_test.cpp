@@ -17,10 +17,10 @@ namespace orbitutte {
 namespace {
 
 // A map to the sphere is all that distortion asks for: seams and cones stay empty.
-Embedding onto(const Points& positions, const Faces& faces) {
+Embedding onto(const Points& positions, const Triangles& faces) {
   Embedding embedding;
   embedding.positions = positions;
-  embedding.faces = faces;
+  embedding.triangles = faces;
   embedding.source_vertex.resize(positions.rows());
   std::iota(embedding.source_vertex.begin(), embedding.source_vertex.end(), 0);
   return embedding;
@@ -88,7 +88,7 @@ TEST(Distortion, SourceThatIsTheEmbeddedTileItselfHasNone) {
   for (const char* signature : {"532", "*532", "12,12"}) {
     const test::SampleEmbedding& sample = test::sample_embedding(signature);
     // Cut open: the tile's vertices are a mesh of their own.
-    const Mesh tile = {sample.embedding().positions, sample.embedding().faces};
+    const Mesh tile = {sample.embedding().positions, sample.embedding().triangles};
     const Distortion distortion = measure_distortion(test::unjudged(tile), onto(tile.V, tile.F));
     EXPECT_EQ(distortion.measured_faces, test::face_count(tile)) << signature;
     EXPECT_NEAR(distortion.area.median, 1, 0.03) << signature;
@@ -278,7 +278,8 @@ TEST(Distortion, MapsThatAreTurnedOverOrCollapsedAreMeasuredWithoutACrash) {
   embedding.positions.setConstant(std::numeric_limits<double>::quiet_NaN());
   EXPECT_EQ(measure_distortion(test::unjudged(sample.mesh), embedding).measured_faces, 0);
   embedding = sample.embedding();
-  embedding.faces.topRows(200).col(1).swap(embedding.faces.topRows(200).col(2));  // more than half of it
+  embedding.triangles.topRows(200).col(1).swap(
+      embedding.triangles.topRows(200).col(2));  // more than half of it
   const Distortion distortion = measure_distortion(test::unjudged(sample.mesh), embedding);
   EXPECT_EQ(distortion.measured_faces, test::face_count(sample.mesh) - 200);
   EXPECT_GE(distortion.area.mean, 1);
@@ -341,7 +342,8 @@ TEST(Distortion, HistogramIsOpenAtBothEnds) {
 TEST(Distortion, IsTheMeanOverTheFaces) {
   const test::SampleEmbedding& sample = test::sample_embedding("432");
   double area = 0, angle = 0;
-  const std::vector<FaceDistortion> faces = measure_faces(test::unjudged(sample.mesh), sample.embedding());
+  const std::vector<FaceDistortion> faces =
+      measure_triangles(test::unjudged(sample.mesh), sample.embedding());
   for (const FaceDistortion& face : faces) area += std::max(face.area, 1 / face.area), angle += face.angle;
   EXPECT_NEAR(area / static_cast<double>(faces.size()), sample.result.distortion.area.mean, 1e-9);
   EXPECT_NEAR(angle / static_cast<double>(faces.size()), sample.result.distortion.angle.mean, 1e-9);

@@ -40,7 +40,7 @@ EmbedResult embedded(const Mesh& mesh, const std::string& signature, const std::
 }
 
 std::string failures(const EmbedResult& result) {
-  std::string text = name(result.minimum.termination);
+  std::string text = name_of(result.minimum.termination);
   for (const Check& check : result.certificate.checks)
     if (!check.passed) text += "; " + check.name + ": " + check.detail;
   return text;
@@ -219,7 +219,7 @@ TEST(Embed, CornersMayBeGivenInEitherDirection) {
 
 TEST(Embed, ConeNextToTheBoundaryIsEmbedded) {
   const Mesh mesh = test::sample_mesh_for(parse_orbifold("3*2"));
-  const std::vector<std::array<int, 2>> edges = connect(mesh.F, test::vertex_count(mesh)).edges;
+  const std::vector<std::array<int, 2>> edges = connectivity_of(mesh.F, test::vertex_count(mesh)).edges;
   int found = 0;
   for (std::size_t e = 0; e < edges.size() && found < 3; e += 7) {
     const auto [inner, outer] = edges[e];
@@ -270,7 +270,7 @@ TEST(Embed, CornerWithASingleFaceIsEmbedded) {
 
 TEST(Embed, DiskWithoutVerticesInsideHasNoConeToChoose) {
   try {
-    choose_marked_vertices(test::grid_disk(5, 1), parse_orbifold("3*2"));
+    choose_cones(test::grid_disk(5, 1), parse_orbifold("3*2"));
     FAIL();
   } catch (const MeshError& error) {
     EXPECT_STREQ(error.what(), "one vertex has to be marked inside the surface, but all are on its boundary");
@@ -323,8 +323,8 @@ TEST(Embed, RenumberingVerticesAndFacesChangesNothing) {
     const EmbedResult other = embedded(mesh, signature, marks);
     expect_certified(other, signature);
     const auto length = [](const Embedding& e, int f, int k) {
-      return Space::sphere().distance(e.positions.row(e.faces(f, k)),
-                                      e.positions.row(e.faces(f, (k + 1) % 3)));
+      return Space::sphere().distance(e.positions.row(e.triangles(f, k)),
+                                      e.positions.row(e.triangles(f, (k + 1) % 3)));
     };
     double worst = 0;
     for (int f = 0; f < test::face_count(mesh); ++f)
@@ -390,7 +390,7 @@ TEST(Embed, BackendsAgree) {
       expect_certified(other, signature);
       EXPECT_EQ(other.backend, backend);
       EXPECT_LT((other.embedding.positions - sample.embedding().positions).cwiseAbs().maxCoeff(), 1e-9)
-          << signature << " " << name(backend);
+          << signature << " " << name_of(backend);
     }
   }
 }
@@ -607,13 +607,13 @@ TEST(Embed, ChosenMarksAreDifferentAndWhereTheyHaveToBe) {
     std::sort(marks.begin(), marks.end());
     EXPECT_EQ(std::adjacent_find(marks.begin(), marks.end()), marks.end());
   }
-  EXPECT_THROW(choose_marked_vertices(test::round_disk(2), parse_orbifold("532")), MeshError);
+  EXPECT_THROW(choose_cones(test::round_disk(2), parse_orbifold("532")), MeshError);
 }
 
 // --- many embeddings of one mesh, any number of threads
 
 bool same(const EmbedResult& a, const EmbedResult& b) {
-  return a.embedding.positions == b.embedding.positions && a.embedding.faces == b.embedding.faces &&
+  return a.embedding.positions == b.embedding.positions && a.embedding.triangles == b.embedding.triangles &&
          a.minimum.energy == b.minimum.energy && a.certificate.bijective == b.certificate.bijective &&
          a.distortion.area.mean == b.distortion.area.mean &&
          a.distortion.angle.mean == b.distortion.angle.mean;
@@ -624,7 +624,7 @@ TEST(EmbeddingSolver, GivesWhatSeparateEmbeddingsGive) {
   EmbedOptions options;
   options.laplacian.block_size = 300;  // several blocks, some of which the cuts below do not meet
   EmbeddingSolver solver(sphere, options);
-  const std::vector<int> marks = choose_marked_vertices(sphere, parse_orbifold("432"));
+  const std::vector<int> marks = choose_cones(sphere, parse_orbifold("432"));
   const std::vector<int> others = {marks[0], marks[1], sphere.F(700, 0)};
   for (const auto& [signature, cones] :
        {std::pair("432", marks), std::pair("532", marks), std::pair("432", others), std::pair("222", others),
@@ -639,8 +639,8 @@ TEST(EmbeddingSolver, GivesWhatSeparateEmbeddingsOfADiskGive) {
   EmbedOptions options;
   options.laplacian.block_size = 300;
   EmbeddingSolver solver(disk, options);
-  const std::vector<int> around = choose_marked_vertices(disk, parse_orbifold("*432"));
-  const std::vector<int> cones = choose_marked_vertices(disk, parse_orbifold("3*2"));
+  const std::vector<int> around = choose_cones(disk, parse_orbifold("*432"));
+  const std::vector<int> cones = choose_cones(disk, parse_orbifold("3*2"));
   for (const auto& [signature, marks] :
        {std::pair("3*2", cones), std::pair("*432", around), std::pair("2*5", cones),
         std::pair("5*", std::vector<int>{cones[0]}), std::pair("3*2", cones)})
@@ -651,8 +651,7 @@ TEST(EmbeddingSolver, GivesWhatSeparateEmbeddingsOfADiskGive) {
 
 TEST(EmbeddingSolver, ChecksTheSameMarksForEveryOrbifold) {
   EmbeddingSolver solver(test::round_disk(8));
-  const std::vector<int> inside_and_outside =
-      choose_marked_vertices(test::round_disk(8), parse_orbifold("2*3"));
+  const std::vector<int> inside_and_outside = choose_cones(test::round_disk(8), parse_orbifold("2*3"));
   EXPECT_TRUE(solver.embed(parse_orbifold("2*3"), inside_and_outside).certificate.bijective);
   EXPECT_THROW(solver.embed(parse_orbifold("*33"), inside_and_outside), MeshError);
   EXPECT_TRUE(solver.embed(parse_orbifold("3*2"), inside_and_outside).certificate.bijective);
@@ -665,7 +664,7 @@ TEST(Embed, DoesNotDependOnTheNumberOfThreads) {
     const Target orbifold = parse_orbifold(signature);
     const Mesh mesh = orbifold.topology == Topology::sphere ? test::perturbed(test::icosphere(5), 0.01, 6)
                                                             : test::perturbed(test::round_disk(50), 0.01, 6);
-    const std::vector<int> marks = choose_marked_vertices(mesh, orbifold);
+    const std::vector<int> marks = choose_cones(mesh, orbifold);
     EmbedOptions options;
     options.laplacian.block_size = 2000;
     options.threads = 1;

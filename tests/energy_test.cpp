@@ -43,7 +43,7 @@ TEST(Energy, OfRegularSolidsIsKnown) {
   const Surface surface = make_surface(octahedron);
   Embedding embedding;  // into the sphere, cut nowhere
   embedding.positions = octahedron.V;
-  embedding.faces = octahedron.F;
+  embedding.triangles = octahedron.F;
   embedding.source_vertex = {0, 1, 2, 3, 4, 5};
   WeightOptions uniform;
   uniform.kind = WeightKind::uniform;

@@ -44,7 +44,7 @@ Vector2d uv(const TextureCoordinates& texture, Eigen::Index f, int k) {
 }
 
 Vector3 corner(const Embedding& embedding, Eigen::Index f, int k) {
-  return embedding.positions.row(embedding.faces(f, k));
+  return embedding.positions.row(embedding.triangles(f, k));
 }
 
 /// The points of the sphere whose longitude and latitude, or place on the unfolded octahedron, these are.
@@ -68,7 +68,7 @@ TEST(TextureChart, LongitudesAndOctahedraLeadBackToTheSphere) {
     const Embedding& embedding = test::sample_embedding(signature).embedding();
     const TextureCoordinates longitudes = texture_coordinates(embedding, TextureChart::equirectangular),
                              octahedron = texture_coordinates(embedding, TextureChart::octahedral);
-    for (Eigen::Index f = 0; f < embedding.faces.rows(); ++f) {
+    for (Eigen::Index f = 0; f < embedding.triangles.rows(); ++f) {
       for (int k = 0; k < 3; ++k) {
         const int l = (k + 1) % 3;
         const double expected = corner(embedding, f, k).dot(corner(embedding, f, l));
@@ -90,10 +90,10 @@ TEST(TextureChart, StereographicCoordinatesKeepCrossRatios) {
     const auto ratio = [](const auto& a, const auto& b, const auto& c, const auto& d) {
       return (a - b).norm() * (c - d).norm() / ((a - c).norm() * (b - d).norm());
     };
-    for (Eigen::Index f = 0; f + 7 < embedding.faces.rows(); f += 5) {
+    for (Eigen::Index f = 0; f + 7 < embedding.triangles.rows(); f += 5) {
       const Eigen::Index g = f + 7;
-      if (embedding.faces(g, 0) == embedding.faces(f, 1) || embedding.faces(g, 0) == embedding.faces(f, 2) ||
-          embedding.faces(g, 0) == embedding.faces(f, 0))
+      if (embedding.triangles(g, 0) == embedding.triangles(f, 1) || embedding.triangles(g, 0) == embedding.triangles(f, 2) ||
+          embedding.triangles(g, 0) == embedding.triangles(f, 0))
         continue;
       const double flat = ratio(uv(texture, f, 0), uv(texture, f, 1), uv(texture, f, 2), uv(texture, g, 0));
       const double round = ratio(corner(embedding, f, 0), corner(embedding, f, 1), corner(embedding, f, 2),
@@ -143,8 +143,8 @@ TEST(TextureChart, SmallTilesAreHardlyDistorted) {
 }
 
 TEST(TextureChart, NamesAreRead) {
-  for (const TextureChart chart : charts) EXPECT_EQ(parse_texture_chart(name(chart)), chart);
-  EXPECT_THROW(parse_texture_chart("mercator"), ArgumentError);
+  for (const TextureChart chart : charts) EXPECT_EQ(parse_choice<TextureChart>(name_of(chart), "chart"), chart);
+  EXPECT_THROW(parse_choice<TextureChart>("mercator", "chart"), ArgumentError);
 }
 
 /// The faces of the input.
@@ -250,7 +250,7 @@ ExportedModel polygon_model(const std::string& signature, TextureChart chart = T
   const Target orbifold = parse_orbifold(signature);
   EmbedOptions options;
   options.weights.kind = WeightKind::uniform;
-  const EmbedResult result = embed(mesh, orbifold, choose_marked_vertices(mesh, orbifold), options);
+  const EmbedResult result = embed(mesh, orbifold, choose_cones(mesh, orbifold), options);
   return exported_model(test::unjudged(mesh), result.embedding, chart);
 }
 

@@ -24,10 +24,10 @@ using test::vertex_count;
 
 /// On the boundary, or anywhere where there is none.
 std::vector<int> extremities_of(const Mesh& mesh, int count) {
-  const Connectivity connectivity = connect(mesh.F, vertex_count(mesh));
+  const Connectivity connectivity = connectivity_of(mesh.F, vertex_count(mesh));
   const std::vector<int>& opposite = connectivity.opposite;
   const bool closed = std::find(opposite.begin(), opposite.end(), -1) == opposite.end();
-  return extremities(test::unjudged(mesh), {closed ? count : 0, closed ? 0 : count});
+  return choose_extremities(test::unjudged(mesh), {closed ? count : 0, closed ? 0 : count});
 }
 
 EdgeGraph graph_of(const Mesh& mesh) { return edge_length_graph(test::unjudged(mesh)); }
@@ -35,10 +35,10 @@ EdgeGraph graph_of(const Mesh& mesh) { return edge_length_graph(test::unjudged(m
 std::vector<int> all_vertices(const Mesh& mesh) { return test::permutation(vertex_count(mesh), 0); }
 
 std::vector<int> boundary_vertices(const Mesh& mesh) {
-  const Connectivity connectivity = connect(mesh.F, vertex_count(mesh));
+  const Connectivity connectivity = connectivity_of(mesh.F, vertex_count(mesh));
   std::set<int> result;
   for (int h = 0; h < mesh.F.size(); ++h)
-    if (connectivity.opposite[h] < 0) result.insert(origin(mesh.F, h));
+    if (connectivity.opposite[h] < 0) result.insert(halfedge_origin(mesh.F, h));
   return {result.begin(), result.end()};
 }
 
@@ -101,7 +101,7 @@ TEST(Extremities, OfADiskAreOnItsBoundary) {
 
 TEST(Extremities, InsideADiskAreFarFromItsBoundary) {
   for (const Mesh& mesh : {test::grid_disk(6, 4), test::round_disk(5)}) {
-    const std::vector<int> chosen = extremities(test::unjudged(mesh), {1, 1});
+    const std::vector<int> chosen = choose_extremities(test::unjudged(mesh), {1, 1});
     ASSERT_EQ(chosen.size(), 2u);
     const std::vector<double> from_boundary = distances(graph_of(mesh), boundary_vertices(mesh));
     EXPECT_EQ(from_boundary[chosen[0]], *std::max_element(from_boundary.begin(), from_boundary.end()));
@@ -158,7 +158,7 @@ TEST(Extremities, TooFewVerticesAreRefused) {
   };
   EXPECT_EQ(refusal(test::tetrahedron(), 4), "");
   EXPECT_EQ(refusal(test::tetrahedron(), 5), "5 vertices have to be marked, but only 4 can be");
-  EXPECT_THROW(extremities(test::unjudged(test::grid_disk(5, 1)), {1, 0}), MeshError);
+  EXPECT_THROW(choose_extremities(test::unjudged(test::grid_disk(5, 1)), {1, 0}), MeshError);
   EXPECT_EQ(refusal(test::round_disk(1), 6), "");
   EXPECT_EQ(refusal(test::round_disk(1), 7), "7 vertices have to be marked, but only 6 can be");
 }
@@ -172,14 +172,14 @@ TEST(Extremities, AreNoNeighboursWhereThatIsAskedForAndPossible) {
   for (const int far : {0, 2, 4}) {
     Mesh mesh = needle;
     mesh.V.row(far) *= 10;
-    const Connectivity connectivity = connect(mesh.F, 6);
-    EXPECT_FALSE(are_joined(connectivity, extremities(test::unjudged(mesh), {2, 0, true})));
+    const Connectivity connectivity = connectivity_of(mesh.F, 6);
+    EXPECT_FALSE(are_joined(connectivity, choose_extremities(test::unjudged(mesh), {2, 0, true})));
   }
   const Mesh tetrahedron = test::tetrahedron();  // all are neighbours
-  EXPECT_EQ(extremities(test::unjudged(tetrahedron), {2, 0, true}).size(), 2u);
+  EXPECT_EQ(choose_extremities(test::unjudged(tetrahedron), {2, 0, true}).size(), 2u);
   const Mesh disk = test::round_disk(3);
-  const Connectivity of_disk = connect(disk.F, vertex_count(disk));
-  EXPECT_FALSE(are_joined(of_disk, extremities(test::unjudged(disk), {0, 2, true})));
+  const Connectivity of_disk = connectivity_of(disk.F, vertex_count(disk));
+  EXPECT_FALSE(are_joined(of_disk, choose_extremities(test::unjudged(disk), {0, 2, true})));
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ namespace {
 
 Neighbors graph_of(const Mesh& mesh) {
   const int n = test::vertex_count(mesh);
-  return neighbors(connect(mesh.F, n).edges, n);
+  return vertex_neighbors(connectivity_of(mesh.F, n).edges, n);
 }
 
 SparseMatrix lower_part(const Eigen::MatrixXd& A) {
@@ -171,12 +171,12 @@ TEST(SparseFactor, ForwardAndBackwardSolveAroundTheSchurComplement) {
   const Points b = Points::Random(n, 3);
   for (const Backend backend : available_backends()) {
     const auto factor = factorize(lower_part(A), backend, trailing);
-    EXPECT_LT(lower_difference(factor->schur_complement(), S), 1e-12) << name(backend);
+    EXPECT_LT(lower_difference(factor->schur_complement(), S), 1e-12) << name_of(backend);
     Points y = b;
     factor->forward(y);
     y.bottomRows(trailing) = S.inverse() * y.bottomRows(trailing);
     factor->backward(y);
-    EXPECT_LT((A * y - b).cwiseAbs().maxCoeff(), 1e-11) << name(backend);
+    EXPECT_LT((A * y - b).cwiseAbs().maxCoeff(), 1e-11) << name_of(backend);
   }
 }
 
@@ -184,7 +184,7 @@ TEST(SparseFactor, BackendsAgreeAndSolve) {
   const Eigen::MatrixXd A = random_definite(200, 0.02), B = Eigen::MatrixXd::Random(200, 3);
   for (const Backend backend : available_backends())
     EXPECT_LT((A * factorize(lower_part(A), backend)->solve(B) - B).cwiseAbs().maxCoeff(), 1e-11)
-        << name(backend);
+        << name_of(backend);
 }
 
 TEST(SparseFactor, RefusesIndefiniteMatrices) {
@@ -238,14 +238,14 @@ TEST(Substructure, SolvesAlongTheWholeTree) {
   const Points b = Points::Random(s.count, 3);
   for (const Backend backend : available_backends()) {
     const Substructure factor(s.lower, s.blocks, backend);
-    EXPECT_LT(lower_difference(factor.schur_complement(), s.border), 1e-11) << name(backend);
+    EXPECT_LT(lower_difference(factor.schur_complement(), s.border), 1e-11) << name_of(backend);
     EXPECT_EQ(factor.schur_complement(), Eigen::MatrixXd(factor.schur_complement().transpose()));
     Points y = b;
     factor.forward(y);
     y.bottomRows(20) = factor.schur_complement().inverse() * y.bottomRows(20);
     factor.backward(y);
     EXPECT_LT((s.lower.selfadjointView<Eigen::Lower>() * y - b).cwiseAbs().maxCoeff(), 1e-11)
-        << name(backend);
+        << name_of(backend);
   }
 }
 
@@ -273,7 +273,7 @@ TEST(Substructure, NamesTheUnknownThatNothingHolds) {
   for (const Backend backend : available_backends()) {
     try {
       const Substructure factor(s.lower, s.blocks, backend);
-      FAIL() << name(backend);
+      FAIL() << name_of(backend);
     } catch (const NotPositiveDefinite& error) {
       if (backend == Backend::cholmod) EXPECT_EQ(error.column, loose);
     }

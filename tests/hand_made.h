@@ -71,9 +71,9 @@ class Builder {
   }
 
   void face(int a, int b, int c) {
-    const Eigen::Index f = embedding.faces.rows();
-    embedding.faces.conservativeResize(f + 1, 3);
-    embedding.faces.row(f) << a, b, c;
+    const Eigen::Index f = embedding.triangles.rows();
+    embedding.triangles.conservativeResize(f + 1, 3);
+    embedding.triangles.row(f) << a, b, c;
   }
 
   TriangleGrid triangle(const Vector3& a, const Vector3& b, const Vector3& c, int n) {

@@ -41,10 +41,10 @@ MatrixXd random_sparse(int n, std::uint32_t seed) {
 TEST(Inertia, OfADiagonalMatrixIsRead) {
   const MatrixXd A = VectorXd::LinSpaced(7, -3, 3).asDiagonal();
   for (const InertiaMethod method : available_inertia_methods()) {
-    EXPECT_EQ(below(A, -3.5, method), 0) << name(method);
-    EXPECT_EQ(below(A, -0.5, method), 3) << name(method);
-    EXPECT_EQ(below(A, 0.5, method), 4) << name(method);
-    EXPECT_EQ(below(A, 10, method), 7) << name(method);
+    EXPECT_EQ(below(A, -3.5, method), 0) << name_of(method);
+    EXPECT_EQ(below(A, -0.5, method), 3) << name_of(method);
+    EXPECT_EQ(below(A, 0.5, method), 4) << name_of(method);
+    EXPECT_EQ(below(A, 10, method), 7) << name_of(method);
   }
 }
 
@@ -57,7 +57,7 @@ TEST(Inertia, IsThatOfTheEigenvalues) {
       const auto counter = inertia_counter(lower_triangle(A), scale, method);
       for (const double shift : {-1.3, -0.2, 0.1, 0.77, 2.0})
         EXPECT_EQ(counter->eigenvalues_below(shift), (eigen.eigenvalues().array() < shift).count())
-            << name(method) << " " << seed << " " << shift;
+            << name_of(method) << " " << seed << " " << shift;
     }
   }
 }
@@ -78,7 +78,7 @@ TEST(Inertia, WithoutPivotingABreakdownIsToldAndNotGuessed) {
   larger.topLeftCorner(2, 2) = A;
   for (const InertiaMethod method : available_inertia_methods()) {
     if (method == InertiaMethod::eigen) continue;
-    EXPECT_EQ(below(larger, 0, method), 1) << name(method);
+    EXPECT_EQ(below(larger, 0, method), 1) << name_of(method);
   }
 }
 

@@ -187,7 +187,7 @@ TEST(InspectionDefect, DuplicateFacesAreFoundInAnyRotationAndDirectionAndBringNo
 
 TEST(InspectionDefect, ADiskWithTwoSidesIsNothingButDuplicates) {
   Mesh mesh = test::grid_disk(3, 3);
-  Faces back = mesh.F.rowwise().reverse();
+  Triangles back = mesh.F.rowwise().reverse();
   mesh.F.conservativeResize(36, 3);
   mesh.F.bottomRows(18) = back;
   expect_only(inspect(mesh), DefectKind::duplicate_face, 18,
@@ -347,9 +347,9 @@ TEST(InspectionDefect, RequireEmbeddableThrowsTheFirstSentence) {
 }
 
 TEST(InspectionDefect, EveryKindHasItsName) {
-  EXPECT_EQ(name(DefectKind::empty_mesh), "empty_mesh");
-  EXPECT_EQ(name(DefectKind::non_manifold_edge), "non_manifold_edge");
-  EXPECT_EQ(name(DefectKind::not_orientable), "not_orientable");
+  EXPECT_EQ(name_of(DefectKind::empty_mesh), "empty_mesh");
+  EXPECT_EQ(name_of(DefectKind::non_manifold_edge), "non_manifold_edge");
+  EXPECT_EQ(name_of(DefectKind::not_orientable), "not_orientable");
 }
 
 TEST(InspectionDefect, OffsetsThatDoNotFitTheCornersAreRefused) {

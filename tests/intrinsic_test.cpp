@@ -23,7 +23,7 @@ namespace {
 using std::numbers::pi;
 using test::vertex_count;
 
-Connectivity connectivity_of(const Mesh& mesh) { return connect(mesh.F, vertex_count(mesh)); }
+Connectivity connectivity_of(const Mesh& mesh) { return connectivity_of(mesh.F, vertex_count(mesh)); }
 
 IntrinsicTriangulation unflipped(const Mesh& mesh) { return intrinsic_triangulation(test::unjudged(mesh)); }
 
@@ -67,7 +67,7 @@ double angle(const IntrinsicTriangulation& T, int h) {
 
 std::vector<double> angle_sums(const IntrinsicTriangulation& T, int vertices) {
   std::vector<double> sums(vertices, 0.0);
-  for (int h = 0; h < static_cast<int>(T.F.size()); ++h) sums[origin(T.F, h)] += angle(T, h);
+  for (int h = 0; h < static_cast<int>(T.F.size()); ++h) sums[halfedge_origin(T.F, h)] += angle(T, h);
   return sums;
 }
 
@@ -86,15 +86,15 @@ void expect_sound(const IntrinsicTriangulation& T, const Mesh& mesh) {
   }
   for (int h = 0; h < static_cast<int>(T.F.size()); ++h) {
     const auto [i, j] = T.connectivity.edges[T.connectivity.edge_of[h]];
-    EXPECT_EQ(std::minmax(i, j), std::minmax(origin(T.F, h), target(T.F, h)));
+    EXPECT_EQ(std::minmax(i, j), std::minmax(halfedge_origin(T.F, h), halfedge_target(T.F, h)));
     const int g = T.connectivity.opposite[h];
     if (g < 0) continue;
     EXPECT_EQ(T.connectivity.opposite[g], h);
     EXPECT_EQ(T.connectivity.edge_of[g], T.connectivity.edge_of[h]);
-    EXPECT_EQ(origin(T.F, g), target(T.F, h));
+    EXPECT_EQ(halfedge_origin(T.F, g), halfedge_target(T.F, h));
   }
   // What connects the faces anew finds the same surface.
-  const Connectivity anew = connect(T.F, vertex_count(mesh)), before = connectivity_of(mesh);
+  const Connectivity anew = connectivity_of(T.F, vertex_count(mesh)), before = connectivity_of(mesh);
   EXPECT_EQ(anew.edges.size(), before.edges.size());
   EXPECT_EQ(std::count(anew.opposite.begin(), anew.opposite.end(), -1),
             std::count(before.opposite.begin(), before.opposite.end(), -1));
@@ -169,7 +169,7 @@ TEST(IntrinsicDelaunay, CotangentsReproduceLinearFunctionsOfThePlane) {
     pull.row(j) += w[e] * (mesh.V.row(i) - mesh.V.row(j));
   }
   for (int h = 0; h < static_cast<int>(T.F.size()); ++h)
-    if (T.connectivity.opposite[h] < 0) outer[origin(T.F, h)] = outer[target(T.F, h)] = 1;
+    if (T.connectivity.opposite[h] < 0) outer[halfedge_origin(T.F, h)] = outer[halfedge_target(T.F, h)] = 1;
   for (Eigen::Index v = 0; v < pull.rows(); ++v)
     if (!outer[v]) EXPECT_LT(pull.row(v).norm(), 1e-5) << v;
 }
@@ -177,7 +177,7 @@ TEST(IntrinsicDelaunay, CotangentsReproduceLinearFunctionsOfThePlane) {
 TEST(IntrinsicDelaunay, LeavesNoVertexOfTheBoundaryWithASingleFace) {
   for (const std::uint32_t seed : {1, 2, 3, 4, 5}) {
     const Mesh mesh = test::perturbed(test::grid_disk(9, 9), 0.45, seed);
-    const auto ears = [&](const Faces& F) {
+    const auto ears = [&](const Triangles& F) {
       std::vector<int> faces(vertex_count(mesh), 0);
       for (const int v : F.reshaped()) ++faces[v];
       return std::count(faces.begin(), faces.end(), 1);
@@ -307,7 +307,8 @@ TEST(MeanValueWeights, AreTheMeanOfThoseThatReproduceLinearFunctions) {
   Eigen::MatrixXd m = Eigen::MatrixXd::Zero(n, n);
   std::vector<char> outer(n, 0);
   for (int h = 0; h < static_cast<int>(flat.F.size()); ++h) {
-    const int i = origin(flat.F, h), j = target(flat.F, h), k = origin(flat.F, previous_halfedge(h));
+    const int i = halfedge_origin(flat.F, h), j = halfedge_target(flat.F, h),
+              k = halfedge_origin(flat.F, previous_halfedge(h));
     m(i, j) += half_tangent(i, j, k) / (at(i) - at(j)).norm();
     m(i, k) += half_tangent(i, j, k) / (at(i) - at(k)).norm();
     if (connectivity.opposite[h] < 0) outer[i] = outer[j] = 1;
@@ -337,7 +338,7 @@ TEST(MeanValueWeights, AreTheMeanOfThoseThatReproduceLinearFunctions) {
 double angle_sum(const IntrinsicTriangulation& T, int v) {
   double sum = 0;
   for (int h = 0; h < static_cast<int>(T.F.size()); ++h)
-    if (origin(T.F, h) == v) sum += angle(T, h);
+    if (halfedge_origin(T.F, h) == v) sum += angle(T, h);
   return sum;
 }
 
@@ -395,7 +396,7 @@ bool joins(const Connectivity& connectivity, int v, int w) {
 
 // Two flat pyramids over one triangle: its edges are not Delaunay, and a flip joins the apices.
 Mesh flat_bipyramid() {
-  Mesh mesh{Points(5, 3), Faces(6, 3)};
+  Mesh mesh{Points(5, 3), Triangles(6, 3)};
   mesh.V << 0, 0, 0.2, 0, 0, -0.2, 1, 0, 0, -0.5, 0.9, 0, -0.5, -0.9, 0;
   mesh.F << 0, 2, 3, 0, 3, 4, 0, 4, 2, 1, 3, 2, 1, 4, 3, 1, 2, 4;
   return mesh;
@@ -468,7 +469,7 @@ std::unique_ptr<test::SolveCase> intrinsic_case(const std::string& signature,
   test::SolveCase& c = *result;
   const bool sphere = c.orbifold.topology == Topology::sphere;
   c.mesh = test::perturbed(sphere ? test::icosphere(2) : test::round_disk(7), sphere ? 0.13 : 0.07, 7);
-  c.marks = choose_marked_vertices(c.mesh, c.orbifold);
+  c.marks = choose_cones(c.mesh, c.orbifold);
   c.weights = sharpened_at_cones(delaunay_weights(c.mesh), cones_of(c.orbifold, c.marks));
   c.cut = cut_to_disk(test::unjudged(c.mesh), c.marks, c.orbifold.inner_marks, options);
   c.tile = basic_tile(c.orbifold, c.cut.arrangement);
@@ -506,7 +507,7 @@ TEST_P(FlippedEdges, GoAroundEveryFaceToTheIdentity) {
   EXPECT_GT(T.flips.size(), 3u);
   const auto along = [&](int h) {
     const auto [i, j, t] = c->glued.edges[T.connectivity.edge_of[h]];
-    return i == origin(T.F, h) ? c->glued.transforms[t] : c->glued.transforms[t].inverse();
+    return i == halfedge_origin(T.F, h) ? c->glued.transforms[t] : c->glued.transforms[t].inverse();
   };
   for (int f = 0; f < T.F.rows(); ++f) {
     const bool at_cone = std::any_of(T.F.row(f).begin(), T.F.row(f).end(),
@@ -692,7 +693,7 @@ TEST(IntrinsicEmbedding, DoesNotSlideToOneEndOfAFreeAxis) {
     const Target orbifold = parse_orbifold(signature);
     const Mesh mesh = orbifold.topology == Topology::sphere ? test::perturbed(test::icosphere(4), 0.01, 3)
                                                             : test::round_disk(24);
-    const std::vector<int> marks = choose_marked_vertices(mesh, orbifold);
+    const std::vector<int> marks = choose_cones(mesh, orbifold);
     const EmbedResult plain = embedded(mesh, signature, marks, with(WeightKind::cotan)),
                       result = embedded(mesh, signature, marks, with(WeightKind::delaunay));
     EXPECT_TRUE(result.certificate.bijective) << signature;
@@ -710,7 +711,7 @@ TEST(IntrinsicEmbedding, FacesWithoutAreaSurvive) {
       mesh.V.row(mesh.F(face, 0)) = (mesh.V.row(mesh.F(face, 1)) + mesh.V.row(mesh.F(face, 2))).eval() / 2;
       for (const WeightKind kind : {WeightKind::delaunay, WeightKind::mean_value})
         EXPECT_TRUE(embedded(mesh, signature, sample.marks, with(kind)).certificate.bijective)
-            << signature << ' ' << face << ' ' << name(kind);
+            << signature << ' ' << face << ' ' << name_of(kind);
     }
   }
 }

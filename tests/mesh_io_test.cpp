@@ -718,7 +718,7 @@ Mesh random_mesh() {
   const int n = static_cast<int>(points.size());
   const auto triangles = *rc::gen::container<std::vector<std::array<int, 3>>>(
       rc::gen::container<std::array<int, 3>>(rc::gen::inRange(0, n)));
-  Mesh mesh{Points(n, 3), Faces(triangles.size(), 3)};
+  Mesh mesh{Points(n, 3), Triangles(triangles.size(), 3)};
   for (int v = 0; v < n; ++v) mesh.V.row(v) << points[v][0], points[v][1], points[v][2];
   for (std::size_t f = 0; f < triangles.size(); ++f) {
     mesh.F.row(f) << triangles[f][0], triangles[f][1], triangles[f][2];

@@ -34,7 +34,7 @@ using Json = nlohmann::json;
 std::string scene_of(const test::SampleEmbedding& sample, const Points& colours = Points(0, 3)) {
   Surface surface = test::unjudged(sample.mesh);
   surface.colours = colours;
-  return page_scene(surface, sample.embedding(), measure_faces(surface, sample.embedding()));
+  return page_scene(surface, sample.embedding(), measure_triangles(surface, sample.embedding()));
 }
 
 constexpr const char* hostile =
@@ -142,8 +142,8 @@ TEST(HtmlText, DigitsAreGroupedByThree) {
 TEST(DisplayMesh, AMeshWithinTheLimitIsWhole) {
   const test::SampleEmbedding& sample = test::sample_embedding("432");
   const DisplayMesh display = display_mesh(test::unjudged(sample.mesh), sample.embedding());
-  EXPECT_EQ(display.fine.faces, sample.embedding().faces);
-  EXPECT_EQ(display.coarse.faces, sample.embedding().faces);
+  EXPECT_EQ(display.fine.faces, sample.embedding().triangles);
+  EXPECT_EQ(display.coarse.faces, sample.embedding().triangles);
   std::size_t banks = 0;
   for (const Seam& seam : sample.embedding().seams) banks += 2 * (seam.left.size() - 1);
   EXPECT_EQ(display.fine.outline.size(), banks);
@@ -199,7 +199,7 @@ TEST(PageScene, HoldsTheDrawnVerticesInSourceAndImage) {
     EXPECT_EQ(static_cast<int>(scene["copies"].size()), embedding.target.group_order);
     EXPECT_EQ(scene["cones"].size(), embedding.cones.size());
     EXPECT_EQ(numbers<std::uint32_t>(scene["fine"]["indices"]).size(),
-              static_cast<std::size_t>(embedding.faces.size()));
+              static_cast<std::size_t>(embedding.triangles.size()));
   }
 }
 
@@ -223,7 +223,8 @@ TEST(PageScene, BringsTheColoursOfPicturesAlong) {
   for (std::size_t c = 0; c < scene["cones"].size(); ++c)
     EXPECT_EQ(scene["cones"][c]["colour"], hexadecimal(cone_colour(static_cast<int>(c))));
   EXPECT_EQ(scene["tile"], hexadecimal(bold_colour));
-  const std::vector<FaceDistortion> faces = measure_faces(test::unjudged(sample.mesh), sample.embedding());
+  const std::vector<FaceDistortion> faces =
+      measure_triangles(test::unjudged(sample.mesh), sample.embedding());
   for (const auto& [name, measure] : {std::pair("area", Measure::area), std::pair("angle", Measure::angle)}) {
     const Json& scale = scene["scales"][name];
     const ColourScale expected = colour_scale(measure, values_of(measure, faces));
@@ -266,7 +267,7 @@ TEST(Page, IsWellNestedHtmlThatHoldsEveryCheck) {
 TEST(Page, CountsTheFacesOfTheInput) {
   const PolygonMesh mesh = test::dual(test::icosphere(1));
   const Target orbifold = parse_orbifold("432");
-  const EmbedResult result = embed(mesh, orbifold, choose_marked_vertices(mesh, orbifold));
+  const EmbedResult result = embed(mesh, orbifold, choose_cones(mesh, orbifold));
   const std::string report = report_json(result, run);
   const std::string page = report_page({make_surface(mesh), result.embedding, report});
   EXPECT_THAT(page, HasSubstr("80 vertices and 42 faces"));
@@ -302,7 +303,7 @@ TEST(Page, FollowsTheFilesWhereTheReportClaimsOtherwise) {
 
   const test::SampleEmbedding& sample = test::sample_embedding("432");
   Embedding folded = sample.embedding();
-  folded.positions.row(folded.faces(0, 0)) *= -1;
+  folded.positions.row(folded.triangles(0, 0)) *= -1;
   const std::string page = report_page({test::unjudged(sample.mesh), folded, sample_report("432")});
   EXPECT_THAT(page, HasSubstr("Not certified"));
   EXPECT_THAT(page, HasSubstr("says otherwise"));

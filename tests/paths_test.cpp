@@ -51,7 +51,7 @@ Graph random_graph(int smallest, int largest, int odds) {
       result.graph.length.push_back(*rc::gen::inRange(0, 6));
     }
   }
-  result.graph.neighbors = neighbors(result.edges, n);
+  result.graph.neighbors = vertex_neighbors(result.edges, n);
   return result;
 }
 
@@ -113,7 +113,7 @@ bool share_only_the_first(const std::array<Path, 2>& paths) {
 }
 
 Graph graph_of(const Mesh& mesh) {
-  const Connectivity connectivity = connect(mesh.F, test::vertex_count(mesh));
+  const Connectivity connectivity = connectivity_of(mesh.F, test::vertex_count(mesh));
   return {connectivity.edges, edge_length_graph(test::unjudged(mesh))};
 }
 
@@ -197,7 +197,7 @@ RC_GTEST_PROP(Paths, PassThroughNoDeadEnd, ()) {
     rest.edges.push_back(graph.edges[e]);
     rest.graph.length.push_back(graph.graph.length[e]);
   }
-  rest.graph.neighbors = neighbors(rest.edges, n);
+  rest.graph.neighbors = vertex_neighbors(rest.edges, n);
   const double expected = all_distances(rest)[0][to];
   graph.graph.dead_end = dead_end;
   RC_ASSERT(distances(graph.graph, {0})[to] == expected);
@@ -229,7 +229,7 @@ TEST(Paths, AFirstPathThatBlocksTheSecondGivesWay) {
   // The short way from 0 to 1 runs over 3 and 4, and 2 hangs on 4 alone: 0-3-1 and 0-5-4-2 remain.
   Graph graph;
   graph.edges = {{0, 3}, {0, 5}, {1, 3}, {1, 4}, {2, 4}, {3, 4}, {4, 5}};
-  graph.graph = {neighbors(graph.edges, 6), {1, 4, 9, 1, 5, 1, 4}};
+  graph.graph = {vertex_neighbors(graph.edges, 6), {1, 4, 9, 1, 5, 1, 4}};
   const std::array<Path, 2> paths = disjoint_paths(graph.graph, 0, {1, 2});
   EXPECT_EQ(paths[0], (Path{0, 3, 1}));
   EXPECT_EQ(paths[1], (Path{0, 5, 4, 2}));
@@ -255,7 +255,7 @@ RC_GTEST_PROP(Paths, DisjointPathsExistOnEveryTriangulatedSphere, (std::uint32_t
 TEST(Paths, DisjointPathsDoNotExistThroughOneVertex) {
   // Two fans that share vertex 0 only.
   const std::vector<std::array<int, 2>> edges = {{0, 1}, {0, 2}, {0, 3}, {0, 4}, {1, 2}, {3, 4}};
-  const EdgeGraph graph = {neighbors(edges, 5), std::vector<double>(edges.size(), 1.0)};
+  const EdgeGraph graph = {vertex_neighbors(edges, 5), std::vector<double>(edges.size(), 1.0)};
   const std::array<Path, 2> paths = disjoint_paths(graph, 1, {3, 4});
   EXPECT_TRUE(paths[0].empty());
   EXPECT_TRUE(paths[1].empty());

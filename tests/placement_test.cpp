@@ -37,7 +37,7 @@ class Placement : public testing::TestWithParam<std::string> {
   void SetUp() override {
     target_ = parse_orbifold(GetParam());
     mesh_ = test::sample_mesh_for(target_);
-    marks_ = choose_marked_vertices(mesh_, target_);
+    marks_ = choose_cones(mesh_, target_);
   }
 
   EmbedResult embedded(std::uint64_t seed) const {
@@ -88,10 +88,10 @@ double largest_miss(const Mesh& mesh, const Embedding& one, const Embedding& oth
   const SurfacePoints found = PointLocator(other).locate(one.canonical_positions().topRows(n));
   double largest = 0;
   for (int v = 0; v < n; ++v) {
-    if (found.face[v] < 0) return std::numeric_limits<double>::infinity();
+    if (found.triangle[v] < 0) return std::numeric_limits<double>::infinity();
     Vector3 back = Vector3::Zero();
     for (int k = 0; k < 3; ++k)
-      back += found.barycentric(v, k) * mesh.V.row(mesh.F(found.face[v], k)).transpose();
+      back += found.barycentric(v, k) * mesh.V.row(mesh.F(found.triangle[v], k)).transpose();
     largest = std::max(largest, (back - mesh.V.row(v).transpose()).norm());
   }
   return largest;

@@ -46,18 +46,18 @@ Sample sample(const std::string& symbol, const EmbedOptions& options = with(Weig
   const Target orbifold = parse_orbifold(symbol);
   const Mesh mesh = orbifold.topology == Topology::sphere ? test::perturbed(test::icosphere(3), 0.02, 7)
                                                           : test::perturbed(test::round_disk(10), 0.02, 7);
-  const std::vector<int> marks = choose_marked_vertices(mesh, orbifold);
+  const std::vector<int> marks = choose_cones(mesh, orbifold);
   return {mesh, marks, embed(mesh, orbifold, marks, options)};
 }
 
 /// The lengths of the edges of the uncut mesh in the plane.
 Eigen::VectorXd edge_lengths(const Sample& sample) {
-  const Connectivity connectivity = connect(sample.mesh.F, test::vertex_count(sample.mesh));
+  const Connectivity connectivity = connectivity_of(sample.mesh.F, test::vertex_count(sample.mesh));
   Eigen::VectorXd lengths(static_cast<Eigen::Index>(connectivity.edges.size()));
   const Embedding& embedding = sample.result.embedding;
-  for (int h = 0; h < static_cast<int>(embedding.faces.size()); ++h)
-    lengths[connectivity.edge_of[h]] = (embedding.positions.row(origin(embedding.faces, h)) -
-                                        embedding.positions.row(target(embedding.faces, h)))
+  for (int h = 0; h < static_cast<int>(embedding.triangles.size()); ++h)
+    lengths[connectivity.edge_of[h]] = (embedding.positions.row(halfedge_origin(embedding.triangles, h)) -
+                                        embedding.positions.row(halfedge_target(embedding.triangles, h)))
                                            .norm();
   return lengths;
 }
@@ -100,7 +100,7 @@ TEST(PlaneTile, AnglesAroundAMarkAddUpToItsOrdersShare) {
           (orbifold.marks[m].kind == ConeKind::rotation ? 2 : 1) * pi / orbifold.marks[m].order();
       EXPECT_NEAR(std::remainder(angle[m] - expected, 2 * pi), 0, 1e-12) << symbol << " " << m;
     }
-    EXPECT_GT(area(orbifold), 0);
+    EXPECT_GT(target_area(orbifold), 0);
   }
 }
 
@@ -123,7 +123,7 @@ TEST(Plane, EverySymbolIsCertified) {
       std::string failed;
       for (const Check& check : s.result.certificate.checks)
         if (!check.passed) failed += check.name + ": " + check.detail + "; ";
-      EXPECT_TRUE(s.result.certificate.bijective) << symbol << " " << name(kind) << " " << failed;
+      EXPECT_TRUE(s.result.certificate.bijective) << symbol << " " << name_of(kind) << " " << failed;
       EXPECT_LT(s.result.certificate.max_seam_residual, 1e-12);
       EXPECT_LT(s.result.minimum.gradient_norm, 1e-11);
       EXPECT_EQ(s.result.embedding.space(), Space::plane());
@@ -179,7 +179,7 @@ TEST(Plane, PlantedFaultsAreSeen) {
 void expect_laid_out_as_it_is(const Mesh& mesh, const EmbedResult& result, const std::string& symbol) {
   EXPECT_TRUE(result.certificate.bijective) << symbol;
   const Eigen::VectorXd lengths = edge_lengths({mesh, {}, result});
-  const Connectivity connectivity = connect(mesh.F, test::vertex_count(mesh));
+  const Connectivity connectivity = connectivity_of(mesh.F, test::vertex_count(mesh));
   for (Eigen::Index e = 0; e < lengths.size(); ++e) {
     const auto [i, j] = connectivity.edges[e];
     EXPECT_NEAR(lengths[e], (mesh.V.row(i) - mesh.V.row(j)).norm(), 1e-12) << symbol;

@@ -20,7 +20,7 @@ using testing::Optional;
 /// A mesh whose vertices carry integers, any of them.
 struct Numbered {
   Points V;
-  Faces F;
+  Triangles F;
   std::vector<int> numbers, others;
 
   std::vector<PlyIntegers> properties() const { return {{"number", numbers}, {"other", others}}; }
@@ -30,7 +30,7 @@ Numbered random_numbered() {
   const auto bits = *rc::gen::container<std::vector<std::uint64_t>>(rc::gen::arbitrary<std::uint64_t>());
   const auto corners = *rc::gen::container<std::vector<int>>(rc::gen::arbitrary<int>());
   const Eigen::Index n = static_cast<Eigen::Index>(bits.size()) / 3;
-  Numbered mesh = {Points(n, 3), Faces(corners.size() / 3, 3), {}, {}};
+  Numbered mesh = {Points(n, 3), Triangles(corners.size() / 3, 3), {}, {}};
   for (Eigen::Index i = 0; i < mesh.V.size(); ++i) mesh.V.data()[i] = std::bit_cast<double>(bits[i]);
   for (Eigen::Index i = 0; i < mesh.F.size(); ++i) mesh.F.data()[i] = corners[i];
   for (std::vector<int>* values : {&mesh.numbers, &mesh.others})
@@ -99,7 +99,7 @@ TEST(PlyTriangles, OtherLayoutsHaveNoIntegers) {
 TEST(PlyTriangles, EveryVertexNeedsItsInteger) {
   const Points V = Points::Zero(3, 3);
   for (const std::vector<int>& numbers : {std::vector<int>{}, {1, 2}, {1, 2, 3, 4}})
-    EXPECT_THROW(write_ply_triangles(V, Faces(0, 3), {{"number", numbers}}), ArgumentError);
+    EXPECT_THROW(write_ply_triangles(V, Triangles(0, 3), {{"number", numbers}}), ArgumentError);
 }
 
 }  // namespace

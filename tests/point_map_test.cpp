@@ -42,12 +42,12 @@ Vector3 random_coordinates(std::mt19937& random) {
 
 SurfacePoints random_surface_points(const Embedding& embedding, int copies, int count) {
   std::mt19937 random(5);
-  std::uniform_int_distribution<int> face(0, static_cast<int>(embedding.faces.rows()) - 1),
+  std::uniform_int_distribution<int> face(0, static_cast<int>(embedding.triangles.rows()) - 1),
       copy(0, copies - 1);
   SurfacePoints points = {{}, Points(count, 3), {}};
   for (int k = 0; k < count; ++k) {
-    points.face.push_back(face(random));
-    points.element.push_back(copy(random));
+    points.triangle.push_back(face(random));
+    points.copy.push_back(copy(random));
     points.barycentric.row(k) = random_coordinates(random).transpose();
   }
   return points;
@@ -60,8 +60,8 @@ Points corners_and_edges(const Embedding& embedding, const std::vector<Isometry>
   std::vector<Vector3> points;
   for (const int f : triangles)
     for (int k = 0; k < 3; ++k) {
-      const Vector3 a = positions.row(embedding.faces(f, k)),
-                    b = positions.row(embedding.faces(f, (k + 1) % 3));
+      const Vector3 a = positions.row(embedding.triangles(f, k)),
+                    b = positions.row(embedding.triangles(f, (k + 1) % 3));
       for (const Isometry& copy : copies) {
         points.push_back(copy * a);
         points.push_back(copy * embedding.space().retract(a + b));
@@ -80,15 +80,15 @@ std::vector<int> triangles_at_seams(const Embedding& embedding) {
     seam_vertices.insert(seam.right.begin(), seam.right.end());
   }
   std::vector<int> triangles;
-  for (int f = 0; f < embedding.faces.rows(); ++f)
-    for (const int v : embedding.faces.row(f))
+  for (int f = 0; f < embedding.triangles.rows(); ++f)
+    for (const int v : embedding.triangles.row(f))
       if (seam_vertices.count(v) && (triangles.empty() || triangles.back() != f)) triangles.push_back(f);
   return triangles;
 }
 
 double largest_round_trip(const Embedding& embedding, const PointLocator& locator, const Points& directions) {
   const SurfacePoints found = locator.locate(directions);
-  EXPECT_EQ(std::count(found.face.begin(), found.face.end(), -1), 0);
+  EXPECT_EQ(std::count(found.triangle.begin(), found.triangle.end(), -1), 0);
   return (map_points(embedding, found) - directions).cwiseAbs().maxCoeff();
 }
 
@@ -105,7 +105,7 @@ TEST(PointMap, EveryCopyHoldsItsShareOfTheSphere) {
     const Embedding& embedding = sample_embedding(signature).embedding();
     const SurfacePoints found = PointLocator(embedding).locate(random_directions(6000, 2));
     std::vector<int> count(embedding.target.group_order, 0);
-    for (const int element : found.element) ++count[element];
+    for (const int element : found.copy) ++count[element];
     const double share = 6000.0 / embedding.target.group_order;
     for (const int points : count) EXPECT_NEAR(points, share, 6 * std::sqrt(share)) << signature;
   }
@@ -117,8 +117,8 @@ TEST(PointMap, LocatingUndoesTheMapInEveryCopy) {
     const PointLocator locator(embedding);
     const SurfacePoints points = random_surface_points(embedding, embedding.target.group_order, 300);
     const SurfacePoints found = locator.locate(map_points(embedding, points));
-    EXPECT_EQ(found.face, points.face) << signature;
-    EXPECT_EQ(found.element, points.element) << signature;
+    EXPECT_EQ(found.triangle, points.triangle) << signature;
+    EXPECT_EQ(found.copy, points.copy) << signature;
     EXPECT_LE((found.barycentric - points.barycentric).cwiseAbs().maxCoeff(), 1e-9) << signature;
   }
 }
@@ -142,29 +142,30 @@ TEST(PointMap, ConesAreLocatedAtOneOfTheirCopies) {
       const SurfacePoints found = locator.locate(embedding.positions.row(cone.copies.front()));
       int corner = -1;
       EXPECT_NEAR(found.barycentric.row(0).maxCoeff(&corner), 1, 1e-9) << signature;
-      EXPECT_EQ(embedding.source_vertex[embedding.faces(found.face[0], corner)], cone.vertex) << signature;
+      EXPECT_EQ(embedding.source_vertex[embedding.triangles(found.triangle[0], corner)], cone.vertex)
+          << signature;
     }
   }
 }
 
 TEST(PointMap, VerticesGoToTheirPositions) {
   const Embedding& embedding = sample_embedding("2*3").embedding();
-  SurfacePoints points = {{}, Points(embedding.faces.size(), 3), {}};
-  for (int c = 0; c < embedding.faces.size(); ++c) {
-    points.face.push_back(c / 3);
+  SurfacePoints points = {{}, Points(embedding.triangles.size(), 3), {}};
+  for (int c = 0; c < embedding.triangles.size(); ++c) {
+    points.triangle.push_back(c / 3);
     points.barycentric.row(c) = Vector3::Unit(c % 3).transpose();
   }
   const Points images = map_points(embedding, points);
-  for (int c = 0; c < embedding.faces.size(); ++c)
-    EXPECT_LE((images.row(c) - embedding.positions.row(embedding.faces.data()[c])).norm(), 3e-16);
+  for (int c = 0; c < embedding.triangles.size(); ++c)
+    EXPECT_LE((images.row(c) - embedding.positions.row(embedding.triangles.data()[c])).norm(), 3e-16);
 }
 
 TEST(PointMap, TrianglesAgreeOnTheirEdges) {
   const Embedding& embedding = sample_embedding("5x").embedding();
   const Connectivity connectivity =
-      connect(embedding.faces, static_cast<int>(embedding.source_vertex.size()));
+      connectivity_of(embedding.triangles, static_cast<int>(embedding.source_vertex.size()));
   int inner = 0;
-  for (int h = 0; h < embedding.faces.size(); ++h) {
+  for (int h = 0; h < embedding.triangles.size(); ++h) {
     const int other = connectivity.opposite[h];
     if (other < h) continue;
     SurfacePoints points = {{h / 3, other / 3}, Points::Zero(2, 3), {}};
@@ -178,18 +179,20 @@ TEST(PointMap, TrianglesAgreeOnTheirEdges) {
 }
 
 // The half-edge of the cut mesh that joins the two vertices, either way.
-int halfedge_between(const Faces& F, int v, int w) {
+int halfedge_between(const Triangles& F, int v, int w) {
   for (int h = 0; h < F.size(); ++h)
-    if ((origin(F, h) == v && target(F, h) == w) || (origin(F, h) == w && target(F, h) == v)) return h;
+    if ((halfedge_origin(F, h) == v && halfedge_target(F, h) == w) ||
+        (halfedge_origin(F, h) == w && halfedge_target(F, h) == v))
+      return h;
   return -1;
 }
 
 // The image of the point that is 0.3 of the way from v to w.
 Vector3 point_between(const Embedding& embedding, int v, int w) {
-  const int h = halfedge_between(embedding.faces, v, w);
+  const int h = halfedge_between(embedding.triangles, v, w);
   SurfacePoints point = {{h / 3}, Points::Zero(1, 3), {}};
   for (int k = 0; k < 3; ++k) {
-    const int corner = embedding.faces(h / 3, k);
+    const int corner = embedding.triangles(h / 3, k);
     point.barycentric(0, k) = corner == v ? 0.7 : corner == w ? 0.3 : 0;
   }
   return map_points(embedding, point).row(0);
@@ -211,10 +214,10 @@ TEST(PointMap, NothingIsFoundWhereOnlyATriangleThatIsTurnedOverLies) {
   Embedding embedding = sample_embedding("532").embedding();
   SurfacePoints inside = {{7, 8}, Points::Constant(2, 3, 1.0 / 3), {4, 4}};
   const Points images = map_points(embedding, inside);
-  std::swap(embedding.faces(7, 0), embedding.faces(7, 1));
+  std::swap(embedding.triangles(7, 0), embedding.triangles(7, 1));
   const SurfacePoints found = PointLocator(embedding).locate(images);
-  EXPECT_EQ(found.face, (std::vector<int>{-1, 8}));
-  EXPECT_EQ(found.element, (std::vector<int>{-1, 4}));
+  EXPECT_EQ(found.triangle, (std::vector<int>{-1, 8}));
+  EXPECT_EQ(found.copy, (std::vector<int>{-1, 4}));
   EXPECT_TRUE(found.barycentric.row(0).array().isNaN().all());
   EXPECT_TRUE(map_points(embedding, found).row(0).array().isNaN().all());
 }
@@ -225,16 +228,16 @@ TEST(PointMap, DirectionsNeedNoLengthButOneThatIsPositiveAndFinite) {
   Points directions(5, 3);
   directions << 3, 4, 5, 3e-200, 4e-200, 5e-200, 0, 0, 0, 1, NAN, 0, INFINITY, 0, 0;
   const SurfacePoints found = locator.locate(directions);
-  EXPECT_GE(found.face[0], 0);
-  EXPECT_EQ(found.face[1], found.face[0]);
-  for (int k = 2; k < 5; ++k) EXPECT_EQ(found.face[k], -1);
+  EXPECT_GE(found.triangle[0], 0);
+  EXPECT_EQ(found.triangle[1], found.triangle[0]);
+  for (int k = 2; k < 5; ++k) EXPECT_EQ(found.triangle[k], -1);
   EXPECT_EQ(locator.locate(Points(0, 3)).count(), 0);
 }
 
 TEST(PointMap, OutsideOfAPolygonNothingIsFound) {
   const Mesh mesh = test::round_disk(6);
-  const std::vector<int> corners = choose_marked_vertices(mesh, parse_orbifold("*222"));
-  const Connectivity connectivity = connect(mesh.F, test::vertex_count(mesh));
+  const std::vector<int> corners = choose_cones(mesh, parse_orbifold("*222"));
+  const Connectivity connectivity = connectivity_of(mesh.F, test::vertex_count(mesh));
   std::vector<PolygonCorner> polygon;  // counterclockwise, as their longitudes on the disk are
   for (const int v : corners) polygon.push_back({v, Vector3(mesh.V(v, 0), mesh.V(v, 1), 1).normalized()});
   std::sort(polygon.begin(), polygon.end(), [](const PolygonCorner& a, const PolygonCorner& b) {
@@ -254,7 +257,7 @@ TEST(PointMap, OutsideOfAPolygonNothingIsFound) {
       is_inside =
           is_inside &&
           polygon[c].position.cross(polygon[(c + 1) % polygon.size()].position).dot(directions.row(k)) > 0;
-    EXPECT_EQ(found.face[k] >= 0, is_inside) << directions.row(k);
+    EXPECT_EQ(found.triangle[k] >= 0, is_inside) << directions.row(k);
     inside += is_inside;
   }
   EXPECT_NEAR(inside / found.count(), result.certificate.signed_area / (4 * std::numbers::pi), 0.03);
@@ -269,8 +272,8 @@ TEST(PointMap, LocatingUndoesTheMapInTheCopiesOfThePlane) {
     const SurfacePoints points = random_surface_points(embedding, copies, 300);
     const Points images = map_points(embedding, points);
     const SurfacePoints found = locator.locate(images);
-    EXPECT_EQ(found.face, points.face) << signature;
-    EXPECT_EQ(found.element, points.element) << signature;
+    EXPECT_EQ(found.triangle, points.triangle) << signature;
+    EXPECT_EQ(found.copy, points.copy) << signature;
     EXPECT_LE((found.barycentric - points.barycentric).cwiseAbs().maxCoeff(), 1e-9) << signature;
     EXPECT_EQ(images.col(2), Eigen::VectorXd::Ones(images.rows())) << signature;
   }
@@ -303,8 +306,8 @@ TEST(PointMap, BeyondTheCopiesThatAreSearchedNothingIsFound) {
   Points points(2, 3);
   points << 1000, 0, 1, 0.2, 0.1, 1;
   const SurfacePoints found = PointLocator(embedding).locate(points);
-  EXPECT_EQ(found.face[0], -1);
-  EXPECT_GE(found.face[1], 0);
+  EXPECT_EQ(found.triangle[0], -1);
+  EXPECT_GE(found.triangle[1], 0);
 }
 
 // The map was turned to where doubles resolve it: points are mapped and located in the canonical frame.
@@ -320,8 +323,8 @@ TEST(PointMap, PlacementMakesNoDifference) {
     const Points images = map_points(embedding, points);
     EXPECT_LE((map_points(placed, points) - images).cwiseAbs().maxCoeff(), 1e-13) << signature;
     const SurfacePoints found = PointLocator(placed).locate(images);
-    EXPECT_EQ(found.face, points.face) << signature;
-    EXPECT_EQ(found.element, points.element) << signature;
+    EXPECT_EQ(found.triangle, points.triangle) << signature;
+    EXPECT_EQ(found.copy, points.copy) << signature;
   }
 }
 
@@ -347,7 +350,7 @@ TEST(PointMap, PointsThatAreNoneAreNamed) {
   EXPECT_THAT(refusal(embedding, {{0}, Vector3(1.5, -0.5, 0).transpose(), {}}), HasSubstr("not negative"));
   EXPECT_THAT(refusal(embedding, {{0, 1}, middle, {}}), HasSubstr("2 faces, 1 rows"));
   Embedding broken = embedding;
-  broken.faces(5, 1) = 100000;
+  broken.triangles(5, 1) = 100000;
   EXPECT_THAT(refusal(broken, {{0}, middle, {}}), HasSubstr("does not exist"));
   EXPECT_THROW(PointLocator{broken}, ArgumentError);
   broken = embedding;
@@ -397,11 +400,11 @@ TEST(BarycentricCoordinates, TheFanOfAPointIsItsTriangleDivided) {
       const Vector3 expected = random_coordinates(random),
                     point = barycentric_point(space, corners, expected);
       EXPECT_LE((barycentric_coordinates(space, corners, point) - expected).cwiseAbs().maxCoeff(), 2e-14);
-      EXPECT_TRUE(contains(corners, point));
-      EXPECT_FALSE(contains(corners, -point));
-      EXPECT_FALSE(contains(corners, barycentric_point(space, corners, Vector3(0.7, 0.7, -0.4))));
+      EXPECT_TRUE(triangle_contains(corners, point));
+      EXPECT_FALSE(triangle_contains(corners, -point));
+      EXPECT_FALSE(triangle_contains(corners, barycentric_point(space, corners, Vector3(0.7, 0.7, -0.4))));
       for (int c = 0; c < 3; ++c) {
-        EXPECT_TRUE(contains(corners, corners[c]));
+        EXPECT_TRUE(triangle_contains(corners, corners[c]));
         EXPECT_LE((barycentric_coordinates(space, corners, corners[c]) - Vector3::Unit(c)).norm(), 4e-15);
       }
     }
@@ -415,7 +418,7 @@ TEST(BarycentricCoordinates, TheBulgeBoundsHowFarTrianglesAreFromFlatOnes) {
       const TriangleCorners corners = thin_triangle(space, random, 0.9, 0.5);
       const Vector3 l = random_coordinates(random);
       const Vector3 flat = l[0] * corners[0] + l[1] * corners[1] + l[2] * corners[2];
-      EXPECT_LE((barycentric_point(space, corners, l) - flat).norm(), bulge(space, corners) + 1e-15)
+      EXPECT_LE((barycentric_point(space, corners, l) - flat).norm(), triangle_bulge(space, corners) + 1e-15)
           << space.name();
     }
   }

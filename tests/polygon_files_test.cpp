@@ -31,7 +31,7 @@ TEST(PolygonFiles, ReadBackAsTheyWereWritten) {
 }
 
 TEST(PolygonFiles, TrianglesAreTheSameBytesEitherWay) {
-  const Mesh triangles = {pyramid().V, (Faces(2, 3) << 0, 1, 5, 1, 2, 5).finished()};
+  const Mesh triangles = {pyramid().V, (Triangles(2, 3) << 0, 1, 5, 1, 2, 5).finished()};
   for (const MeshFormat format : {MeshFormat::obj, MeshFormat::off, MeshFormat::ply, MeshFormat::stl})
     EXPECT_EQ(serialize_mesh(to_polygon_mesh(triangles), format), serialize_mesh(triangles, format));
 }

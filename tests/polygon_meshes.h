@@ -30,9 +30,9 @@ inline std::vector<Vector3> point_list(const Points& V) {
 /// A vertex in the middle of every triangle of a closed mesh, a face around every vertex: all vertices have
 /// three edges.
 inline PolygonMesh dual(const Mesh& mesh) {
-  const Connectivity connectivity = connect(mesh.F, vertex_count(mesh));
+  const Connectivity connectivity = connectivity_of(mesh.F, vertex_count(mesh));
   std::vector<int> outgoing(vertex_count(mesh), -1);
-  for (int h = 0; h < static_cast<int>(mesh.F.size()); ++h) outgoing[origin(mesh.F, h)] = h;
+  for (int h = 0; h < static_cast<int>(mesh.F.size()); ++h) outgoing[halfedge_origin(mesh.F, h)] = h;
   std::vector<Vector3> points;
   for (const auto& f : mesh.F.rowwise())
     points.push_back((mesh.V.row(f[0]) + mesh.V.row(f[1]) + mesh.V.row(f[2])) / 3);

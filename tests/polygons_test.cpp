@@ -50,7 +50,7 @@ struct Sample {
 
 Sample embedded(const PolygonMesh& mesh, const std::string& signature, const EmbedOptions& options = {}) {
   const Target orbifold = parse_orbifold(signature);
-  return {mesh, embed(mesh, orbifold, choose_marked_vertices(mesh, orbifold), options)};
+  return {mesh, embed(mesh, orbifold, choose_cones(mesh, orbifold), options)};
 }
 
 Sample sample(const std::string& signature, const EmbedOptions& options = {}) {
@@ -84,7 +84,7 @@ const Check& check_named(const Certificate& certificate, const std::string& name
 }
 
 bool all_corners_turn_left(const Embedding& embedding) {
-  const FaceView faces = embedding.input_faces();
+  const FaceView faces = embedding.faces();
   const Points& X = embedding.positions;
   for (int f = 0; f < faces.count(); ++f) {
     const std::span<const int> v = faces[f];
@@ -98,14 +98,14 @@ bool all_corners_turn_left(const Embedding& embedding) {
 
 TEST(Triangulation, SquareGetsTheShorterDiagonal) {
   const PolygonMesh kite = test::polygon_mesh({{-3, 0, 0}, {0, -1, 0}, {3, 0, 0}, {0, 1, 0}}, {{0, 1, 2, 3}});
-  Faces expected(2, 3);
+  Triangles expected(2, 3);
   expected << 1, 2, 3, 3, 0, 1;
   EXPECT_EQ(triangulate(kite), expected);
 }
 
 TEST(Triangulation, TrianglesOfAPolygonThatBendsInwardsDoNotOverlap) {
   const PolygonMesh arrow = test::polygon_mesh({{0, 0, 0}, {4, -3, 0}, {1, 0, 0}, {4, 3, 0}}, {{0, 1, 2, 3}});
-  const Faces F = on_vertices(triangulate(arrow), arrow.corners);
+  const Triangles F = triangles_on_vertices(triangulate(arrow), arrow.corners);
   for (const auto& f : F.rowwise()) {
     const Vector3 a = arrow.V.row(f[0]), b = arrow.V.row(f[1]), c = arrow.V.row(f[2]);
     EXPECT_GT((b - a).cross(c - a).z(), 0);
@@ -117,7 +117,7 @@ RC_GTEST_PROP(Triangulation, CoversEveryConvexPolygonOnce, ()) {
   PolygonMesh mesh = test::prism(n);
   for (double& x : mesh.V.leftCols<1>().reshaped()) x *= 3;
   const Surface surface = make_surface(mesh);
-  const Faces& F = surface.triangles;
+  const Triangles& F = surface.triangles;
   RC_ASSERT(F.rows() == static_cast<Eigen::Index>(mesh.corners.size()) - 2 * mesh.face_count());
   RC_ASSERT(surface.polygons_on(F).corners == mesh.corners);
   double bottom = 0;
@@ -132,17 +132,17 @@ RC_GTEST_PROP(Triangulation, CoversEveryConvexPolygonOnce, ()) {
 
 TEST(Triangulation, EdgesAreThoseOfThePolygons) {
   const PolygonMesh mesh = test::dual(test::icosahedron());
-  const Faces division = triangulate(mesh);
-  const Connectivity connectivity = connect(mesh, division);
+  const Triangles division = triangulate(mesh);
+  const Connectivity connectivity = connectivity_of(mesh, division);
   EXPECT_EQ(connectivity.edges.size(), 30u);
   EXPECT_TRUE(std::is_sorted(connectivity.edges.begin(), connectivity.edges.end()));
-  const Faces F = on_vertices(division, mesh.corners);
+  const Triangles F = triangles_on_vertices(division, mesh.corners);
   int diagonals = 0;
   for (int h = 0; h < static_cast<int>(F.size()); ++h) {
     const int other = connectivity.opposite[h];
     ASSERT_GE(other, 0);
     EXPECT_EQ(connectivity.opposite[other], h);
-    EXPECT_EQ(origin(F, other), target(F, h));
+    EXPECT_EQ(halfedge_origin(F, other), halfedge_target(F, h));
     EXPECT_EQ(connectivity.edge_of[other], connectivity.edge_of[h]);
     if (connectivity.edge_of[h] >= 0) continue;
     EXPECT_EQ(h / 9, other / 9);  // three triangles a pentagon
@@ -154,7 +154,7 @@ TEST(Triangulation, EdgesAreThoseOfThePolygons) {
 TEST(Triangulation, OfTrianglesIsTheTrianglesThemselves) {
   const Mesh mesh = test::icosphere(1);
   const PolygonMesh polygons = to_polygon_mesh(mesh);
-  EXPECT_EQ(on_vertices(triangulate(polygons), polygons.corners), mesh.F);
+  EXPECT_EQ(triangles_on_vertices(triangulate(polygons), polygons.corners), mesh.F);
 }
 
 // --- embedding
@@ -207,7 +207,7 @@ TEST(Polygons, ProjectivePlanesAreEmbeddedWithFacesTurnedWhereTheyDisagree) {
     EXPECT_TRUE(result.certificate.bijective) << failures(result.certificate);
     EXPECT_TRUE(all_corners_turn_left(result.embedding));
     EXPECT_EQ(inspect(weld_copies(result.embedding).mesh).topology, Topology::sphere);
-    const FaceView faces = result.embedding.input_faces();
+    const FaceView faces = result.embedding.faces();
     int turned = 0;
     for (int f = 0; f < faces.count(); ++f) {
       const std::vector<int> source = sources({faces[f].begin(), faces[f].end()}, result.embedding);
@@ -265,7 +265,7 @@ TEST(Polygons, TrianglesGivenAsPolygonsAreEmbeddedToTheSameBytes) {
     options.weights.kind = WeightKind::cotan;
     const PolygonMesh mesh = to_polygon_mesh(expected.mesh);
     const Target orbifold = parse_orbifold(signature);
-    EXPECT_EQ(choose_marked_vertices(mesh, orbifold), expected.marks);
+    EXPECT_EQ(choose_cones(mesh, orbifold), expected.marks);
     const EmbedResult result = embed(mesh, orbifold, expected.marks, options);
     EXPECT_EQ(serialize_embedding(result.embedding), serialize_embedding(expected.embedding()));
     EXPECT_EQ(result.embedding.polygons.count(), 0);
@@ -273,12 +273,12 @@ TEST(Polygons, TrianglesGivenAsPolygonsAreEmbeddedToTheSameBytes) {
 }
 
 Eigen::VectorXd polygon_edge_lengths(const PolygonMesh& mesh, const Embedding& embedding) {
-  const Connectivity connectivity = connect(mesh, triangulate(mesh));
+  const Connectivity connectivity = connectivity_of(mesh, triangulate(mesh));
   Eigen::VectorXd lengths(static_cast<Eigen::Index>(connectivity.edges.size()));
-  for (int h = 0; h < static_cast<int>(embedding.faces.size()); ++h)
+  for (int h = 0; h < static_cast<int>(embedding.triangles.size()); ++h)
     if (const int e = connectivity.edge_of[h]; e >= 0)
-      lengths[e] = Space::sphere().distance(embedding.positions.row(origin(embedding.faces, h)),
-                                            embedding.positions.row(target(embedding.faces, h)));
+      lengths[e] = Space::sphere().distance(embedding.positions.row(halfedge_origin(embedding.triangles, h)),
+                                            embedding.positions.row(halfedge_target(embedding.triangles, h)));
   return lengths;
 }
 
@@ -414,7 +414,7 @@ class Faults : public testing::Test {
     for (const Seam& seam : embedding().seams)
       for (const std::vector<int>* bank : {&seam.left, &seam.right})
         for (const int v : *bank) on_seam[v] = 1;
-    const FaceView faces = embedding().input_faces();
+    const FaceView faces = embedding().faces();
     for (int f = 0; f < faces.count(); ++f)
       if (std::none_of(faces[f].begin(), faces[f].end(), [&](int v) { return on_seam[v] != 0; })) return f;
     return -1;
@@ -425,7 +425,7 @@ TEST_F(Faults, NoneIsSeenWhereThereIsNone) { EXPECT_TRUE(judged().bijective) << 
 
 TEST_F(Faults, VertexPushedIntoAFaceMakesItConcave) {
   const int f = inner_face();
-  const std::vector<int> face(embedding().input_faces()[f].begin(), embedding().input_faces()[f].end());
+  const std::vector<int> face(embedding().faces()[f].begin(), embedding().faces()[f].end());
   Vector3 middle = Vector3::Zero();
   for (const int v : face) middle += embedding().positions.row(v);
   middle.normalize();
@@ -440,7 +440,7 @@ TEST_F(Faults, VertexPushedIntoAFaceMakesItConcave) {
 
 TEST_F(Faults, VertexMovedAcrossAFaceIsSeen) {
   const int f = inner_face();
-  const std::span<const int> face = embedding().input_faces()[f];
+  const std::span<const int> face = embedding().faces()[f];
   const Vector3 p = embedding().positions.row(face[0]), q = embedding().positions.row(face[face.size() / 2]);
   embedding().positions.row(face[0]) = (q + 0.5 * (q - p)).normalized();
   const Certificate certificate = judged();

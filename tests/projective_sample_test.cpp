@@ -110,14 +110,14 @@ TEST_P(ProjectiveSamples, AreTheSameEveryTime) {
 
 // The edges over which two faces disagree cut the plane open to a disk: a single closed curve.
 TEST_P(ProjectiveSamples, AreOrientedButForOneClosedCurve) {
-  const Connectivity connectivity = connect(mesh.F, static_cast<int>(mesh.V.rows()));
+  const Connectivity connectivity = connectivity_of(mesh.F, static_cast<int>(mesh.V.rows()));
   std::vector<std::array<int, 2>> disagreeing;
   for (int h = 0; h < static_cast<int>(mesh.F.size()); ++h) {
     const int other = connectivity.opposite[h];
-    if (other > h && origin(mesh.F, h) == origin(mesh.F, other))
+    if (other > h && halfedge_origin(mesh.F, h) == halfedge_origin(mesh.F, other))
       disagreeing.push_back(connectivity.edges[connectivity.edge_of[h]]);
   }
-  const Neighbors curve = neighbors(disagreeing, static_cast<int>(mesh.V.rows()));
+  const Neighbors curve = vertex_neighbors(disagreeing, static_cast<int>(mesh.V.rows()));
   std::set<int> vertices;
   for (int v = 0; v < static_cast<int>(mesh.V.rows()); ++v) {
     const int degree = curve.start[v + 1] - curve.start[v];
@@ -151,7 +151,7 @@ std::vector<SampleOptions> projective_samples() {
 }
 
 INSTANTIATE_TEST_SUITE_P(, ProjectiveSamples, testing::ValuesIn(projective_samples()), [](const auto& each) {
-  return name(each.param.shape) + std::to_string(each.param.faces);
+  return name_of(each.param.shape) + std::to_string(each.param.faces);
 });
 
 TEST(ProjectiveMesh, IsAComplexAtEveryResolution) {
@@ -169,8 +169,8 @@ TEST(ProjectiveMesh, IsAComplexAtEveryResolution) {
 TEST(ProjectiveMesh, HasEvenTrianglesOnImmersedSurfaces) {
   for (const SampleShape shape : {SampleShape::boy, SampleShape::quotient}) {
     const Inspection result = inspect(sample_mesh({shape, 20'000}));
-    EXPECT_GT(result.min_angle, 0.2) << name(shape);
-    EXPECT_LT(result.max_angle, 2.6) << name(shape);
+    EXPECT_GT(result.min_angle, 0.2) << name_of(shape);
+    EXPECT_LT(result.max_angle, 2.6) << name_of(shape);
   }
   EXPECT_GT(inspect(sample_mesh({SampleShape::boy, 20'000})).min_angle, 0.6);
 }
@@ -192,8 +192,8 @@ TEST(ProjectiveMesh, NumbersOfFacesOutOfRangeAreRefused) {
 TEST(SampleShapes, AreKnownByName) {
   for (const SampleShape shape : {SampleShape::figure, SampleShape::mask, SampleShape::boy,
                                   SampleShape::roman, SampleShape::crosscap, SampleShape::quotient})
-    EXPECT_EQ(sample_shape(name(shape)), shape);
-  EXPECT_THROW(sample_shape("klein"), ArgumentError);
+    EXPECT_EQ(parse_choice<SampleShape>(name_of(shape), "shape"), shape);
+  EXPECT_THROW(parse_choice<SampleShape>("klein", "shape"), ArgumentError);
 }
 
 }  // namespace

@@ -31,10 +31,11 @@ inline Mesh with_all_faces_split(Mesh mesh) {
 
 /// The edge of half-edge h flipped, or the mesh as it was where the flipped edge exists already.
 inline Mesh with_edge_flipped(Mesh mesh, int h) {
-  const Connectivity connectivity = connect(mesh.F, vertex_count(mesh));
+  const Connectivity connectivity = connectivity_of(mesh.F, vertex_count(mesh));
   const int o = connectivity.opposite[h];
-  const int a = origin(mesh.F, h), b = target(mesh.F, h), c = origin(mesh.F, previous_halfedge(h)),
-            d = origin(mesh.F, previous_halfedge(o));
+  const int a = halfedge_origin(mesh.F, h), b = halfedge_target(mesh.F, h),
+            c = halfedge_origin(mesh.F, previous_halfedge(h)),
+            d = halfedge_origin(mesh.F, previous_halfedge(o));
   const std::array<int, 2> flipped = {std::min(c, d), std::max(c, d)};
   if (std::binary_search(connectivity.edges.begin(), connectivity.edges.end(), flipped)) return mesh;
   mesh.F.row(h / 3) << a, d, c;

@@ -20,7 +20,7 @@ using test::vertex_count;
 
 void expect_agreement(const Mesh& mesh) {
   const Inspection thorough = inspect(mesh);
-  const std::optional<Surface> quick = recognize(Mesh(mesh));
+  const std::optional<Surface> quick = recognize_sphere_or_disk(Mesh(mesh));
   const bool sound = thorough.topology == Topology::sphere || thorough.topology == Topology::disk;
   ASSERT_EQ(quick.has_value(), sound && thorough.defects.empty());
   if (!quick) return;
@@ -49,13 +49,13 @@ INSTANTIATE_TEST_SUITE_P(Meshes, Recognition,
 TEST_P(Recognition, AgreesWithInspection) { expect_agreement(GetParam()); }
 
 TEST(Recognition, OneTriangleIsADiskAndTwoOnTheSameVerticesAreADefect) {
-  Mesh triangle = {Points::Identity(3, 3), Faces(1, 3)};
+  Mesh triangle = {Points::Identity(3, 3), Triangles(1, 3)};
   triangle.F << 0, 1, 2;
   expect_agreement(triangle);
-  EXPECT_TRUE(recognize(Mesh(triangle)).has_value());
+  EXPECT_TRUE(recognize_sphere_or_disk(Mesh(triangle)).has_value());
   const Mesh pillow = test::with_face(triangle, 2, 1, 0);
   expect_agreement(pillow);
-  EXPECT_FALSE(recognize(Mesh(pillow)).has_value());
+  EXPECT_FALSE(recognize_sphere_or_disk(Mesh(pillow)).has_value());
 }
 
 TEST(Recognition, CountsUnreferencedVerticesAndZeroAreaFaces) {
@@ -64,7 +64,7 @@ TEST(Recognition, CountsUnreferencedVerticesAndZeroAreaFaces) {
   mesh.V.bottomRows(3).setOnes();
   mesh.V.row(mesh.F(5, 0)) = 0.5 * (mesh.V.row(mesh.F(5, 1)) + mesh.V.row(mesh.F(5, 2)));
   expect_agreement(mesh);
-  const std::optional<Surface> surface = recognize(Mesh(mesh));
+  const std::optional<Surface> surface = recognize_sphere_or_disk(Mesh(mesh));
   ASSERT_TRUE(surface.has_value());
   EXPECT_EQ(surface->unreferenced_vertices, 3);
   EXPECT_EQ(surface->zero_area_faces, 1);
@@ -105,7 +105,7 @@ TEST(Surface, OfPolygonsHasTheirEdgesAndTriangles) {
   const Inspection inspection = inspect(mesh);
   EXPECT_EQ(surface.topology, inspection.topology);
   EXPECT_EQ(static_cast<int>(surface.connectivity.edges.size()), inspection.edges);
-  EXPECT_EQ(surface.triangles, on_vertices(surface.division, mesh.corners));
+  EXPECT_EQ(surface.triangles, triangles_on_vertices(surface.division, mesh.corners));
   ASSERT_TRUE(surface.has_polygons());
   EXPECT_EQ(surface.faces().count(), mesh.face_count());
   for (int f = 0; f < mesh.face_count(); ++f) EXPECT_EQ(surface.faces().degree(f), mesh.face_degree(f));

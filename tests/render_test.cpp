@@ -129,8 +129,8 @@ TEST(Render, EveryPanelOfEveryFamilyShowsSomething) {
       const Picture picture(render_png(subject.get(), options_of(panel, 80, 72)));
       EXPECT_EQ(picture.width, 80);
       EXPECT_EQ(picture.height, 72);
-      EXPECT_GT(picture.inked_share(), 0.03) << signature << " " << name(panel);
-      EXPECT_LT(picture.inked_share(), 0.99) << signature << " " << name(panel);
+      EXPECT_GT(picture.inked_share(), 0.03) << signature << " " << name_of(panel);
+      EXPECT_LT(picture.inked_share(), 0.99) << signature << " " << name_of(panel);
     }
   }
 }
@@ -142,8 +142,8 @@ TEST(Render, FigureFillsTheFrame) {
       const Picture picture(render_png(subject.get(), options_of(panel, 240, 200)));
       const auto [left, top, right, bottom] = picture.inked_box();
       const double filled = std::max((right - left + 1) / 240.0, (bottom - top + 1) / 200.0);
-      EXPECT_GT(filled, 0.75) << signature << " " << name(panel);
-      EXPECT_LT(filled, 0.96) << signature << " " << name(panel);
+      EXPECT_GT(filled, 0.75) << signature << " " << name_of(panel);
+      EXPECT_LT(filled, 0.96) << signature << " " << name_of(panel);
       EXPECT_NEAR(left + right, 240, 24);
       EXPECT_NEAR(top + bottom, 200, 24);
     }
@@ -382,7 +382,7 @@ TEST(Charts, PageAndPicturesShowTheSameTextsLinesAndBars) {
   for (const std::string& signature : {"432", "*532", "5*", "3x"}) {
     const Subject subject(signature);
     const std::vector<double> areas =
-        values_of(Measure::area, measure_faces(subject.surface, subject.sample.embedding()));
+        values_of(Measure::area, measure_triangles(subject.surface, subject.sample.embedding()));
     for (const Chart& chart : {area_histogram(areas), convergence_chart(subject.report.history)}) {
       EXPECT_EQ(texts_of_page(chart), texts_of_picture(chart)) << signature;
       for (const ChartAxis& axis : {chart.x, chart.y}) EXPECT_EQ(texts_of_page(chart).count(axis.title), 1U);
@@ -396,16 +396,16 @@ TEST(Charts, PageAndPicturesShowTheSameTextsLinesAndBars) {
 TEST(Render, WhatMakesNoSenseIsRefused) {
   const Subject subject("432");
   RenderOptions options;
-  EXPECT_THROW(parse_panel("shpere"), ArgumentError);
-  EXPECT_THROW(parse_panel(""), ArgumentError);
+  EXPECT_THROW(parse_choice<Panel>("shpere", "panel"), ArgumentError);
+  EXPECT_THROW(parse_choice<Panel>("", "panel"), ArgumentError);
   for (const std::string size : {"", "x", "12", "0", "0x0", "100x", "100x20", "-100x100", "100x100x100",
                                  "20000x300", "1e3", "99999999999x300"})
-    EXPECT_THROW(parse_size(size, options), ArgumentError) << size;
+    EXPECT_THROW(parse_picture_size(size, options), ArgumentError) << size;
   for (const std::string view :
        {"", "behind", "1,2", "1,2,3,4", "0,0,0", "nan,0,1", "inf,0,0", "1,,2", "1, 2,3"})
-    EXPECT_THROW(parse_view(view, Vector3::UnitY()), ArgumentError) << view;
+    EXPECT_THROW(parse_view_direction(view, Vector3::UnitY()), ArgumentError) << view;
   for (const std::string up : {"", "w", "+y", "0,0,0", "--y"})
-    EXPECT_THROW(parse_up(up), ArgumentError) << up;
+    EXPECT_THROW(parse_up_direction(up), ArgumentError) << up;
   EXPECT_THROW(render_svg(subject.get(), options_of(Panel::sphere, 100, 100)), ArgumentError);
   EXPECT_THROW(write_picture("picture.jpg", subject.get()), ArgumentError);
   EXPECT_THROW(write_picture("picture", subject.get()), ArgumentError);
@@ -445,21 +445,21 @@ TEST(Render, PictureIsWrittenWhole) {
 
 TEST(Render, OptionsAreRead) {
   RenderOptions options;
-  parse_size("640x480", options);
+  parse_picture_size("640x480", options);
   EXPECT_EQ(options.width, 640);
   EXPECT_EQ(options.height, 480);
-  parse_size("500", options);
+  parse_picture_size("500", options);
   EXPECT_EQ(options.width, 500);
   EXPECT_EQ(options.height, 500);
   for (const Panel panel : {Panel::source, Panel::sphere, Panel::area, Panel::angle, Panel::checkerboard,
                             Panel::histogram, Panel::convergence, Panel::sheet})
-    EXPECT_EQ(parse_panel(name(panel)), panel);
-  EXPECT_EQ(parse_up("-z"), -Vector3::UnitZ());
-  EXPECT_EQ(parse_view("front", Vector3::UnitY()), Vector3::UnitZ());
-  EXPECT_EQ(parse_view("right", Vector3::UnitY()), Vector3::UnitX());
-  EXPECT_EQ(parse_view("top", Vector3::UnitZ()), Vector3::UnitZ());
-  EXPECT_EQ(parse_view("front", Vector3::UnitZ()), -Vector3::UnitY());
-  EXPECT_LT((parse_view("3,0,-4", Vector3::UnitY()) - Vector3(0.6, 0, -0.8)).norm(), 1e-15);
+    EXPECT_EQ(parse_choice<Panel>(name_of(panel), "panel"), panel);
+  EXPECT_EQ(parse_up_direction("-z"), -Vector3::UnitZ());
+  EXPECT_EQ(parse_view_direction("front", Vector3::UnitY()), Vector3::UnitZ());
+  EXPECT_EQ(parse_view_direction("right", Vector3::UnitY()), Vector3::UnitX());
+  EXPECT_EQ(parse_view_direction("top", Vector3::UnitZ()), Vector3::UnitZ());
+  EXPECT_EQ(parse_view_direction("front", Vector3::UnitZ()), -Vector3::UnitY());
+  EXPECT_LT((parse_view_direction("3,0,-4", Vector3::UnitY()) - Vector3(0.6, 0, -0.8)).norm(), 1e-15);
 }
 
 /// A pyramid whose base is the unit square across z, as a closed mesh.
@@ -474,11 +474,12 @@ Mesh pyramid() {
 
 TEST(DefaultView, WhatStandsOnABroadBaseAcrossZHasZUp) {
   Mesh mesh = pyramid();
-  EXPECT_EQ(default_up(test::unjudged(mesh)), Vector3::UnitZ());
-  EXPECT_EQ(default_up(test::unjudged(Mesh{mesh.V(Eigen::all, {1, 2, 0}), mesh.F})), Vector3::UnitY());
+  EXPECT_EQ(default_up_direction(test::unjudged(mesh)), Vector3::UnitZ());
+  EXPECT_EQ(default_up_direction(test::unjudged(Mesh{mesh.V(Eigen::all, {1, 2, 0}), mesh.F})),
+            Vector3::UnitY());
   mesh.F = mesh.F.bottomRows(4).eval();  // without its base it faces whoever looks at it
-  EXPECT_EQ(default_up(test::unjudged(mesh)), Vector3::UnitY());
-  EXPECT_EQ(default_up(test::unjudged(Mesh())), Vector3::UnitY());
+  EXPECT_EQ(default_up_direction(test::unjudged(mesh)), Vector3::UnitY());
+  EXPECT_EQ(default_up_direction(test::unjudged(Mesh())), Vector3::UnitY());
 }
 
 TEST(DefaultView, OpenSurfacesAreSeenFromWhereTheyFace) {
@@ -534,7 +535,7 @@ TEST(Lighting, NormalsAreSmoothOnSpheresAndFlatOnCubes) {
     EXPECT_LT((smooth.row(c).cast<double>() - sphere.V.row(sphere.F.data()[c])).norm(), 0.03);
   Points V(8, 3);
   for (int v = 0; v < 8; ++v) V.row(v) << v % 2, v / 2 % 2, v / 4;
-  Faces F(12, 3);
+  Triangles F(12, 3);
   F << 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1,
       7, 5;
   const CornerNormals flat = corner_normals(V, F, 0.7);
@@ -553,7 +554,7 @@ double mean_openness(const RayScene& scene, const Ray& from) {
 RayScene folded_squares(double slope) {
   Points V(6, 3);
   V << -1, -1, slope, 0, -1, 0, 1, -1, slope, -1, 1, slope, 0, 1, 0, 1, 1, slope;
-  Faces F(4, 3);
+  Triangles F(4, 3);
   F << 0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4;
   RayScene scene;
   scene.add_triangles(V, F);
@@ -595,11 +596,11 @@ TEST(Checkerboard, SquaresAreRightAngledWhereTheMapIsConformal) {
   std::vector<int> upper;
   for (int f = 0; f < sphere.F.rows(); ++f)
     if (sphere.V.row(sphere.F(f, 0))[2] > 0) upper.push_back(f);
-  embedding.faces = sphere.F(upper, Eigen::all);
+  embedding.triangles = sphere.F(upper, Eigen::all);
   for (int v = 0; v < sphere.V.rows(); ++v) embedding.source_vertex.push_back(v);
   const Checkerboard board(embedding, sphere.V, Vector3::UnitZ(), 0.1);
-  for (Eigen::Index f = 0; f < embedding.faces.rows(); ++f) {
-    const auto corner = embedding.faces.row(f);
+  for (Eigen::Index f = 0; f < embedding.triangles.rows(); ++f) {
+    const auto corner = embedding.triangles.row(f);
     const auto X = [&](int k) -> Vector3 { return sphere.V.row(corner[k]); };
     const auto x = [&](int k) -> Eigen::Vector2d { return board.coordinates().row(corner[k]); };
     const double a = (x(1) - x(0)).norm() / (X(1) - X(0)).norm(),
@@ -617,8 +618,8 @@ TEST(Checkerboard, NeighbouringSquaresDiffer) {
   embedding.positions.resize(3, 3);
   embedding.positions << Vector3(0.1, -0.06, 1).normalized().transpose(),
       Vector3(0, 0.1, 1).normalized().transpose(), Vector3(-0.1, -0.06, 1).normalized().transpose();
-  embedding.faces.resize(1, 3);
-  embedding.faces << 0, 1, 2;
+  embedding.triangles.resize(1, 3);
+  embedding.triangles << 0, 1, 2;
   embedding.source_vertex = {0, 1, 2};
   const Checkerboard board(embedding, embedding.positions, Vector3::UnitZ(), 0.02);
   const auto& coordinates = board.coordinates();

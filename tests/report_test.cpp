@@ -107,7 +107,7 @@ TEST(Report, HoldsEveryKeyWithItsType) {
     EXPECT_EQ(json.at("mesh").at("path"), "mesh.ply");
     EXPECT_EQ(json.at("mesh").at("vertices"), test::vertex_count(test::sample_embedding(signature).mesh));
     EXPECT_EQ(json.at("mesh").at("faces"), test::face_count(test::sample_embedding(signature).mesh));
-    EXPECT_EQ(json.at("mesh").at("topology"), name(parse_orbifold(signature).topology));
+    EXPECT_EQ(json.at("mesh").at("topology"), name_of(parse_orbifold(signature).topology));
     EXPECT_EQ(json.at("orbifold").at("signature"), signature);
     EXPECT_EQ(json.at("orbifold").at("group_order"),
               target.group_order > 0 ? Json(target.group_order) : Json());
@@ -351,7 +351,7 @@ TEST(EmbeddingFile, RoundTripIsExact) {
     const TemporaryFile file(serialize_embedding(written), ".ply");
     const Embedding read_back = read_embedding(file.path());
     EXPECT_EQ(read_back.positions, written.positions) << signature;
-    EXPECT_EQ(read_back.faces, written.faces) << signature;
+    EXPECT_EQ(read_back.triangles, written.triangles) << signature;
     EXPECT_EQ(read_back.source_vertex, written.source_vertex) << signature;
   }
 }
@@ -372,8 +372,8 @@ TEST(EmbeddingFile, ExtremeNumbersSurvive) {
   embedding.positions.resize(3, 3);
   embedding.positions << 1.0 / 3, -0.0, std::numeric_limits<double>::denorm_min(), std::nextafter(1.0, 2.0),
       1e-300, -1, std::numeric_limits<double>::max(), 0, 1;
-  embedding.faces.resize(1, 3);
-  embedding.faces << 2, 0, 1;
+  embedding.triangles.resize(1, 3);
+  embedding.triangles << 2, 0, 1;
   embedding.source_vertex = {0, 1, 1};
   const TemporaryFile file(serialize_embedding(embedding), ".ply");
   const Embedding read_back = read_embedding(file.path());
@@ -398,8 +398,8 @@ TEST(EmbeddingFile, HoldsTheSameBitsForAnyReaderOfPly) {
       EXPECT_TRUE(std::equal(column.begin(), column.end(), vertex.properties[k].values.begin(), same_bits));
     }
     EXPECT_THAT(vertex.find("source_vertex")->values, ::testing::ElementsAreArray(written.source_vertex));
-    ASSERT_EQ(face.count, static_cast<std::size_t>(written.faces.rows()));
-    const auto corners = written.faces.reshaped<Eigen::RowMajor>();
+    ASSERT_EQ(face.count, static_cast<std::size_t>(written.triangles.rows()));
+    const auto corners = written.triangles.reshaped<Eigen::RowMajor>();
     EXPECT_TRUE(std::equal(corners.begin(), corners.end(), face.find("vertex_indices")->values.begin()));
     EXPECT_EQ(serialize_ply(file), serialize_embedding(written)) << signature;
   }
@@ -416,7 +416,7 @@ TEST(EmbeddingFile, FurtherPropertiesMakeNoDifference) {
     const TemporaryFile disk(serialize_ply(file), ".ply");
     const Embedding read_back = read_embedding(disk.path());
     EXPECT_EQ(read_back.positions, written.positions);
-    EXPECT_EQ(read_back.faces, written.faces);
+    EXPECT_EQ(read_back.triangles, written.triangles);
     EXPECT_EQ(read_back.source_vertex, written.source_vertex);
   }
 }
@@ -479,7 +479,7 @@ TEST(EmbeddingFile, DefectsOfBinaryFilesAreNamed) {
     EXPECT_THAT(ply_refusal(serialize_embedding(embedding)),
                 HasSubstr("the source of cut vertex 5 " + named));
     embedding = good;
-    embedding.faces(7, 2) = wrong;
+    embedding.triangles(7, 2) = wrong;
     EXPECT_THAT(ply_refusal(serialize_embedding(embedding)), HasSubstr("face 7 " + named));
   }
 }

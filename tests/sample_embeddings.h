@@ -49,7 +49,7 @@ inline std::vector<std::string> all_sample_signatures() {
 inline SampleEmbedding make_sample(const std::string& signature, const EmbedOptions& options) {
   const Target orbifold = parse_orbifold(signature);
   const Mesh mesh = sample_mesh_for(orbifold);
-  const std::vector<int> marks = choose_marked_vertices(mesh, orbifold);
+  const std::vector<int> marks = choose_cones(mesh, orbifold);
   return {mesh, marks, embed(mesh, orbifold, marks, options)};
 }
 
@@ -67,14 +67,14 @@ inline const SampleEmbedding& sample_embedding(const std::string& signature) {
 /// The length of every undirected edge of the uncut mesh, in the order of its Connectivity: what does not
 /// depend on the cut, nor on where the map lies.
 inline Eigen::VectorXd edge_lengths(const Mesh& mesh, const Embedding& embedding) {
-  Faces source = embedding.faces;  // not the mesh's, where faces are turned over
+  Triangles source = embedding.triangles;  // not the mesh's, where faces are turned over
   for (int& v : source.reshaped()) v = embedding.source_vertex[v];
-  const Connectivity connectivity = connect(source, vertex_count(mesh));
+  const Connectivity connectivity = connectivity_of(source, vertex_count(mesh));
   Eigen::VectorXd lengths(static_cast<Eigen::Index>(connectivity.edges.size()));
-  for (int h = 0; h < static_cast<int>(embedding.faces.size()); ++h)
+  for (int h = 0; h < static_cast<int>(embedding.triangles.size()); ++h)
     lengths[connectivity.edge_of[h]] =
-        embedding.space().distance(embedding.positions.row(origin(embedding.faces, h)),
-                                   embedding.positions.row(target(embedding.faces, h)));
+        embedding.space().distance(embedding.positions.row(halfedge_origin(embedding.triangles, h)),
+                                   embedding.positions.row(halfedge_target(embedding.triangles, h)));
   return lengths;
 }
 

@@ -24,7 +24,7 @@ Vector3 normal(const Mesh& mesh, int f) {
 
 // The largest angle between the normals of two faces at an edge.
 double sharpest_edge(const Mesh& mesh) {
-  const Connectivity connectivity = connect(mesh.F, static_cast<int>(mesh.V.rows()));
+  const Connectivity connectivity = connectivity_of(mesh.F, static_cast<int>(mesh.V.rows()));
   double least_cosine = 1;
   for (int h = 0; h < static_cast<int>(mesh.F.size()); ++h) {
     const int g = connectivity.opposite[h];
@@ -95,7 +95,7 @@ INSTANTIATE_TEST_SUITE_P(
                     SampleOptions{SampleShape::figure, 12'000}, SampleOptions{SampleShape::mask, 100},
                     SampleOptions{SampleShape::mask, 201}, SampleOptions{SampleShape::mask, 1500},
                     SampleOptions{SampleShape::mask, 3'001}, SampleOptions{SampleShape::mask, 12'000}),
-    [](const auto& each) { return name(each.param.shape) + std::to_string(each.param.faces); });
+    [](const auto& each) { return name_of(each.param.shape) + std::to_string(each.param.faces); });
 
 TEST(SampleMesh, FacesOutwards) {
   EXPECT_GT(enclosed_volume(sample_mesh({SampleShape::figure, 1000})), 0);
@@ -106,8 +106,8 @@ TEST(SampleMesh, IsSmootherTheFinerItIs) {
   for (const SampleShape shape : {SampleShape::figure, SampleShape::mask}) {
     const double coarse = sharpest_edge(sample_mesh({shape, 5'000}));
     const double fine = sharpest_edge(sample_mesh({shape, 80'000}));
-    EXPECT_LT(fine, 20 * kDegree) << name(shape);
-    EXPECT_LT(fine, coarse / 2) << name(shape);
+    EXPECT_LT(fine, 20 * kDegree) << name_of(shape);
+    EXPECT_LT(fine, coarse / 2) << name_of(shape);
   }
 }
 

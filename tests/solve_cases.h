@@ -34,8 +34,8 @@ inline std::unique_ptr<SolveCase> solve_case(const std::string& signature, const
   result->orbifold = parse_orbifold(signature);
   const bool sphere = result->orbifold.topology == Topology::sphere;
   result->mesh = perturbed(sphere ? icosphere(2) : round_disk(7), 0.03, 7);
-  result->marks = choose_marked_vertices(result->mesh, result->orbifold);
-  result->connectivity = connect(result->mesh.F, vertex_count(result->mesh));
+  result->marks = choose_cones(result->mesh, result->orbifold);
+  result->connectivity = connectivity_of(result->mesh.F, vertex_count(result->mesh));
   result->weights = edge_weights(unjudged(result->mesh), {WeightKind::cotan});
   result->cut = cut_to_disk(unjudged(result->mesh), result->marks, result->orbifold.inner_marks, options);
   result->tile = basic_tile(result->orbifold, result->cut.arrangement);

@@ -171,7 +171,7 @@ TEST_P(EveryFamily, HarmonicExtensionGivesEveryInnerVertexTheMeanOfItsNeighbours
 }
 
 void expect_both_ways_solve_alike(const SolveCase& c, double bound = 1e-11) {
-  const Dissection dissection = dissect(neighbors(c.connectivity.edges, test::vertex_count(c.mesh)));
+  const Dissection dissection = dissect(vertex_neighbors(c.connectivity.edges, test::vertex_count(c.mesh)));
   const DiskGraph graph = disk_graph(c.cut, c.glued, c.boundary);
   const LaplacianProblem problem = {graph, c.glued, c.weights.w, c.boundary, dissection};
   const Points f = random_feasible(c, 8), g = Points::Random(graph.node_count(), 3);
@@ -180,8 +180,9 @@ void expect_both_ways_solve_alike(const SolveCase& c, double bound = 1e-11) {
     LaplacianReuse reuse;
     const auto banked = banked_systems(problem, {backend}, reuse);
     EXPECT_LT((banked->solve_glued(f) - coupled->solve_glued(f)).cwiseAbs().maxCoeff(), 1e-11)
-        << name(backend);
-    EXPECT_LT((banked->solve_disk(g) - coupled->solve_disk(g)).cwiseAbs().maxCoeff(), bound) << name(backend);
+        << name_of(backend);
+    EXPECT_LT((banked->solve_disk(g) - coupled->solve_disk(g)).cwiseAbs().maxCoeff(), bound)
+        << name_of(backend);
   }
 }
 
@@ -238,7 +239,7 @@ TEST(Frame, PlaceThatShrinksMostIsTakenToTheOrigin) {
 // A mesh of several blocks, embedded whole and in parts.
 TEST(LaplacianSolver, BlocksOfAnySizeSolveTheSameSystem) {
   const Mesh sphere = test::perturbed(test::icosphere(5), 0.01, 3);
-  const std::vector<int> marks = choose_marked_vertices(sphere, parse_orbifold("432"));
+  const std::vector<int> marks = choose_cones(sphere, parse_orbifold("432"));
   EmbedOptions whole, parts;
   whole.laplacian.block_size = 100000;
   parts.laplacian.block_size = 1000;

@@ -37,15 +37,15 @@ inline Surface unjudged(const Mesh& mesh) {
   Surface surface;
   surface.V = mesh.V;
   surface.triangles = mesh.F;
-  surface.connectivity = connect(mesh.F, vertex_count(mesh));
+  surface.connectivity = connectivity_of(mesh.F, vertex_count(mesh));
   return surface;
 }
 inline Surface unjudged(const PolygonMesh& mesh) {
   Surface surface;
   surface.V = mesh.V;
   surface.division = triangulate(mesh);
-  surface.triangles = on_vertices(surface.division, mesh.corners);
-  surface.connectivity = connect(mesh, surface.division);
+  surface.triangles = triangles_on_vertices(surface.division, mesh.corners);
+  surface.connectivity = connectivity_of(mesh, surface.division);
   surface.polygons = {mesh.corners, mesh.face_start};
   return surface;
 }

@@ -24,7 +24,7 @@ using std::numbers::pi;
 using testing::HasSubstr;
 using Status = Theorem2::Status;
 
-Connectivity connectivity_of(const Mesh& mesh) { return connect(mesh.F, test::vertex_count(mesh)); }
+Connectivity connectivity_of(const Mesh& mesh) { return connectivity_of(mesh.F, test::vertex_count(mesh)); }
 
 Theorem2 theorem2_of(const Mesh& mesh, const EdgeWeights& weights, const Embedding& embedding,
                      const Theorem2Options& options = {}) {
@@ -39,7 +39,7 @@ TEST(Theorem2, HoldsForTheSamplesOfAllFamilies) {
   for (const std::string& signature : test::sample_signatures()) {
     const test::SampleEmbedding& sample = test::sample_embedding(signature);
     const Theorem2 theorem2 = theorem2_of(sample);
-    EXPECT_EQ(name(theorem2.status), "measured") << signature << ": " << theorem2.detail;
+    EXPECT_EQ(name_of(theorem2.status), "measured") << signature << ": " << theorem2.detail;
     EXPECT_EQ(theorem2.negative, 1) << signature;
     EXPECT_EQ(theorem2.kernel, 3) << signature;
     EXPECT_LT(theorem2.kernel_residual, 1e-6) << signature;
@@ -59,7 +59,7 @@ TEST(Theorem2, HoldsForIntrinsicWeights) {
     flips += sample.result.weights.triangulation->flips.size();
     const Theorem2 theorem2 =
         check_theorem2(test::unjudged(sample.mesh), sample.result.weights, sample.embedding());
-    EXPECT_EQ(name(theorem2.status), "measured") << signature << ": " << theorem2.detail;
+    EXPECT_EQ(name_of(theorem2.status), "measured") << signature << ": " << theorem2.detail;
     EXPECT_EQ(theorem2.negative, 1) << signature;
     EXPECT_EQ(theorem2.kernel, 3) << signature;
     EXPECT_LT(theorem2.kernel_residual, 1e-6) << signature;
@@ -73,9 +73,9 @@ TEST(Theorem2, EveryMethodCountsTheSame) {
       Theorem2Options options;
       options.method = method;
       const Theorem2 theorem2 = theorem2_of(test::sample_embedding(signature), options);
-      EXPECT_EQ(theorem2.status, Status::measured) << signature << " " << name(method);
-      EXPECT_EQ(theorem2.negative, 1) << signature << " " << name(method);
-      EXPECT_EQ(theorem2.kernel, 3) << signature << " " << name(method);
+      EXPECT_EQ(theorem2.status, Status::measured) << signature << " " << name_of(method);
+      EXPECT_EQ(theorem2.negative, 1) << signature << " " << name_of(method);
+      EXPECT_EQ(theorem2.kernel, 3) << signature << " " << name_of(method);
     }
   }
 }
@@ -260,9 +260,9 @@ TEST(Theorem2, LongEdgesAreSeen) {
   const test::SampleEmbedding& sample = test::sample_embedding("22");
   Embedding embedding = sample.embedding();
   const int v = embedding.cones[0].vertex;
-  for (int h = 0; h < static_cast<int>(embedding.faces.size()); ++h)
-    if (origin(embedding.faces, h) == v)
-      embedding.positions.row(target(embedding.faces, h)) = -0.999 * embedding.positions.row(v);
+  for (int h = 0; h < static_cast<int>(embedding.triangles.size()); ++h)
+    if (halfedge_origin(embedding.triangles, h) == v)
+      embedding.positions.row(halfedge_target(embedding.triangles, h)) = -0.999 * embedding.positions.row(v);
   const Theorem2 theorem2 = theorem2_of(sample.mesh, sample.result.weights, embedding);
   EXPECT_FALSE(theorem2.checks().front().passed);
   EXPECT_THAT(theorem2.checks().front().detail, HasSubstr("pi/2"));

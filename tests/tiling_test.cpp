@@ -51,7 +51,7 @@ double signed_area(const Corners& t) {
 }
 
 /// How often each directed edge is used.
-std::map<std::pair<int, int>, int> directed_edges(const Faces& F) {
+std::map<std::pair<int, int>, int> directed_edges(const Triangles& F) {
   std::map<std::pair<int, int>, int> count;
   for (Eigen::Index f = 0; f < F.rows(); ++f)
     for (int k = 0; k < 3; ++k) ++count[{F(f, k), F(f, (k + 1) % 3)}];
@@ -83,12 +83,12 @@ void expect_covers_sphere_once(const Mesh& mesh) {
 /// Every face is the copy of its source face that its tile says.
 void expect_copies_of_source(const Tiling& tiling, const Embedding& embedding) {
   for (Eigen::Index f = 0; f < tiling.mesh.F.rows(); ++f) {
-    const TileCopy& copy = tiling.copies[tiling.tile[f]];
+    const TileCopy& copy = tiling.copies[tiling.copy[f]];
     ASSERT_EQ(copy.mirrored, copy.transform.matrix().determinant() < 0);
     std::multiset<int> sources, expected;
     Vector3 sum = Vector3::Zero();
     for (int k = 0; k < 3; ++k) {
-      const int v = embedding.faces(tiling.source_face[f], k);
+      const int v = embedding.triangles(tiling.source_face[f], k);
       expected.insert(embedding.source_vertex[v]);
       sources.insert(tiling.source_vertex[tiling.mesh.F(f, k)]);
       sum += copy.transform * Vector3(embedding.positions.row(v));
@@ -101,9 +101,9 @@ void expect_copies_of_source(const Tiling& tiling, const Embedding& embedding) {
 
 void expect_neighbours_coloured_differently(const Tiling& tiling) {
   std::map<std::pair<int, int>, int> tile_at;
-  const Faces& F = tiling.mesh.F;
+  const Triangles& F = tiling.mesh.F;
   for (Eigen::Index f = 0; f < F.rows(); ++f)
-    for (int k = 0; k < 3; ++k) tile_at[{F(f, k), F(f, (k + 1) % 3)}] = tiling.tile[f];
+    for (int k = 0; k < 3; ++k) tile_at[{F(f, k), F(f, (k + 1) % 3)}] = tiling.copy[f];
   for (const auto& [edge, tile] : tile_at) {
     const int other = tile_at.at({edge.second, edge.first});
     if (other != tile) {
@@ -132,9 +132,9 @@ Embedding with_sources(Embedding embedding) {
 void expect_tiles_sphere(const Embedding& hand_made, int group_order) {
   const Embedding embedding = with_sources(hand_made);
   const Tiling tiling = weld_copies(embedding);
-  EXPECT_EQ(tiling.tiles, group_order);
-  EXPECT_EQ(static_cast<int>(tiling.copies.size()), tiling.tiles);
-  EXPECT_EQ(tiling.mesh.F.rows(), embedding.faces.rows() * tiling.tiles);
+  EXPECT_EQ(tiling.copy_count(), group_order);
+  EXPECT_EQ(static_cast<int>(tiling.copies.size()), tiling.copy_count());
+  EXPECT_EQ(tiling.mesh.F.rows(), embedding.triangles.rows() * tiling.copy_count());
   expect_closed_sphere(tiling.mesh);
   expect_covers_sphere_once(tiling.mesh);
   expect_copies_of_source(tiling, embedding);
@@ -180,7 +180,7 @@ TEST(Tiling, EmbeddingsWithRotationAndMirror) {
     SCOPED_TRACE(signature);
     const Embedding& embedding = test::sample_embedding(signature).embedding();
     const Tiling tiling = weld_copies(embedding);
-    EXPECT_EQ(tiling.tiles, embedding.target.group_order);
+    EXPECT_EQ(tiling.copy_count(), embedding.target.group_order);
     expect_closed_sphere(tiling.mesh);
     expect_covers_sphere_once(tiling.mesh);
     expect_copies_of_source(tiling, embedding);
@@ -294,13 +294,14 @@ TEST(Tiling, EarsThatCoincideWithTheirMirrorImagesAreLeftOut) {
 TEST(Tiling, AnEdgeThatCoincidesWithItsMirrorImageIsNamed) {
   Embedding embedding = with_sources(mirror_triangle(2, 2, 2, 4));
   const std::vector<int> side = embedding.seams[0].left;
-  const Eigen::Index n = embedding.positions.rows(), m = embedding.faces.rows();
+  const Eigen::Index n = embedding.positions.rows(), m = embedding.triangles.rows();
   // Three faces over two edges of the mirror, around a vertex that lies on none.
-  embedding.faces.conservativeResize(m + 3, 3);
+  embedding.triangles.conservativeResize(m + 3, 3);
   embedding.positions.conservativeResize(n + 1, 3);
   embedding.positions.row(n) = embedding.positions.row(side[1]);
   embedding.source_vertex.push_back(static_cast<int>(n));
-  for (int k = 0; k < 3; ++k) embedding.faces.row(m + k) << side[k], side[(k + 1) % 3], static_cast<int>(n);
+  for (int k = 0; k < 3; ++k)
+    embedding.triangles.row(m + k) << side[k], side[(k + 1) % 3], static_cast<int>(n);
   try {
     weld_copies(embedding);
     ADD_FAILURE() << "no MeshError";
@@ -317,7 +318,8 @@ TEST(Tiling, PolygonsAreDividedSoThatNoDiagonalLiesOnAMirror) {
   for (const std::vector<int>& marks : {std::vector{0, 8, 3}, {1, 3, 5}, {0, 2, 8}, {1, 8, 6}}) {
     const EmbedResult result = embed(quads, parse_orbifold("*432"), marks);
     Embedding embedding = result.embedding;
-    embedding.faces = on_vertices(fan(embedding.polygons), embedding.polygons.corners);  // as from a file
+    embedding.triangles = triangles_on_vertices(fan_triangles(embedding.polygons),
+                                                embedding.polygons.corners);  // as from a file
     for (const Embedding& each : {embedding, result.embedding}) {
       const Tiling tiling = weld_copies(each);
       EXPECT_TRUE(tiling.left_out.empty());
@@ -349,7 +351,7 @@ TEST(Tiling, RefusesWhatDoesNotCloseUp) {
 TEST(Tiling, RefusesWhatIsNoEmbedding) {
   const Embedding good = rotation_lune(4, 1, 3);
   Embedding bad = good;
-  bad.faces(0, 0) = static_cast<int>(bad.positions.rows());
+  bad.triangles(0, 0) = static_cast<int>(bad.positions.rows());
   EXPECT_THROW(weld_copies(bad), ArgumentError);
   bad = good;
   bad.seams[0].left[1] = -1;
@@ -407,7 +409,7 @@ class TilingFiles : public ::testing::Test {
 };
 
 Rgb colour_of_face(const Tiling& tiling, std::size_t f) {
-  const TileCopy& copy = tiling.copies[tiling.tile[f]];
+  const TileCopy& copy = tiling.copies[tiling.copy[f]];
   return tile_colour(copy.colour, copy.mirrored);
 }
 
@@ -438,7 +440,7 @@ TEST_F(TilingFiles, PlyReadsBackTheSame) {
     const PlyProperty* corners_of = face->find("vertex_indices");
     ASSERT_EQ(corners_of->list_start[f + 1] - corners_of->list_start[f], 3u);
     for (int k = 0; k < 3; ++k) ASSERT_EQ(corners_of->values[3 * f + k], tiling_.mesh.F(f, k));
-    ASSERT_EQ(face->find("tile")->values[f], tiling_.tile[f]);
+    ASSERT_EQ(face->find("tile")->values[f], tiling_.copy[f]);
     ASSERT_EQ(face->find("source_face")->values[f], tiling_.source_face[f]);
     const Rgb colour = colour_of_face(tiling_, f);
     ASSERT_EQ(face->find("red")->values[f], colour.red);
@@ -503,7 +505,7 @@ TEST_F(TilingFiles, ObjReadsBackTheSame) {
   }
   EXPECT_EQ(v, vertices_);
   EXPECT_EQ(f, faces_);
-  EXPECT_EQ(groups, tiling_.tiles);
+  EXPECT_EQ(groups, tiling_.copy_count());
   EXPECT_EQ(used, materials);
   EXPECT_THAT(materials, ::testing::ElementsAre("colour_0", "colour_1_mirrored"));
 }

@@ -27,7 +27,7 @@ namespace {
 
 using test::vertex_count;
 
-Connectivity connectivity_of(const Mesh& mesh) { return connect(mesh.F, vertex_count(mesh)); }
+Connectivity connectivity_of(const Mesh& mesh) { return connectivity_of(mesh.F, vertex_count(mesh)); }
 
 EdgeWeights weights_of(const Mesh& mesh, const WeightOptions& options = {WeightKind::cotan}) {
   return edge_weights(test::unjudged(mesh), options);
@@ -42,7 +42,7 @@ double angle_opposite(double a, double b, double c) {
 std::vector<double> cotangents_from_lengths(const Mesh& mesh) {
   const Connectivity connectivity = connectivity_of(mesh);
   const auto length = [&](int h) {
-    return (mesh.V.row(origin(mesh.F, h)) - mesh.V.row(target(mesh.F, h))).norm();
+    return (mesh.V.row(halfedge_origin(mesh.F, h)) - mesh.V.row(halfedge_target(mesh.F, h))).norm();
   };
   std::vector<double> result(connectivity.edges.size(), 0.0);
   for (int h = 0; h < mesh.F.size(); ++h) {
@@ -223,9 +223,9 @@ TEST(Weights, UniformOnesAreOne) {
 }
 
 TEST(Weights, KindsHaveTheirNames) {
-  EXPECT_EQ(name(WeightKind::cotan), "cotan");
-  EXPECT_EQ(name(WeightKind::uniform), "uniform");
-  EXPECT_EQ(name(WeightKind::file), "file");
+  EXPECT_EQ(name_of(WeightKind::cotan), "cotan");
+  EXPECT_EQ(name_of(WeightKind::uniform), "uniform");
+  EXPECT_EQ(name_of(WeightKind::file), "file");
 }
 
 TEST(Weights, ClampsThatAreNotPositiveAndFiniteAreRefused) {

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "../command_line.h"
+#include "../commands.h"
 #include "orbitutte/orbifold/signature.h"
 
 namespace orbitutte::cli {
@@ -18,13 +19,13 @@ namespace {
 // description what they may be.
 const std::map<std::string, std::vector<std::string>> words_of_options = {
     {"--cones", {"auto"}},
-    {"--weights", {"standard", "cotan", "delaunay", "mean-value", "uniform"}},
-    {"--spread", {"arc-length", "equidistant"}},
-    {"--chart", {"stereographic", "equirectangular", "octahedral"}},
-    {"--panel", {"source", "sphere", "area", "angle", "checkerboard", "histogram", "convergence", "sheet"}},
+    {"--weights", choices_of<WeightKind>()},
+    {"--spread", choices_of<Spread>()},
+    {"--chart", choices_of<TextureChart>()},
+    {"--panel", choices_of<Panel>()},
     {"--view", {"front", "back", "left", "right", "top", "bottom"}},
     {"--up", {"x", "y", "z", "-x", "-y", "-z"}},
-    {"--shape", {"figure", "mask", "boy", "roman", "crosscap", "quotient"}}};
+    {"--shape", choices_of<SampleShape>()}};
 
 // The symbols of the table of families; where a family has one for every order N, those of small orders.
 std::vector<std::string> symbols() {
@@ -50,7 +51,7 @@ std::vector<std::string> targets() {
   return result;
 }
 
-std::vector<std::string> choices_of(const OptionReference& option) {
+std::vector<std::string> words_of(const OptionReference& option) {
   if (option.names.back() == "--orbifold") return targets();
   const auto found = words_of_options.find(option.names.back());
   if (found == words_of_options.end()) return {};
@@ -71,7 +72,7 @@ OptionReference reference_of(const CLI::Option& option) {
   reference.standard = option.get_default_str();
   reference.description = option.get_description();
   reference.required = option.get_required();
-  reference.choices = choices_of(reference);
+  reference.choices = words_of(reference);
   return reference;
 }
 

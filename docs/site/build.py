@@ -193,7 +193,7 @@ Meshes
 ------
 
 .. autofunction:: info
-.. autofunction:: signatures
+.. autofunction:: families
 .. autofunction:: choose_cones
 .. autofunction:: sample_mesh
 .. autofunction:: read_mesh

@@ -12,20 +12,20 @@ Functions
 embed(V, F, signature, cones="auto", *, progress, polygon, geometry, weights, ...) -> Embedding
 Solver(V, F, **options).embed(signature, cones) -> Embedding     many embeddings of one mesh
 info(V, F) -> dict                      topology, quality, defects, what a mesh embeds into
-signatures() -> list of dict            the families of orbifolds
+families() -> list of dict              the families of orbifolds
 choose_cones(V, F, signature) -> list   well separated vertices to be marked
 verify(embedding[, V, F]) -> dict       the certificate again, from the data alone
 distortion(embedding[, V, F]) -> dict   area and angle distortion again
-tile(embedding) -> (V, F, element)      |G| copies, welded into one closed mesh
+tile(embedding) -> (V, F, copy)         |G| copies, welded into one closed mesh
 sample_mesh(shape, faces) -> (V, F)     a mesh to try things with
 read_mesh(path) -> (V, F)               OBJ, OFF, PLY and STL
 write_mesh(path, V, F)
 build() -> dict                         version, commit, linear algebra
 keep_freed_memory()                     for programs that embed many large meshes
 Embedding                               positions, faces, source_vertex, seams, group, energy, certificate, ...;
-    map_points(face, barycentric[, element])   points of the surface to the sphere
-    locate(points) -> (face, barycentric, element)     and back, from anywhere on the tiled sphere
-    source_points(face, barycentric)    the same points in space
+    map_points(triangle, barycentric[, copy])      points of the surface to the sphere
+    locate(points) -> (triangle, barycentric, copy)    and back, from anywhere on the tiled sphere
+    source_points(triangle, barycentric)    the same points in space
     save(ply, json), load(ply, json[, mesh]), write_tiling(path), render(path, panel=..., size=...)
 
 Exceptions: Error, of which MeshError and ArgumentError are ValueErrors and FileError is an OSError; Cancelled. Results that
@@ -39,7 +39,7 @@ except ImportError as error:
                       "PYTHONPATH=build/python finds it; it belongs to the Python that it was built for") from error
 
 from ._api import (
-    Solver, Tiling, build, choose_cones, distortion, embed, info, keep_freed_memory, read_mesh, sample_mesh, signatures, tile, verify, write_mesh,
+    Solver, Tiling, build, choose_cones, distortion, embed, families, info, keep_freed_memory, read_mesh, sample_mesh, signatures, tile, verify, write_mesh,
 )
 from ._embedding import Cone, EdgeWeights, Embedding, Location, Seam
 from ._orbitutte import __version__
@@ -48,5 +48,5 @@ from .errors import ArgumentError, Cancelled, EmbeddingWarning, Error, FileError
 __all__ = [
     "ArgumentError", "Cancelled", "Cone", "EdgeWeights", "Embedding", "EmbeddingWarning", "Error", "FileError",
     "Location", "MeshError", "MeshWarning", "Seam", "Solver", "Tiling", "__version__", "build", "choose_cones", "distortion", "embed",
-    "info", "keep_freed_memory", "read_mesh", "sample_mesh", "signatures", "tile", "verify", "write_mesh",
+    "families", "info", "keep_freed_memory", "read_mesh", "sample_mesh", "signatures", "tile", "verify", "write_mesh",
 ]

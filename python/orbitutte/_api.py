@@ -11,7 +11,7 @@ from typing import Any, NamedTuple, Union
 import numpy as np
 import numpy.typing as npt
 
-from . import _arrays, _options, _orbitutte
+from . import _arrays, _deprecated, _options, _orbitutte
 from ._embedding import Embedding
 from .errors import ArgumentError, EmbeddingWarning, MeshWarning
 
@@ -30,7 +30,7 @@ def embed(V: npt.ArrayLike, F: Any, signature: str, cones: Cones = "auto", *, pr
     F : (m, 3) array_like of int, (m, k), or list of sequences
         Faces, counterclockwise seen from outside, 0-based; sequences of different lengths are polygons.
     signature : str
-        Conway's symbol, such as "432" (see `signatures`), or "polygon" for a fixed boundary.
+        Conway's symbol, such as "432" (see `families`), or "polygon" for a fixed boundary.
     cones : sequence of int, or "auto"
         The vertices to be marked, in the order of the symbol. "auto" takes well separated extremities.
     progress : callable(stage, iteration, energy, gradient_norm), optional
@@ -118,9 +118,15 @@ def info(V: npt.ArrayLike, F: Any) -> dict[str, Any]:
     return json.loads(_arrays.mesh(V, F).info())
 
 
-def signatures() -> list[dict[str, str]]:
-    """The families of spherical orbifolds: ``family``, ``group_order``, ``input``, ``marked_points``."""
+def families() -> list[dict[str, str]]:
+    """The families of orbifolds: ``family``, ``group_order``, ``input``, ``marked_points``."""
     return json.loads(_orbitutte.families())
+
+
+def signatures() -> list[dict[str, str]]:
+    """Deprecated: its name is now `families`."""
+    _deprecated.tell("signatures", "families")
+    return families()
 
 
 def choose_cones(V: npt.ArrayLike, F: Any, signature: str, *, geometry: str | None = None) -> list[int]:
@@ -164,7 +170,9 @@ class Tiling(NamedTuple):
 
     V: npt.NDArray[np.float64]  #: unit vectors
     F: _arrays.Faces  #: counterclockwise from outside; copy by copy, each in the order of the input
-    element: npt.NDArray[np.int32]  #: of every face, the copy that it belongs to: an index into Embedding.group
+    copy: npt.NDArray[np.int32]  #: of every face, the copy of the tile that it belongs to: an index into Embedding.group
+
+    element = _deprecated.renamed_field("element", "copy")
 
 
 def tile(embedding: Embedding) -> Tiling:
@@ -173,7 +181,7 @@ def tile(embedding: Embedding) -> Tiling:
     Returns
     -------
     Tiling
-        ``V`` ((k, 3) float64), ``F`` ((m |G|, 3) int32, or polygons as the input's) and ``element`` ((m |G|,) int32). Face f of
+        ``V`` ((k, 3) float64), ``F`` ((m |G|, 3) int32, or polygons as the input's) and ``copy`` ((m |G|,) int32). Face f of
         copy g is row g m + f.
 
     Raises
@@ -181,10 +189,10 @@ def tile(embedding: Embedding) -> Tiling:
     ArgumentError
         If the copies do not close up into a sphere; those of a polygon do not.
     """
-    V, triangles, corners, start, element = _embedding(embedding)._core.tile()
+    V, triangles, corners, start, copy = _embedding(embedding)._core.tile()
     if len(start) < 2:
-        return Tiling(V, triangles, element)
-    copies = int(element[-1]) + 1
+        return Tiling(V, triangles, copy)
+    copies = int(copy[-1]) + 1
     return Tiling(V, _arrays.faces(corners, start), np.repeat(np.arange(copies, dtype=np.int32), (len(start) - 1) // copies))
 
 

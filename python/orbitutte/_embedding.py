@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from . import _arrays, _options, _orbitutte
+from . import _arrays, _deprecated, _options, _orbitutte
 from .errors import ArgumentError
 
 Array = npt.NDArray[Any]
@@ -52,9 +52,12 @@ class EdgeWeights(NamedTuple):
 class Location(NamedTuple):
     """Points of the copies of a surface. Of a single point, an int, three numbers and an int."""
 
-    face: Array  #: (k,) rows of Embedding.triangles; -1 where there is none
+    triangle: Array  #: (k,) rows of Embedding.triangles; -1 where there is none
     barycentric: Array  #: (k, 3) on the corners of that row; NaN where there is none
-    element: Array  #: (k,) the copies, indices into Embedding.group; -1 where there is none
+    copy: Array  #: (k,) the copies of the tile, indices into Embedding.group; -1 where there is none
+
+    face = _deprecated.renamed_field("face", "triangle")
+    element = _deprecated.renamed_field("element", "copy")
 
 
 class Embedding:
@@ -261,18 +264,19 @@ class Embedding:
 
     # Points
 
-    def map_points(self, face: npt.ArrayLike, barycentric: npt.ArrayLike, element: npt.ArrayLike | None = None) -> Array:
+    @_deprecated.renamed_arguments(face="triangle", element="copy")
+    def map_points(self, triangle: npt.ArrayLike, barycentric: npt.ArrayLike, copy: npt.ArrayLike | None = None) -> Array:
         """Take points of the surface to the sphere or the plane, in the canonical frame of the orbifold.
 
         Parameters
         ----------
-        face : (k,) array_like of int, or int
+        triangle : (k,) array_like of int, or int
             Rows of `triangles`; -1 gives NaN.
         barycentric : (k, 3) array_like, or (3,)
             Coordinates on the corners of those rows, with the sum 1. The corners are the input's, in its order, but on projective
-            planes, some of whose faces are turned over (first, third, second): their input vertices are ``source_vertex[triangles[face]]``.
-        element : (k,) array_like of int, or int, optional
-            The copies, indices into `group`; without, the embedding itself.
+            planes, some of whose faces are turned over (first, third, second): their input vertices are ``source_vertex[triangles[triangle]]``.
+        copy : (k,) array_like of int, or int, optional
+            The copies of the tile, indices into `group`; if they are not given, the embedding itself.
 
         Returns
         -------
@@ -282,16 +286,16 @@ class Embedding:
         Raises
         ------
         ArgumentError
-            Names the point whose face or copy does not exist, or whose coordinates are none.
+            Names the point whose triangle or copy does not exist, or whose coordinates are none.
         """
-        single = np.ndim(face) == 0
-        faces, points = _arrays.indices(_rows(face, 1), "face", "point"), _arrays.positions(_rows(barycentric, 2), "barycentric", "point")
-        copies = np.empty(0, dtype=np.int32) if element is None else _arrays.indices(_rows(element, 1), "element", "point")
-        if element is not None and len(copies) == 1 and len(faces) != 1:
-            copies = np.repeat(copies, len(faces))
-        if len(points) != len(faces) or (element is not None and len(copies) != len(faces)):
-            raise ArgumentError(f"there are {len(faces)} faces, {len(points)} rows of coordinates and {len(copies)} copies")
-        images = _orbitutte.map_points(self._core, faces, points, copies)
+        single = np.ndim(triangle) == 0
+        triangles, points = _arrays.indices(_rows(triangle, 1), "triangle", "point"), _arrays.positions(_rows(barycentric, 2), "barycentric", "point")
+        copies = np.empty(0, dtype=np.int32) if copy is None else _arrays.indices(_rows(copy, 1), "copy", "point")
+        if copy is not None and len(copies) == 1 and len(triangles) != 1:
+            copies = np.repeat(copies, len(triangles))
+        if len(points) != len(triangles) or (copy is not None and len(copies) != len(triangles)):
+            raise ArgumentError(f"there are {len(triangles)} triangles, {len(points)} rows of coordinates and {len(copies)} copies")
+        images = _orbitutte.map_points(self._core, triangles, points, copies)
         return images[0] if single else images
 
     def locate(self, points: npt.ArrayLike) -> Location:
@@ -308,7 +312,7 @@ class Embedding:
         Returns
         -------
         Location
-            ``face``, ``barycentric`` and ``element``; ``map_points(*location)`` is the direction again. Where the embedding is certified,
+            ``triangle``, ``barycentric`` and ``copy``; ``map_points(*location)`` is the direction again. Where the embedding is certified,
             every direction is found, and in the plane every point of the copies in `group`. -1 and NaN where nothing is: outside of a
             polygon, where no face of an embedding that is not bijective lies, and for vectors that are zero or not finite. Of several
             copies or faces the first is taken.
@@ -321,8 +325,8 @@ class Embedding:
         directions = _arrays.positions(_rows(points, 2), "points", "point")
         if self._locator is None:
             object.__setattr__(self, "_locator", _orbitutte.PointLocator(self._core))
-        face, barycentric, element = self._locator.locate(directions)
-        return Location(int(face[0]), barycentric[0], int(element[0])) if single else Location(face, barycentric, element)
+        triangle, barycentric, copy = self._locator.locate(directions)
+        return Location(int(triangle[0]), barycentric[0], int(copy[0])) if single else Location(triangle, barycentric, copy)
 
     def rotation_to(self, points: npt.ArrayLike, other_points: npt.ArrayLike) -> npt.NDArray[np.float64]:
         """The rotation that takes points of this map best to those of another one into the same orbifold.
@@ -347,23 +351,24 @@ class Embedding:
         second = _arrays.positions(_rows(other_points, 2), "other_points", "point")
         return _orbitutte.rotation_between(self._core, first, second)
 
-    def source_points(self, face: npt.ArrayLike, barycentric: npt.ArrayLike) -> Array:
-        """The same points on the surface in space: (k, 3), or (3,). Needs the mesh; NaN where the face is -1."""
+    @_deprecated.renamed_arguments(face="triangle")
+    def source_points(self, triangle: npt.ArrayLike, barycentric: npt.ArrayLike) -> Array:
+        """The same points on the surface in space: (k, 3), or (3,). Needs the mesh; NaN where the triangle is -1."""
         known = self.mesh
         if known is None:
             raise ArgumentError("points in space need the mesh that was embedded; load the embedding with it, or use with_mesh(V, F)")
-        faces = np.asarray(_arrays.indices(_rows(face, 1), "face", "point"))
+        triangles = np.asarray(_arrays.indices(_rows(triangle, 1), "triangle", "point"))
         weights = _arrays.positions(_rows(barycentric, 2), "barycentric", "point")
-        if len(faces) != len(weights):
-            raise ArgumentError(f"there are {len(faces)} faces and {len(weights)} rows of coordinates")
-        wrong = (faces < -1) | (faces >= len(self.triangles))
+        if len(triangles) != len(weights):
+            raise ArgumentError(f"there are {len(triangles)} triangles and {len(weights)} rows of coordinates")
+        wrong = (triangles < -1) | (triangles >= len(self.triangles))
         if wrong.any():
             k = int(np.argmax(wrong))
-            raise ArgumentError(f"point {k} names the face {faces[k]}; there are {len(self.triangles)}")
-        corners = known[0][self.source_vertex[self.triangles[faces]]]
+            raise ArgumentError(f"point {k} names the triangle {triangles[k]}; there are {len(self.triangles)}")
+        corners = known[0][self.source_vertex[self.triangles[triangles]]]
         points = np.einsum("ki,kij->kj", weights, corners)
-        points[faces == -1] = np.nan
-        return points[0] if np.ndim(face) == 0 else points
+        points[triangles == -1] = np.nan
+        return points[0] if np.ndim(triangle) == 0 else points
 
     # Files
 

@@ -34,8 +34,8 @@ Points to_points(const DoubleArray& array) {
   return points;
 }
 
-Faces to_faces(const IntArray& array) {
-  Faces faces(array.shape(0), 3);
+Triangles to_faces(const IntArray& array) {
+  Triangles faces(array.shape(0), 3);
   std::copy_n(array.data(), array.size(), faces.data());
   return faces;
 }
@@ -44,7 +44,7 @@ std::vector<int> to_vector(const IntArray& array) { return {array.data(), array.
 
 py::array view(const Points& points, const py::handle& owner) { return read_only(rows(points, owner)); }
 
-py::array view(const Faces& faces, const py::handle& owner) { return read_only(rows(faces, owner)); }
+py::array view(const Triangles& faces, const py::handle& owner) { return read_only(rows(faces, owner)); }
 
 py::array view(const std::vector<int>& values, const py::handle& owner) {
   return read_only(py::array_t<int>(static_cast<py::ssize_t>(values.size()), values.data(), owner));
@@ -74,7 +74,7 @@ py::array take(Points&& points) {
   return rows(*held, owner);
 }
 
-py::array take(Faces&& faces) {
+py::array take(Triangles&& faces) {
   const auto [held, owner] = owned(std::move(faces));
   return rows(*held, owner);
 }

@@ -17,12 +17,12 @@ using IntArray = py::array_t<int, py::array::c_style>;
 
 /// Copies. n x 3 each; the caller has checked the shape.
 Points to_points(const DoubleArray& array);
-Faces to_faces(const IntArray& array);
+Triangles to_faces(const IntArray& array);
 std::vector<int> to_vector(const IntArray& array);
 
 /// Views that cannot be written to, and that keep `owner`, of whose C++ object they are part, alive.
 py::array view(const Points& points, const py::handle& owner);
-py::array view(const Faces& faces, const py::handle& owner);
+py::array view(const Triangles& faces, const py::handle& owner);
 py::array view(const std::vector<int>& values, const py::handle& owner);
 
 /// Copies that cannot be written to.
@@ -33,7 +33,7 @@ py::array copy(const std::vector<double>& values);
 
 /// An array that takes over the values, and with them their memory.
 py::array take(Points&& points);
-py::array take(Faces&& faces);
+py::array take(Triangles&& faces);
 py::array take(std::vector<int>&& values);
 
 }  // namespace orbitutte::python

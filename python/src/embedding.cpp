@@ -22,8 +22,8 @@ using Release = py::call_guard<py::gil_scoped_release>;
 py::list seams(const HeldEmbedding& held) {
   py::list result;
   for (const Seam& seam : held.embedding.seams)
-    result.append(
-        py::make_tuple(name(seam.kind()), copy(seam.left), copy(seam.right), copy(seam.transform.matrix())));
+    result.append(py::make_tuple(name_of(seam.kind()), copy(seam.left), copy(seam.right),
+                                 copy(seam.transform.matrix())));
   return result;
 }
 
@@ -31,11 +31,11 @@ py::list seams(const HeldEmbedding& held) {
 py::list cones(const HeldEmbedding& held) {
   py::list result;
   for (const ConeCopies& cone : held.embedding.cones)
-    result.append(py::make_tuple(cone.vertex, cone.mark.order(), name(cone.mark.kind), copy(cone.copies)));
+    result.append(py::make_tuple(cone.vertex, cone.mark.order(), name_of(cone.mark.kind), copy(cone.copies)));
   return result;
 }
 
-// The elements that SurfacePoints::element counts, in the frame of the positions.
+// The elements that SurfacePoints::copy counts, in the frame of the positions.
 py::array group(const HeldEmbedding& held) {
   std::vector<Matrix3> matrices;
   const SymmetryGroup elements = group_of(held.embedding, PointLocator::default_copies);
@@ -67,7 +67,7 @@ py::tuple weights(const HeldEmbedding& held) {
 // A and the ratio of singular values of every triangle.
 py::tuple face_distortion(const HeldEmbedding& held) {
   const std::vector<FaceDistortion> faces =
-      measure_faces(*held.source("distortion").surface(), held.embedding);
+      measure_triangles(*held.source("distortion").surface(), held.embedding);
   std::vector<double> area, angle;
   for (const FaceDistortion& face : faces) {
     area.push_back(face.area);
@@ -112,7 +112,7 @@ std::string verify_again(const HeldEmbedding& held, const MaybeMesh& mesh, const
 
 Tiling tiled(const HeldEmbedding& held) { return weld_copies(held.embedding); }
 
-// (V, triangles, polygons' corners and starts, tile of each triangle)
+// (V, triangles, polygons' corners and starts, copy of each triangle)
 py::tuple tile(const HeldEmbedding& held) {
   Tiling tiling;
   {
@@ -121,7 +121,7 @@ py::tuple tile(const HeldEmbedding& held) {
   }
   return py::make_tuple(take(std::move(tiling.mesh.V)), take(std::move(tiling.mesh.F)),
                         take(std::move(tiling.polygons.corners)), take(std::move(tiling.polygons.start)),
-                        take(std::move(tiling.tile)));
+                        take(std::move(tiling.copy)));
 }
 
 Held loaded(Embedding embedding, std::string report, MaybeMesh mesh) {
@@ -167,7 +167,7 @@ void bind_embedding(py::module_& module) {
           "is_free_to_rotate",
           [](const HeldEmbedding& held) { return held.embedding.target.is_free_to_rotate; })
       .def_property_readonly("triangles",
-                             [](const Held& held) { return view(held->embedding.faces, py::cast(held)); })
+                             [](const Held& held) { return view(held->embedding.triangles, py::cast(held)); })
       .def_property_readonly("polygons", &polygons)
       .def_property_readonly(
           "source_vertex",

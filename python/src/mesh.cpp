@@ -35,13 +35,13 @@ std::shared_ptr<SourceMesh> from_file(const std::string& path) {
 }
 
 std::shared_ptr<SourceMesh> sample(const std::string& shape, int faces) {
-  return std::make_shared<SourceMesh>(sample_mesh({sample_shape(shape), faces}));
+  return std::make_shared<SourceMesh>(sample_mesh({parse_choice<SampleShape>(shape, "shape"), faces}));
 }
 
 std::string info(const SourceMesh& mesh) {
   const PolygonMesh polygons = mesh.polygons();
   const Inspection inspection = inspect(polygons);
-  return inspection_json("", polygons, inspection, weak_places(polygons, inspection));
+  return inspection_json("", polygons, inspection, weak_places_if_sound(polygons, inspection));
 }
 
 py::tuple faces_of(const std::shared_ptr<SourceMesh>& mesh) {
@@ -57,8 +57,8 @@ void write(const SourceMesh& mesh, const std::string& path) {
   write_mesh(path, PolygonMesh{*V, *corners, *start});
 }
 
-std::vector<int> choose_cones(const SourceMesh& mesh, const Target& orbifold) {
-  return choose_marked_vertices(*mesh.surface(), orbifold);
+std::vector<int> choose_cones(const SourceMesh& mesh, const Target& target) {
+  return orbitutte::choose_cones(*mesh.surface(), target);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ pybind11::dict build() {
   pybind11::dict facts;
   facts["version"] = version;
   facts["commit"] = commit;
-  facts["backend"] = name(available_backends().front());
+  facts["backend"] = name_of(available_backends().front());
   facts["blas"] = blas_description();
   return facts;
 }

@@ -9,7 +9,7 @@
 namespace orbitutte::python {
 namespace {
 
-// (face, barycentric, element)
+// (triangle, barycentric, copy)
 py::tuple locate(const PointLocator& locator, const DoubleArray& directions) {
   const Points rows = to_points(directions);
   SurfacePoints found;
@@ -17,13 +17,13 @@ py::tuple locate(const PointLocator& locator, const DoubleArray& directions) {
     const py::gil_scoped_release release;
     found = locator.locate(rows);
   }
-  return py::make_tuple(take(std::move(found.face)), take(std::move(found.barycentric)),
-                        take(std::move(found.element)));
+  return py::make_tuple(take(std::move(found.triangle)), take(std::move(found.barycentric)),
+                        take(std::move(found.copy)));
 }
 
-py::array map(const HeldEmbedding& held, const IntArray& face, const DoubleArray& barycentric,
-              const IntArray& element) {
-  const SurfacePoints points = {to_vector(face), to_points(barycentric), to_vector(element)};
+py::array map(const HeldEmbedding& held, const IntArray& triangle, const DoubleArray& barycentric,
+              const IntArray& copy) {
+  const SurfacePoints points = {to_vector(triangle), to_points(barycentric), to_vector(copy)};
   Points images;
   {
     const py::gil_scoped_release release;

@@ -12,11 +12,12 @@ namespace {
 RenderOptions options_from(const std::map<std::string, std::string>& texts, const Surface& surface) {
   RenderOptions options;
   if (const auto panel = texts.find("panel"); panel != texts.end())
-    options.panel = parse_panel(panel->second);
-  if (const auto size = texts.find("size"); size != texts.end()) parse_size(size->second, options);
-  if (const auto up = texts.find("up"); up != texts.end()) options.up = parse_up(up->second);
+    options.panel = parse_choice<Panel>(panel->second, "panel");
+  if (const auto size = texts.find("size"); size != texts.end()) parse_picture_size(size->second, options);
+  if (const auto up = texts.find("up"); up != texts.end()) options.up = parse_up_direction(up->second);
   if (const auto view = texts.find("view"); view != texts.end())
-    options.view = parse_view(view->second, options.up ? *options.up : default_up(surface));
+    options.view =
+        parse_view_direction(view->second, options.up ? *options.up : default_up_direction(surface));
   return options;
 }
 

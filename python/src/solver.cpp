@@ -2,6 +2,7 @@
 // The computation: options, progress, and solvers.
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 
@@ -71,14 +72,14 @@ class Solver {
   Solver(std::shared_ptr<const SourceMesh> mesh, EmbedOptions options)
       : mesh_(std::move(mesh)), solver_(mesh_->surface(), with_hook(std::move(options))) {}
 
-  HeldEmbedding embed(const Target& orbifold, const std::vector<int>& cones, py::object listener) {
+  HeldEmbedding embed(const Target& target, const std::vector<int>& cones, py::object listener) {
     const Busy busy(busy_);
     ProgressHook hook(std::move(listener));
     hook_ = &hook;
     try {
       const py::gil_scoped_release release;
       const Clock::time_point start = Clock::now();
-      EmbedResult result = solver_.embed(orbifold, cones);
+      EmbedResult result = solver_.embed(target, cones);
       return hold(std::move(result), mesh_, seconds_since(start));
     } catch (const Cancelled&) {
       hook.rethrow();
@@ -116,14 +117,14 @@ class Solver {
 };
 
 // For one embedding: without what a solver keeps for the next.
-HeldEmbedding embed_once(const std::shared_ptr<SourceMesh>& mesh, const Target& orbifold,
+HeldEmbedding embed_once(const std::shared_ptr<SourceMesh>& mesh, const Target& target,
                          const std::vector<int>& cones, EmbedOptions options, py::object listener) {
   ProgressHook hook(std::move(listener));
   options.progress = [&](const Progress& progress) { return hook(progress); };
   try {
     const py::gil_scoped_release release;
     const Clock::time_point start = Clock::now();
-    EmbedResult result = embed(*mesh->surface(), orbifold, cones, options);
+    EmbedResult result = embed(*mesh->surface(), target, cones, options);
     return hold(std::move(result), mesh, seconds_since(start));
   } catch (const Cancelled&) {
     hook.rethrow();
@@ -132,15 +133,13 @@ HeldEmbedding embed_once(const std::shared_ptr<SourceMesh>& mesh, const Target& 
 }
 
 void set_weights(EmbedOptions& options, const std::string& text) {
-  for (const WeightKind kind : {WeightKind::standard, WeightKind::cotan, WeightKind::delaunay,
-                                WeightKind::mean_value, WeightKind::uniform})
-    if (text == name(kind)) {
-      options.weights.kind = kind;
-      return;
-    }
-  throw ArgumentError(
-      "weights is '" + text +
-      "'; it may be standard, cotan, delaunay, mean-value or uniform, or (i, j, w), or a sparse matrix");
+  std::vector<std::string> choices = choices_of<WeightKind>();
+  if (std::find(choices.begin(), choices.end(), text) != choices.end()) {
+    options.weights.kind = *find_by_name<WeightKind>(text);
+    return;
+  }
+  choices.insert(choices.end(), {"(i, j, w)", "a sparse matrix"});
+  refuse_choice(text, "weights", choices);
 }
 
 void give_weights(EmbedOptions& options, const IntArray& i, const IntArray& j, const DoubleArray& w) {
@@ -151,9 +150,7 @@ void give_weights(EmbedOptions& options, const IntArray& i, const IntArray& j, c
 }
 
 void set_spread(EmbedOptions& options, const std::string& text) {
-  if (text != "arc-length" && text != "equidistant")
-    throw ArgumentError("spread is '" + text + "'; it may be arc-length or equidistant");
-  options.spread = text == "equidistant" ? Spread::equidistant : Spread::arc_length;
+  options.spread = parse_choice<Spread>(text, "spread");
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ bool is_same_face(std::span<const int> face, std::span<const int> cut,
 }
 
 void require_same_faces(const Points& V, const FaceView& faces, const Embedding& embedding) {
-  const FaceView cut = embedding.input_faces();
+  const FaceView cut = embedding.faces();
   if (cut.count() != faces.count())
     throw MeshError(
         fmt::format("the embedding has {} faces, and the mesh has {}: it is the embedding of another mesh",
@@ -90,7 +90,7 @@ std::shared_ptr<const Surface> SourceMesh::surface() const {
 Embedding SourceMesh::belonging(Embedding embedding) const {
   const Arrays given = arrays();
   require_same_faces(*given.V, given.faces(), embedding);
-  if (!given.F) embedding.faces = cut_triangles(*surface(), embedding);
+  if (!given.F) embedding.triangles = cut_triangles(*surface(), embedding);
   return embedding;
 }
 

@@ -26,7 +26,7 @@ class SourceMesh {
   /// The vertices and faces as they were given: either F, or corners and start, is null.
   struct Arrays {
     const Points* V = nullptr;
-    const Faces* F = nullptr;
+    const Triangles* F = nullptr;
     const std::vector<int>* corners = nullptr;
     const std::vector<int>* start = nullptr;
 

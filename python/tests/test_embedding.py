@@ -113,13 +113,13 @@ def test_a_solver_gives_the_same_as_the_function(figure):
 
 
 def test_a_sphere_goes_around_the_tiles(embedding):
-    V, F, element = orbitutte.tile(embedding)
-    assert len(F) == 24 * 500 and 2 * len(V) == len(F) + 4 and np.array_equal(element, np.repeat(np.arange(24), 500))
+    V, F, copy = orbitutte.tile(embedding)
+    assert len(F) == 24 * 500 and 2 * len(V) == len(F) + 4 and np.array_equal(copy, np.repeat(np.arange(24), 500))
     a, b, c = V[F[:, 0]], V[F[:, 1]], V[F[:, 2]]
     assert np.einsum("ij,ij->i", a, np.cross(b, c)).min() > 0
     for g in (0, 5, 23):
         mapped = embedding.positions[embedding.faces] @ embedding.group[g].T
-        assert np.allclose(V[F[element == g]], mapped, atol=1e-12)
+        assert np.allclose(V[F[copy == g]], mapped, atol=1e-12)
 
 
 def test_cones_may_be_chosen_before(figure):
@@ -203,7 +203,7 @@ def test_cuts_do_not_move_the_map(figure):
         turn = second.rotation_to(points, first.canonical_positions[: len(V)])
         assert second.is_free_to_rotate == (signature == "33")
         found = first.locate(points @ turn.T)
-        assert np.abs(first.source_points(found.face, found.barycentric) - V).max() < 1e-6
+        assert np.abs(first.source_points(found.triangle, found.barycentric) - V).max() < 1e-6
 
 
 def test_what_does_not_converge_is_a_result_with_a_warning(figure):
@@ -215,11 +215,11 @@ def test_what_does_not_converge_is_a_result_with_a_warning(figure):
         orbitutte.embed(*figure, "432")
 
 
-def test_info_and_signatures(figure, mask):
+def test_info_and_families(figure, mask):
     assert orbitutte.info(*figure)["topology"] == "sphere" and "532" in orbitutte.info(*figure)["embeds_into"]
     defects = orbitutte.info(mask[0], np.vstack([mask[1], mask[1][:1]]))["defects"]
     assert "face" in defects[0]["message"]
-    assert {row["family"] for row in orbitutte.signatures()} >= {"532", "22N", "*NN", "3*2", "Nx"}
+    assert {row["family"] for row in orbitutte.families()} >= {"532", "22N", "*NN", "3*2", "Nx"}
     assert orbitutte.info(*cube())["max_face_degree"] == 4
 
 

@@ -52,7 +52,7 @@ def test_info_and_types_are_those_of_the_command_line(command, figure, tmp_path)
     orbitutte.write_mesh(tmp_path / "mesh.obj", *figure)
     theirs = json.loads(run(command, "info", tmp_path / "mesh.obj", "--json"))
     assert {**theirs, "path": ""} == orbitutte.info(*figure)
-    assert json.loads(run(command, "types", "--json")) == orbitutte.signatures()
+    assert json.loads(run(command, "types", "--json")) == orbitutte.families()
 
 
 def test_polygons_through_files(command, tmp_path):
@@ -94,7 +94,7 @@ def test_nothing_is_printed_on_standard_output(capfd):
 def test_an_embedding_without_its_mesh_says_what_it_needs_it_for(embedding, tmp_path):
     embedding.save(tmp_path / "map.ply", tmp_path / "map.json")
     loaded = orbitutte.Embedding.load(tmp_path / "map.ply", tmp_path / "map.json")
-    assert loaded.mesh is None and len(orbitutte.tile(loaded).F) == 24 * 500 and loaded.locate([0, 0, 1]).face >= 0
+    assert loaded.mesh is None and len(orbitutte.tile(loaded).F) == 24 * 500 and loaded.locate([0, 0, 1]).triangle >= 0
     for use in (lambda: orbitutte.verify(loaded), lambda: loaded.weights, lambda: loaded.area_distortion, lambda: loaded.source_points(0, [1, 0, 0])):
         with pytest.raises(orbitutte.ArgumentError, match="mesh"):
             use()

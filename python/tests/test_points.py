@@ -16,11 +16,11 @@ def test_every_direction_is_located_and_comes_back(shape, signature):
     points = directions(5000)
     found = embedding.locate(points)
     assert np.abs(embedding.map_points(*found) - points).max() < 1e-12
-    assert set(found.element) == set(range(len(embedding.group)))
+    assert set(found.copy) == set(range(len(embedding.group)))
     # The same by hand: the group element applied to the normalised combination.
-    corners = embedding.positions[embedding.triangles[found.face]]
+    corners = embedding.positions[embedding.triangles[found.triangle]]
     flat = np.einsum("ki,kij->kj", found.barycentric, corners)
-    images = np.einsum("kij,kj->ki", embedding.group[found.element], flat / np.linalg.norm(flat, axis=1)[:, None])
+    images = np.einsum("kij,kj->ki", embedding.group[found.copy], flat / np.linalg.norm(flat, axis=1)[:, None])
     assert np.abs(images - points).max() < 1e-12
 
 
@@ -32,27 +32,45 @@ def test_points_in_space_lie_on_the_faces(embedding, figure):
 
 
 def test_a_single_point_is_a_point(embedding):
-    face, barycentric, element = embedding.locate([0, 0, 2])
-    assert isinstance(face, int) and barycentric.shape == (3,) and isinstance(element, int)
-    assert np.allclose(embedding.map_points(face, barycentric, element), [0, 0, 1], atol=1e-14)
-    assert embedding.map_points(face, barycentric).shape == (3,)
-    assert len(embedding.locate(np.empty((0, 3))).face) == 0
+    triangle, barycentric, copy = embedding.locate([0, 0, 2])
+    assert isinstance(triangle, int) and barycentric.shape == (3,) and isinstance(copy, int)
+    assert np.allclose(embedding.map_points(triangle, barycentric, copy), [0, 0, 1], atol=1e-14)
+    assert embedding.map_points(triangle, barycentric).shape == (3,)
+    assert len(embedding.locate(np.empty((0, 3))).triangle) == 0
 
 
 def test_what_is_nowhere_is_told(embedding):
     found = embedding.locate([[0, 0, 0], [np.nan, 0, 1], [0, 1, 0]])
-    assert found.face.tolist()[:2] == [-1, -1] and found.face[2] >= 0
+    assert found.triangle.tolist()[:2] == [-1, -1] and found.triangle[2] >= 0
     assert np.isnan(embedding.map_points(*found)[:2]).all() and np.isnan(embedding.source_points(*found[:2])[:2]).all()
 
 
 def test_points_that_are_none_are_named(embedding):
-    with pytest.raises(orbitutte.ArgumentError, match="point 1 names the face 500"):
+    with pytest.raises(orbitutte.ArgumentError, match="point 1 names the triangle 500"):
         embedding.map_points([0, 500], [[1, 0, 0], [1, 0, 0]])
     with pytest.raises(orbitutte.ArgumentError, match="point 0 .* add up to 1"):
         embedding.map_points([0], [[1, 1, 0]])
     with pytest.raises(orbitutte.ArgumentError, match="copy 24"):
         embedding.map_points(0, [1, 0, 0], 24)
-    with pytest.raises(orbitutte.ArgumentError, match="2 faces, 1 rows"):
+    with pytest.raises(orbitutte.ArgumentError, match="2 triangles, 1 rows"):
         embedding.map_points([0, 1], [[1, 0, 0]])
-    with pytest.raises(orbitutte.ArgumentError, match="point 0 names the face 500"):
+    with pytest.raises(orbitutte.ArgumentError, match="point 0 names the triangle 500"):
         embedding.source_points([500], [[1, 0, 0]])
+
+
+def test_old_names_work_with_a_warning(embedding):
+    found = embedding.locate(directions(3))
+    tiling = orbitutte.tile(embedding)
+    for old, new in ((lambda: found.face, found.triangle), (lambda: found.element, found.copy), (lambda: tiling.element, tiling.copy)):
+        with pytest.warns(DeprecationWarning, match="its name is now"):
+            assert np.array_equal(old(), new)
+    with pytest.warns(DeprecationWarning, match="argument face of map_points .* triangle"):
+        images = embedding.map_points(face=found.triangle, barycentric=found.barycentric, element=found.copy)
+    assert np.array_equal(images, embedding.map_points(*found))
+    with pytest.warns(DeprecationWarning, match="argument face of source_points"):
+        points = embedding.source_points(face=found.triangle, barycentric=found.barycentric)
+    assert np.array_equal(points, embedding.source_points(*found[:2]))
+    with pytest.warns(DeprecationWarning), pytest.raises(TypeError, match="both triangle and face"):
+        embedding.map_points(triangle=0, face=0, barycentric=[1, 0, 0])
+    with pytest.warns(DeprecationWarning, match="families"):
+        assert orbitutte.signatures() == orbitutte.families()

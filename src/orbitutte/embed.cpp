@@ -26,14 +26,14 @@ GluingProblem gluing_problem(const EmbedRequest& request, const EdgeWeights& wei
                              const EmbeddingCache& cache) {
   const Surface& surface = request.prepared.surface;
   const CutMesh& cut = cache.cut.cut;
-  const Tile tile = basic_tile(request.orbifold, cut.arrangement);  // appendix A
+  const Tile tile = basic_tile(request.target, cut.arrangement);  // appendix A
   return {surface,
           cut,
-          request.orbifold,
+          request.target,
           weights,
           {request.options.laplacian, cache.laplacians},
           tile,
-          boundary_conditions(surface, cut, tile, request.orbifold, request.options.spread)};
+          boundary_conditions(surface, cut, tile, request.target, request.options.spread)};
 }
 
 // The minimum that was placed, as an embedding.
@@ -98,7 +98,7 @@ std::vector<std::string> warnings_of(const EmbedRequest& request, const GluingPr
   if (const std::vector<int>& nonpositive = result.certificate.nonpositive_faces; !nonpositive.empty()) {
     const FaceView faces = problem.surface.faces();
     const auto mirrors = mirrors_of(placed.tile, placed.boundary, problem.cut.source_vertex);
-    const std::vector<int> collapsing = collapsing_faces(faces, mirrors, request.marked_vertices);
+    const std::vector<int> collapsing = collapsing_faces(faces, mirrors, request.cones);
     append(warnings_of_collapse(faces, collapsing, nonpositive), warnings);
   }
   return warnings;
@@ -150,7 +150,7 @@ EmbedResult embed_with_some_weights(const EmbedRequest& request, EmbeddingCache&
   for (const WeightKind kind : other_weights(request.prepared.surface)) {
     EmbedOptions other = options;
     other.weights.kind = kind;
-    EmbedResult next = embed_once({request.prepared, request.orbifold, request.marked_vertices, other}, cache);
+    EmbedResult next = embed_once({request.prepared, request.target, request.cones, other}, cache);
     first.timings.insert(first.timings.end(), next.timings.begin(), next.timings.end());
     if (!next.certificate.bijective) continue;
     next.timings = first.timings;
@@ -169,14 +169,13 @@ auto with_threads_of(const EmbedOptions& options, const Compute& compute) {
 
 // Validates, as the first stage, what is then embedded. validate() returns the prepared surface.
 template <typename Validate>
-EmbedResult embed_validated(const Validate& validate, const Target& orbifold,
-                            const std::vector<int>& marked_vertices, const EmbedOptions& options,
-                            EmbeddingCache& cache) {
+EmbedResult embed_validated(const Validate& validate, const Target& target, const std::vector<int>& cones,
+                            const EmbedOptions& options, EmbeddingCache& cache) {
   return with_threads_of(options, [&] {
     Timings timings;
     Stages stage(options.progress, timings);
     const PreparedSurface prepared = stage("validate", validate);
-    const EmbedRequest request = {prepared, orbifold, marked_vertices, options};
+    const EmbedRequest request = {prepared, target, cones, options};
     require_fit(request);
     EmbedResult result = embed_with_some_weights(request, cache);
     result.timings.insert(result.timings.begin(), timings.begin(), timings.end());
@@ -185,7 +184,7 @@ EmbedResult embed_validated(const Validate& validate, const Target& orbifold,
 }
 
 template <typename AnyMesh>
-EmbedResult embed_mesh(const AnyMesh& mesh, const Target& orbifold, const std::vector<int>& marked_vertices,
+EmbedResult embed_mesh(const AnyMesh& mesh, const Target& target, const std::vector<int>& cones,
                        const EmbedOptions& options) {
   Surface surface;
   const auto validate = [&] {
@@ -193,26 +192,26 @@ EmbedResult embed_mesh(const AnyMesh& mesh, const Target& orbifold, const std::v
     return prepare(surface, options);
   };
   EmbeddingCache cache(Kept::order);
-  return embed_validated(validate, orbifold, marked_vertices, options, cache);
+  return embed_validated(validate, target, cones, options, cache);
 }
 
 }  // namespace
 
-EmbedResult embed(const Surface& surface, const Target& orbifold, const std::vector<int>& marked_vertices,
+EmbedResult embed(const Surface& surface, const Target& target, const std::vector<int>& cones,
                   const EmbedOptions& options) {
   const auto validate = [&] { return prepare(surface, options); };
   EmbeddingCache cache(Kept::order);
-  return embed_validated(validate, orbifold, marked_vertices, options, cache);
+  return embed_validated(validate, target, cones, options, cache);
 }
 
-EmbedResult embed(const Mesh& mesh, const Target& orbifold, const std::vector<int>& marked_vertices,
+EmbedResult embed(const Mesh& mesh, const Target& target, const std::vector<int>& cones,
                   const EmbedOptions& options) {
-  return embed_mesh(mesh, orbifold, marked_vertices, options);
+  return embed_mesh(mesh, target, cones, options);
 }
 
-EmbedResult embed(const PolygonMesh& mesh, const Target& orbifold, const std::vector<int>& marked_vertices,
+EmbedResult embed(const PolygonMesh& mesh, const Target& target, const std::vector<int>& cones,
                   const EmbedOptions& options) {
-  return embed_mesh(mesh, orbifold, marked_vertices, options);
+  return embed_mesh(mesh, target, cones, options);
 }
 
 struct EmbeddingSolver::State {
@@ -240,24 +239,24 @@ EmbeddingSolver::EmbeddingSolver(PolygonMesh mesh, const EmbedOptions& options)
 EmbeddingSolver::~EmbeddingSolver() = default;
 EmbeddingSolver::EmbeddingSolver(EmbeddingSolver&&) noexcept = default;
 
-EmbedResult EmbeddingSolver::embed(const Target& orbifold, const std::vector<int>& marked_vertices) {
+EmbedResult EmbeddingSolver::embed(const Target& target, const std::vector<int>& cones) {
   State& state = *state_;
   const auto validate = [&] { return state.prepared; };
-  return embed_validated(validate, orbifold, marked_vertices, state.options, state.cache);
+  return embed_validated(validate, target, cones, state.options, state.cache);
 }
 
-std::vector<int> choose_marked_vertices(const Surface& surface, const Target& orbifold) {
-  require_topology(surface, orbifold);
-  const int outer = static_cast<int>(orbifold.marks.size()) - orbifold.inner_marks;
-  return extremities(surface, {orbifold.inner_marks, outer, are_opposite(orbifold.marks)});
+std::vector<int> choose_cones(const Surface& surface, const Target& target) {
+  require_topology(surface, target);
+  const int outer = static_cast<int>(target.marks.size()) - target.inner_marks;
+  return choose_extremities(surface, {target.inner_marks, outer, are_opposite(target.marks)});
 }
 
-std::vector<int> choose_marked_vertices(const Mesh& mesh, const Target& orbifold) {
-  return choose_marked_vertices(make_surface(mesh), orbifold);
+std::vector<int> choose_cones(const Mesh& mesh, const Target& target) {
+  return choose_cones(make_surface(mesh), target);
 }
 
-std::vector<int> choose_marked_vertices(const PolygonMesh& mesh, const Target& orbifold) {
-  return choose_marked_vertices(make_surface(mesh), orbifold);
+std::vector<int> choose_cones(const PolygonMesh& mesh, const Target& target) {
+  return choose_cones(make_surface(mesh), target);
 }
 
 }  // namespace orbitutte

@@ -11,8 +11,8 @@
 
 namespace orbitutte {
 
-/// Embeds a surface (make_surface) into an orbifold, its marked vertices (0-based, in the order of
-/// Target::marks) at the cones and corners. Minimises the energy (2) over the gluings of appendix A by
+/// Embeds a surface (make_surface) into an orbifold. `cones` are the marked vertices (0-based, in the order of
+/// Target::marks), which come to lie at its cones and corners. Minimises the energy (2) over the gluings of appendix A by
 /// algorithm 1, as corrected in docs/deviations.md, and judges the result. Not converging and not being
 /// bijective are results, not errors: see minimum.termination and certificate.bijective, which is true only
 /// for converged maps. Throws MeshError naming the vertex, edge or face; ArgumentError; Cancelled;
@@ -22,14 +22,14 @@ namespace orbitutte {
 /// convex. Their cotangents are those of their triangles, which are also the faces of the result beside its
 /// polygons, and the distortion is theirs. ArgumentError for kinds of weights that they do not have
 /// (weight_kind).
-EmbedResult embed(const Surface& surface, const Target& orbifold, const std::vector<int>& marked_vertices,
+EmbedResult embed(const Surface& surface, const Target& target, const std::vector<int>& cones,
                   const EmbedOptions& options = {});
 
 /// The same of the surface that a mesh is; throws as make_surface does, too. It copies the mesh; a caller who
 /// has no further use for the mesh avoids that by make_surface(std::move(mesh)).
-EmbedResult embed(const Mesh& mesh, const Target& orbifold, const std::vector<int>& marked_vertices,
+EmbedResult embed(const Mesh& mesh, const Target& target, const std::vector<int>& cones,
                   const EmbedOptions& options = {});
-EmbedResult embed(const PolygonMesh& mesh, const Target& orbifold, const std::vector<int>& marked_vertices,
+EmbedResult embed(const PolygonMesh& mesh, const Target& target, const std::vector<int>& cones,
                   const EmbedOptions& options = {});
 
 /// For many embeddings of one surface: keeps what depends neither on the cones nor on their orders, and those
@@ -47,7 +47,7 @@ class EmbeddingSolver {
   EmbeddingSolver(EmbeddingSolver&&) noexcept;
 
   /// As the functions above. Stages that find their work done take no time in the result's timings.
-  EmbedResult embed(const Target& orbifold, const std::vector<int>& marked_vertices);
+  EmbedResult embed(const Target& target, const std::vector<int>& cones);
 
  private:
   struct State;
@@ -56,10 +56,10 @@ class EmbeddingSolver {
 
 /// Well separated extremities for the marks of the orbifold, inside a disk or on its boundary as each has to
 /// be. Throws MeshError if the surface is not what the orbifold needs.
-std::vector<int> choose_marked_vertices(const Surface& surface, const Target& orbifold);
+std::vector<int> choose_cones(const Surface& surface, const Target& target);
 
 /// The same of the surface that a mesh is; throws as make_surface does, too.
-std::vector<int> choose_marked_vertices(const Mesh& mesh, const Target& orbifold);
-std::vector<int> choose_marked_vertices(const PolygonMesh& mesh, const Target& orbifold);
+std::vector<int> choose_cones(const Mesh& mesh, const Target& target);
+std::vector<int> choose_cones(const PolygonMesh& mesh, const Target& target);
 
 }  // namespace orbitutte

@@ -5,14 +5,20 @@
 #include <string>
 #include <vector>
 
+#include "orbitutte/names.h"
 #include "orbitutte/types.h"
 
 namespace orbitutte {
 
 enum class Termination { converged, max_iterations, line_search_failed };
 
-/// "converged", "max_iterations" or "line_search_failed".
-std::string name(Termination termination);
+/// Its names.
+template <>
+struct NameTable<Termination> {
+  static constexpr NamedValue<Termination> rows[] = {{Termination::converged, "converged"},
+                                                     {Termination::max_iterations, "max_iterations"},
+                                                     {Termination::line_search_failed, "line_search_failed"}};
+};
 
 /// One row of the history: the state after an iteration (the first row: the start).
 struct Iteration {

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "orbitutte/names.h"
+
 namespace orbitutte {
 
 /// Chooses between the cuts through the same marked vertices.
@@ -21,11 +23,21 @@ enum class Spread {
   equidistant
 };
 
+/// Its names.
+template <>
+struct NameTable<Spread> {
+  static constexpr NamedValue<Spread> rows[] = {{Spread::arc_length, "arc-length"},
+                                                {Spread::equidistant, "equidistant"}};
+};
+
 /// The libraries that factorise sparse matrices.
 enum class Backend { cholmod, eigen };
 
-/// "cholmod" or "eigen".
-std::string name(Backend backend);
+/// Its names.
+template <>
+struct NameTable<Backend> {
+  static constexpr NamedValue<Backend> rows[] = {{Backend::cholmod, "cholmod"}, {Backend::eigen, "eigen"}};
+};
 
 /// The backends in this binary; the first is the default (CMake option ORBITUTTE_SOLVER).
 std::vector<Backend> available_backends();

@@ -20,31 +20,31 @@ const std::vector<std::array<int, 2>>& weighted_edges(const EdgeWeights& weights
   return weights.triangulation ? weights.triangulation->connectivity.edges : surface.connectivity.edges;
 }
 
-std::vector<ConeAngle> cone_angles(const Target& orbifold, const std::vector<int>& marked_vertices) {
-  const std::vector<double> angles = metric_angles(orbifold.marks);
-  std::vector<ConeAngle> cones;
+std::vector<ConeAngle> cone_angles(const Target& target, const std::vector<int>& cones) {
+  const std::vector<double> angles = metric_angles(target.marks);
+  std::vector<ConeAngle> result;
   for (std::size_t k = 0; k < angles.size(); ++k)
-    if (angles[k] > 0) cones.push_back({marked_vertices[k], angles[k]});
-  return cones;
+    if (angles[k] > 0) result.push_back({cones[k], angles[k]});
+  return result;
 }
 
 using Pairs = std::vector<std::array<int, 2>>;
 
 // The marked vertices that come to lie at opposite points of the sphere.
 Pairs opposite_vertices(const EmbedRequest& request) {
-  if (!are_opposite(request.orbifold.marks) || request.marked_vertices.size() != 2) return {};
-  return {{request.marked_vertices[0], request.marked_vertices[1]}};
+  if (!are_opposite(request.target.marks) || request.cones.size() != 2) return {};
+  return {{request.cones[0], request.cones[1]}};
 }
 
 // Every arc between opposite points is as short as any other, so that an edge between them has no place.
-void require_no_edge(const Connectivity& connectivity, const Pairs& opposite, const Target& orbifold) {
+void require_no_edge(const Connectivity& connectivity, const Pairs& opposite, const Target& target) {
   for (const auto& [v, w] : opposite) {
     const std::array<int, 2> edge = {std::min(v, w), std::max(v, w)};
     if (!std::binary_search(connectivity.edges.begin(), connectivity.edges.end(), edge)) continue;
     throw MeshError(
         fmt::format("the marked vertices {} and {} are joined by an edge, but {} puts them at opposite "
                     "points of the sphere; mark vertices that are further apart, or split the edge",
-                    v, w, orbifold.signature));
+                    v, w, target.signature));
   }
 }
 
@@ -53,7 +53,7 @@ Pairs boundary_edges(const Surface& disk) {
   Pairs edges;
   for (int h = 0; h < static_cast<int>(disk.connectivity.opposite.size()); ++h)
     if (disk.connectivity.opposite[h] < 0)
-      edges.push_back({origin(disk.triangles, h), target(disk.triangles, h)});
+      edges.push_back({halfedge_origin(disk.triangles, h), halfedge_target(disk.triangles, h)});
   return edges;
 }
 
@@ -72,28 +72,28 @@ PreparedSurface prepare(const Surface& surface, const EmbedOptions& options) {
   return prepared;
 }
 
-void require_topology(const Surface& surface, const Target& orbifold) {
-  if (surface.topology == orbifold.topology) return;
-  if (surface.topology == Topology::disk && orbifold.topology == Topology::sphere) {
+void require_topology(const Surface& surface, const Target& target) {
+  if (surface.topology == target.topology) return;
+  if (surface.topology == Topology::disk && target.topology == Topology::sphere) {
     const Pairs hole = boundary_edges(surface);
     throw MeshError(fmt::format(
         "the mesh has a hole of {} edges, through vertex {}, which makes it a disk, but {} needs a sphere; "
         "fill the hole, or choose an orbifold for a disk, such as *{}{}",
-        hole.size(), smallest_vertex(hole), orbifold.signature, orbifold.signature,
+        hole.size(), smallest_vertex(hole), target.signature, target.signature,
         in_brackets(welding_advice(find_coincidence(surface.V, hole)))));
   }
   throw MeshError(fmt::format(
       "the mesh is a {}, but {} needs a {}; choose an orbifold for a {} (see 'orbitutte types')",
-      name(surface.topology), orbifold.signature, name(orbifold.topology), name(surface.topology)));
+      name_of(surface.topology), target.signature, name_of(target.topology), name_of(surface.topology)));
 }
 
 void require_fit(const EmbedRequest& request) {
-  const Target& orbifold = request.orbifold;
-  if (request.marked_vertices.size() != orbifold.marks.size())
-    throw MeshError(fmt::format("{} needs {} marked vertices, not {}", orbifold.signature,
-                                orbifold.marks.size(), request.marked_vertices.size()));
-  require_topology(request.prepared.surface, orbifold);
-  require_no_edge(request.prepared.surface.connectivity, opposite_vertices(request), orbifold);
+  const Target& target = request.target;
+  if (request.cones.size() != target.marks.size())
+    throw MeshError(fmt::format("{} needs {} marked vertices, not {}", target.signature, target.marks.size(),
+                                request.cones.size()));
+  require_topology(request.prepared.surface, target);
+  require_no_edge(request.prepared.surface.connectivity, opposite_vertices(request), target);
 }
 
 EdgeWeights find_weights(const EmbedRequest& request, KnownWeights& known) {
@@ -105,18 +105,17 @@ EdgeWeights find_weights(const EmbedRequest& request, KnownWeights& known) {
   known.kind = options.weights.kind;
   const Pairs opposite = opposite_vertices(request);
   return sharpened_at_cones(kept_apart(*known.weights, surface, options.weights, {{}, opposite}),
-                            cone_angles(request.orbifold, request.marked_vertices), opposite);
+                            cone_angles(request.target, request.cones), opposite);
 }
 
 void find_cut(const EmbedRequest& request, const EdgeWeights& weights, EmbeddingCache& cache) {
   const Surface& surface = request.prepared.surface;
-  const std::pair through(request.marked_vertices, request.orbifold.inner_marks);
+  const std::pair through(request.cones, request.target.inner_marks);
   const bool is_cut = cache.cut.through == through;
   cache.cut.through.reset();
   parallel_for(2, [&](int task) {
     if (task == 0 && !is_cut)
-      cache.cut.cut =
-          cut_to_disk(surface, request.marked_vertices, request.orbifold.inner_marks, request.options.cut);
+      cache.cut.cut = cut_to_disk(surface, request.cones, request.target.inner_marks, request.options.cut);
     if (task == 1) order_ahead(*cache.laplacians, weighted_edges(weights, surface), surface.vertex_count());
   });
   cache.cut.through = through;

@@ -25,8 +25,8 @@ struct PreparedSurface {
 /// What embed is asked for.
 struct EmbedRequest {
   const PreparedSurface& prepared;
-  const Target& orbifold;
-  const std::vector<int>& marked_vertices;
+  const Target& target;
+  const std::vector<int>& cones;
   const EmbedOptions& options;
 };
 
@@ -64,7 +64,7 @@ void require_fit(const EmbedRequest& request);
 
 /// Throws MeshError unless the surface has the topology that the orbifold needs. The message about a hole
 /// names it and both remedies.
-void require_topology(const Surface& surface, const Target& orbifold);
+void require_topology(const Surface& surface, const Target& target);
 
 /// The weights (section 4), those of a metric that is flat at the cones.
 EdgeWeights find_weights(const EmbedRequest& request, KnownWeights& known);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "orbitutte/errors.h"
+#include "orbitutte/names.h"
 
 // Matrices pass between the library and programs, and Eigen allocates them by the vector instructions that
 // each is compiled for. An installed library says what it has.
@@ -26,7 +27,7 @@ using Matrix3 = Eigen::Matrix3d;
 using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
 /// m x 3, one triangle a row: 0-based vertices, counterclockwise seen from outside.
-using Faces = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;
+using Triangles = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
 /// Faces of three corners or more: face f has the vertices corners[start[f]] .. corners[start[f + 1] - 1],
 /// counterclockwise seen from outside.
@@ -40,7 +41,7 @@ struct Polygons {
 /// Faces as they are given, be they triangles or polygons: a reference to either.
 class FaceView {
  public:
-  explicit FaceView(const Faces& triangles)
+  explicit FaceView(const Triangles& triangles)
       : corners_(triangles.data()), count_(static_cast<int>(triangles.rows())) {}
   explicit FaceView(const Polygons& polygons) : FaceView(polygons.corners, polygons.start) {}
   FaceView(const std::vector<int>& corners, const std::vector<int>& start)
@@ -66,8 +67,8 @@ class FaceView {
 
 /// A triangle mesh. Vertices that no face uses are allowed.
 struct Mesh {
-  Points V;  ///< n x 3
-  Faces F;   ///< m x 3
+  Points V;     ///< n x 3
+  Triangles F;  ///< m x 3
 };
 
 /// A corner of a spherical polygon: a vertex on the boundary of a mesh, and the unit vector at which it is
@@ -80,7 +81,13 @@ struct PolygonCorner {
 /// What a surface is, as far as spherical orbifolds ask.
 enum class Topology { sphere, disk, projective_plane, other };
 
-/// "sphere", "disk", "projective-plane" or "other".
-std::string name(Topology topology);
+/// Its names.
+template <>
+struct NameTable<Topology> {
+  static constexpr NamedValue<Topology> rows[] = {{Topology::sphere, "sphere"},
+                                                  {Topology::disk, "disk"},
+                                                  {Topology::projective_plane, "projective-plane"},
+                                                  {Topology::other, "other"}};
+};
 
 }  // namespace orbitutte

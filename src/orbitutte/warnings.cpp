@@ -44,7 +44,7 @@ std::vector<std::string> warnings_about(const EdgeWeights& weights, const std::v
 std::vector<std::string> warnings_of_orientation(const Surface& surface) {
   constexpr double rounding = 1e-12;  // of a volume, relative to those of which it is the sum
   if (surface.topology != Topology::sphere) return {};
-  const Faces& F = surface.triangles;
+  const Triangles& F = surface.triangles;
   const Vector3 base = surface.V.row(F(0, 0));
   const auto volume_of_face = [&](int f) {
     const auto corner = [&](int k) -> Vector3 { return surface.V.row(F(f, k)).transpose() - base; };
@@ -86,8 +86,8 @@ std::string warning_of_replaced_weights(const EmbedResult& standard, const Embed
   return fmt::format(
       "the standard weights ({}) turn {} faces over, so the weights '{}' were taken, with which the map is a "
       "bijection; '--weights {}' keeps the others",
-      name(standard.weights.kind), standard.certificate.nonpositive_faces.size(), name(taken.weights.kind),
-      name(standard.weights.kind));
+      name_of(standard.weights.kind), standard.certificate.nonpositive_faces.size(), name_of(taken.weights.kind),
+      name_of(standard.weights.kind));
 }
 
 }  // namespace orbitutte

@@ -9,8 +9,8 @@
 int main() {
   using namespace orbitutte;
   const Mesh mesh = sample_mesh({SampleShape::figure, 2000});
-  const Target orbifold = parse_orbifold("432");
-  EmbedResult result = embed(mesh, orbifold, choose_marked_vertices(mesh, orbifold));
+  const Target target = parse_orbifold("432");
+  EmbedResult result = embed(mesh, target, choose_cones(mesh, target));
   result.embedding.positions.resize(0, 3);  // frees here what the library allocated
   try {
     parse_orbifold("no symbol");

@@ -17,13 +17,13 @@ struct Places {
 };
 
 Places places(const Surface& surface) {
-  const Faces& F = surface.triangles;
+  const Triangles& F = surface.triangles;
   const int vertex_count = surface.vertex_count();
   Places result;
   std::vector<char> used(vertex_count, 0), outer(vertex_count, 0);
   for (int h = 0; h < static_cast<int>(F.size()); ++h) {
-    used[origin(F, h)] = 1;
-    if (surface.connectivity.opposite[h] < 0) outer[origin(F, h)] = 1;
+    used[halfedge_origin(F, h)] = 1;
+    if (surface.connectivity.opposite[h] < 0) outer[halfedge_origin(F, h)] = 1;
   }
   for (int v = 0; v < vertex_count; ++v)
     if (used[v]) (outer[v] ? result.on_boundary : result.inside).push_back(v);
@@ -80,7 +80,7 @@ class Separation {
 
 }  // namespace
 
-std::vector<int> extremities(const Surface& surface, const WantedExtremities& wanted) {
+std::vector<int> choose_extremities(const Surface& surface, const WantedExtremities& wanted) {
   const Places place = places(surface);
   if (wanted.inner > 0 && place.inside.empty())
     throw MeshError("one vertex has to be marked inside the surface, but all are on its boundary");

@@ -21,6 +21,6 @@ struct WantedExtremities {
 /// The inner vertices, then the outer ones: each the farthest from those before, along the edges; the first,
 /// from the boundary where it lies inside of one, otherwise from a vertex anywhere. O((inner + outer) n log
 /// n). Throws MeshError if the mesh has fewer such vertices.
-std::vector<int> extremities(const Surface& surface, const WantedExtremities& wanted);
+std::vector<int> choose_extremities(const Surface& surface, const WantedExtremities& wanted);
 
 }  // namespace orbitutte

@@ -85,7 +85,7 @@ EdgeGraph contracted(const EdgeGraph& graph, const Path& path) {
   }
   add(path.front(), n, 0);
   add(path.back(), n, 0);
-  result.neighbors = neighbors(edges, n + 1);
+  result.neighbors = vertex_neighbors(edges, n + 1);
   return result;
 }
 
@@ -142,10 +142,10 @@ Path path_through(const Surface& surface, const EdgeGraph& graph, const std::vec
 }
 
 // A half-edge that leaves each vertex (-1 if no face uses it). At a boundary vertex it lies on the boundary.
-std::vector<int> outgoing_halfedges(const Faces& F, const std::vector<int>& opposite, int vertex_count) {
+std::vector<int> outgoing_halfedges(const Triangles& F, const std::vector<int>& opposite, int vertex_count) {
   std::vector<int> result(vertex_count, -1);
   for (int h = 0; h < static_cast<int>(F.size()); ++h) {
-    int& out = result[origin(F, h)];
+    int& out = result[halfedge_origin(F, h)];
     if (out < 0 || opposite[h] < 0) out = h;
   }
   return result;
@@ -250,7 +250,7 @@ OpenedMesh opened_along(const CutPath& path, const Surface& surface) {
 
 // Turns faces of a surface without orientation over so that all agree once it is cut.
 void turn_faces(OpenedMesh& mesh) {
-  const Faces F = mesh.cut.F;
+  const Triangles F = mesh.cut.F;
   mesh.cut.F = agreeing_faces(F, mesh.opposite);
   for (Eigen::Index f = 0; f < F.rows(); ++f) mesh.cut.turned.push_back(mesh.cut.F(f, 1) != F(f, 1));
   const std::vector<int> edge_of = mesh.cut.edge_of, opposite = mesh.opposite;
@@ -264,13 +264,13 @@ void turn_faces(OpenedMesh& mesh) {
 // The first half-edge on the boundary of the opened mesh that leaves vertex v.
 int boundary_halfedge(int v, const OpenedMesh& mesh) {
   int h = 0;
-  while (mesh.opposite[h] >= 0 || origin(mesh.cut.F, h) != v) ++h;
+  while (mesh.opposite[h] >= 0 || halfedge_origin(mesh.cut.F, h) != v) ++h;
   return h;
 }
 
 // Gives the vertex another index in the faces of one sector: those from the boundary half-edge `begin` to the
 // one that arrives at its origin.
-void renumber_sector(int begin, int vertex, const std::vector<int>& opposite, Faces& F) {
+void renumber_sector(int begin, int vertex, const std::vector<int>& opposite, Triangles& F) {
   for (int h = begin; h >= 0; h = opposite[previous_halfedge(h)]) F.data()[h] = vertex;
 }
 
@@ -282,7 +282,7 @@ CutMesh split_along_boundary(int from, OpenedMesh mesh) {
   std::vector<char> passed(cut.source_vertex.size(), 0);
   int h = start;
   do {
-    const int v = origin(cut.F, h);
+    const int v = halfedge_origin(cut.F, h);
     int vertex = v;
     if (passed[v]) {
       vertex = cut.vertex_count();
@@ -315,7 +315,7 @@ std::vector<int> order_met(const std::vector<int>& boundary, const std::vector<i
 
 EdgeGraph edge_length_graph(const Surface& surface) {
   const std::vector<std::array<int, 2>>& edges = surface.connectivity.edges;
-  EdgeGraph graph = {neighbors(edges, surface.vertex_count()), std::vector<double>(edges.size()), {}};
+  EdgeGraph graph = {vertex_neighbors(edges, surface.vertex_count()), std::vector<double>(edges.size()), {}};
   const double total = parallel_sum(static_cast<int>(graph.length.size()), [&](int e) {
     const auto [i, j] = edges[e];
     return graph.length[e] = straight_distance(surface, i, j);

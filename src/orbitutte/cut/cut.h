@@ -15,7 +15,7 @@ namespace orbitutte {
 struct CutMesh {
   /// m x 3: the input triangles in their order, on cut vertices. If the input has no orientation, some are
   /// turned over: f(0), f(2), f(1).
-  Faces F;
+  Triangles F;
   /// 3 m: the edge of the uncut mesh of every half-edge of F; -1 for a diagonal.
   std::vector<int> edge_of;
   /// m: is the triangle turned over? Empty if none is.

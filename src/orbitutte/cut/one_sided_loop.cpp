@@ -13,14 +13,16 @@
 namespace orbitutte {
 namespace {
 
-bool same_direction(const Faces& F, int h, int other) { return origin(F, h) == origin(F, other); }
+bool same_direction(const Triangles& F, int h, int other) {
+  return halfedge_origin(F, h) == halfedge_origin(F, other);
+}
 
 // Numbers the corners of the double cover: corner h of a face on sheet 0 or 1.
 int lift(int h, int sheet) { return 2 * h + sheet; }
 
 // Unites the corners of the double cover that are one vertex there. Sheet 0 holds every face as it is, sheet
 // 1 turned over. Crossing an edge changes the sheet if both faces run along it in the same direction.
-DisjointSets vertices_of_double_cover(const Faces& F, const std::vector<int>& opposite) {
+DisjointSets vertices_of_double_cover(const Triangles& F, const std::vector<int>& opposite) {
   DisjointSets vertices(2 * static_cast<int>(F.size()));
   for (int h = 0; h < static_cast<int>(F.size()); ++h) {
     const int other = opposite[h];
@@ -38,13 +40,13 @@ DisjointSets vertices_of_double_cover(const Faces& F, const std::vector<int>& op
 // Per edge: does it join different lifts of its ends? Lift 0 of a vertex is that of its first corner on sheet
 // 0.
 std::vector<char> lift_changes(const Surface& surface) {
-  const Faces& F = surface.triangles;
+  const Triangles& F = surface.triangles;
   const Connectivity& connectivity = surface.connectivity;
   DisjointSets vertices = vertices_of_double_cover(F, connectivity.opposite);
   std::vector<int> first(surface.vertex_count(), -1);
   for (int h = 0; h < static_cast<int>(F.size()); ++h)
-    if (first[origin(F, h)] < 0) first[origin(F, h)] = vertices.find(lift(h, 0));
-  const auto lift_of = [&](int h) { return vertices.find(lift(h, 0)) != first[origin(F, h)]; };
+    if (first[halfedge_origin(F, h)] < 0) first[halfedge_origin(F, h)] = vertices.find(lift(h, 0));
+  const auto lift_of = [&](int h) { return vertices.find(lift(h, 0)) != first[halfedge_origin(F, h)]; };
   std::vector<char> changes(connectivity.edges.size());
   for (int h = 0; h < static_cast<int>(F.size()); ++h)
     if (const int e = connectivity.edge_of[h]; e >= 0) changes[e] = lift_of(h) != lift_of(next_halfedge(h));
@@ -71,7 +73,7 @@ EdgeGraph double_cover(const EdgeGraph& graph, const std::vector<char>& changes)
     edges.push_back({n + i, changes[e] ? j : n + j});
     cover.length.insert(cover.length.end(), 2, graph.length[e]);
   }
-  cover.neighbors = neighbors(edges, 2 * n);
+  cover.neighbors = vertex_neighbors(edges, 2 * n);
   return cover;
 }
 
@@ -101,7 +103,7 @@ std::array<Path, 2> paths_to_loop(const EdgeGraph& graph, int vertex, const Path
       joined.length.push_back(0);
     }
   }
-  joined.neighbors = neighbors(edges, n + 2);
+  joined.neighbors = vertex_neighbors(edges, n + 2);
   std::array<Path, 2> paths = disjoint_paths(joined, vertex, {n, n + 1});
   for (Path& path : paths) path.pop_back();
   return paths;
@@ -131,7 +133,7 @@ Path closed_along(const std::array<Path, 2>& paths, Path loop) {
 
 }  // namespace
 
-bool has_turned_faces(const Faces& F, const std::vector<int>& opposite) {
+bool has_turned_faces(const Triangles& F, const std::vector<int>& opposite) {
   return parallel_max(static_cast<int>(F.size()), [&](int h) {
            return opposite[h] >= 0 && same_direction(F, h, opposite[h]) ? 1.0 : 0.0;
          }) > 0;
@@ -152,7 +154,7 @@ Path one_sided_loop(const EdgeGraph& graph, const Surface& surface, int vertex) 
                                              : closed_along(paths, Path(loop.rbegin(), loop.rend()));
 }
 
-Faces agreeing_faces(const Faces& F, const std::vector<int>& opposite) {
+Triangles agreeing_faces(const Triangles& F, const std::vector<int>& opposite) {
   std::vector<char> turned(F.rows(), 0), met(F.rows(), 0);
   std::vector<int> front = {0};
   met[0] = 1;
@@ -167,7 +169,7 @@ Faces agreeing_faces(const Faces& F, const std::vector<int>& opposite) {
       front.push_back(other / 3);
     }
   }
-  Faces result = F;
+  Triangles result = F;
   for (Eigen::Index f = 0; f < F.rows(); ++f)
     if (turned[f]) std::swap(result(f, 1), result(f, 2));
   return result;

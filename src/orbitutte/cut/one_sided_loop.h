@@ -11,7 +11,7 @@
 namespace orbitutte {
 
 /// Do any two faces run along a common edge in the same direction?
-bool has_turned_faces(const Faces& F, const std::vector<int>& opposite);
+bool has_turned_faces(const Triangles& F, const std::vector<int>& opposite);
 
 /// A simple closed edge path through a vertex of the projective plane that reverses orientation. Its first
 /// and last vertex are the given one. It is the shortest such path if that is simple. Otherwise it joins the
@@ -22,6 +22,6 @@ Path one_sided_loop(const EdgeGraph& graph, const Surface& surface, int vertex);
 /// The faces of a closed surface, some of them turned over so that all agree across every half-edge that is
 /// not opened (opposite[h] >= 0). A face keeps its first vertex when it is turned over; face 0 is never
 /// turned.
-Faces agreeing_faces(const Faces& F, const std::vector<int>& opposite);
+Triangles agreeing_faces(const Triangles& F, const std::vector<int>& opposite);
 
 }  // namespace orbitutte

@@ -12,7 +12,7 @@ namespace {
 std::string fault_of(const Inspection& found) {
   if (!found.defects.empty()) return found.defects.front().message;
   if (found.unreferenced_vertices > 0) return "a vertex is in no face";
-  return fmt::format("the surface is a {}", name(found.topology));
+  return fmt::format("the surface is a {}", name_of(found.topology));
 }
 
 void require_closed_sphere(const Inspection& found) {

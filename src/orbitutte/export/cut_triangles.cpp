@@ -5,19 +5,19 @@
 
 namespace orbitutte {
 
-bool is_turned(const Surface& surface, const Embedding& embedding, int f) {
-  return embedding.source_vertex[embedding.input_faces()[f][1]] != surface.faces()[f][1];
+bool is_turned_face(const Surface& surface, const Embedding& embedding, int f) {
+  return embedding.source_vertex[embedding.faces()[f][1]] != surface.faces()[f][1];
 }
 
 int cut_corner(const Surface& surface, const Embedding& embedding, int f, int k) {
   const int degree = surface.faces().degree(f);
-  return is_turned(surface, embedding, f) ? (degree - k) % degree : k;
+  return is_turned_face(surface, embedding, f) ? (degree - k) % degree : k;
 }
 
-Faces cut_triangles(const Surface& surface, const Embedding& embedding) {
-  if (!surface.has_polygons()) return embedding.faces;
-  Faces triangles(surface.triangle_count(), 3);
-  const FaceView faces = surface.faces(), cut_faces = embedding.input_faces();
+Triangles cut_triangles(const Surface& surface, const Embedding& embedding) {
+  if (!surface.has_polygons()) return embedding.triangles;
+  Triangles triangles(surface.triangle_count(), 3);
+  const FaceView faces = surface.faces(), cut_faces = embedding.faces();
   int row = 0;
   for (int f = 0; f < faces.count(); ++f) {
     for (int t = 2; t < faces.degree(f); ++t, ++row) {
@@ -25,7 +25,7 @@ Faces cut_triangles(const Surface& surface, const Embedding& embedding) {
         const int corner = surface.division(row, k) - faces.start(f);
         triangles(row, k) = cut_faces[f][cut_corner(surface, embedding, f, corner)];
       }
-      if (is_turned(surface, embedding, f)) std::swap(triangles(row, 1), triangles(row, 2));
+      if (is_turned_face(surface, embedding, f)) std::swap(triangles(row, 1), triangles(row, 2));
     }
   }
   return triangles;

@@ -44,17 +44,17 @@ std::size_t simplify(std::vector<unsigned>& indices, const FloatPoints& points, 
 }
 
 /// Fewer triangles on the same vertices, as close to `limit` as the fixed outline permits.
-Faces coarsened(const Faces& faces, const FloatPoints& points, int limit) {
+Triangles coarsened(const Triangles& faces, const FloatPoints& points, int limit) {
   if (faces.rows() <= limit) return faces;
   std::vector<unsigned> indices(faces.data(), faces.data() + faces.size());
   const std::size_t count = simplify(indices, points, 3 * static_cast<std::size_t>(limit));
-  Faces result(static_cast<Eigen::Index>(count / 3), 3);
+  Triangles result(static_cast<Eigen::Index>(count / 3), 3);
   std::copy_n(indices.begin(), count, result.data());
   return result;
 }
 
 /// The edges that lie in only one face.
-std::vector<std::array<int, 2>> outline(const Faces& faces) {
+std::vector<std::array<int, 2>> outline(const Triangles& faces) {
   std::vector<std::uint64_t> edges;
   edges.reserve(static_cast<std::size_t>(faces.size()));
   for (Eigen::Index f = 0; f < faces.rows(); ++f) {
@@ -74,7 +74,7 @@ std::vector<std::array<int, 2>> outline(const Faces& faces) {
 }
 
 /// The vertices that the faces use, ascending; the faces are renumbered to match.
-std::vector<int> compact(Faces& faces, int vertices) {
+std::vector<int> compact(Triangles& faces, int vertices) {
   std::vector<int> number(vertices, -1);
   for (const int v : faces.reshaped()) number[v] = 0;
   std::vector<int> kept;
@@ -95,9 +95,9 @@ FloatPoints image(const Embedding& embedding, const std::vector<int>& cut_vertex
 
 DisplayMesh display_mesh(const Surface& surface, const Embedding& embedding, const DisplayLimits& limits) {
   DisplayMesh result;
-  result.fine.faces = embedding.faces;
-  if (embedding.faces.rows() > limits.faces)
-    result.fine.faces = coarsened(embedding.faces, source_and_image(surface, embedding), limits.faces);
+  result.fine.faces = embedding.triangles;
+  if (embedding.triangles.rows() > limits.faces)
+    result.fine.faces = coarsened(embedding.triangles, source_and_image(surface, embedding), limits.faces);
   result.cut_vertex = compact(result.fine.faces, static_cast<int>(embedding.positions.rows()));
   result.fine.outline = outline(result.fine.faces);
 

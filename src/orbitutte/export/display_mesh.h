@@ -13,7 +13,7 @@ namespace orbitutte {
 
 /// Triangles on display vertices, and the tile's outline: the edges that lie in only one of them.
 struct DisplayLevel {
-  Faces faces;
+  Triangles faces;
   std::vector<std::array<int, 2>> outline;
 };
 

@@ -27,7 +27,7 @@ namespace {
 // Does face f of the cut mesh have the corners of the input's face, in either direction from the same corner
 // on?
 bool is_cut_face(const Surface& surface, const Embedding& embedding, int f) {
-  const std::span<const int> face = surface.faces()[f], cut = embedding.input_faces()[f];
+  const std::span<const int> face = surface.faces()[f], cut = embedding.faces()[f];
   if (cut.size() != face.size()) return false;
   const int vertices = static_cast<int>(embedding.source_vertex.size());
   for (const int v : cut)
@@ -41,7 +41,7 @@ bool is_cut_from(const Surface& surface, const Embedding& embedding) {
   const auto vertices = static_cast<Eigen::Index>(embedding.source_vertex.size());
   if (embedding.positions.rows() != vertices || vertices < surface.V.rows()) return false;
   const int faces = surface.faces().count();
-  if (embedding.input_faces().count() != faces) return false;
+  if (embedding.faces().count() != faces) return false;
   for (int f = 0; f < faces; ++f)
     if (!is_cut_face(surface, embedding, f)) return false;
   return true;
@@ -244,8 +244,8 @@ ExportedModel exported_model(Surface surface, const Embedding& embedding, Textur
   if (!is_cut_from(surface, embedding))
     throw MeshError("the embedding does not belong to this mesh; give the mesh that was embedded");
   ExportedModel model = {std::move(surface), embedding, texture_coordinates(embedding, chart), {}};
-  model.embedding.faces = cut_triangles(model.surface, embedding);
-  model.of_face = distortion_of_faces(model.surface, measure_faces(model.surface, model.embedding));
+  model.embedding.triangles = cut_triangles(model.surface, embedding);
+  model.of_face = distortion_of_faces(model.surface, measure_triangles(model.surface, model.embedding));
   return model;
 }
 

@@ -22,7 +22,7 @@ using Eigen::Vector2d;
 using std::numbers::pi;
 
 std::array<Vector3, 3> corners(const Embedding& embedding, Eigen::Index f) {
-  const auto v = embedding.faces.row(f);
+  const auto v = embedding.triangles.row(f);
   return {embedding.positions.row(v[0]), embedding.positions.row(v[1]), embedding.positions.row(v[2])};
 }
 
@@ -30,13 +30,13 @@ std::array<Vector3, 3> corners(const Embedding& embedding, Eigen::Index f) {
 Isometry frame(const Embedding& embedding) {
   const Space space = embedding.space();
   Vector3 sum = Vector3::Zero();
-  for (Eigen::Index f = 0; f < embedding.faces.rows(); ++f) {
+  for (Eigen::Index f = 0; f < embedding.triangles.rows(); ++f) {
     const auto [a, b, c] = corners(embedding, f);
     sum += std::abs(space.area(a, b, c)) * (a + b + c) / 3;
   }
   const Isometry centred = space.to_origin(sum.norm() > 0 ? space.retract(sum) : Space::origin());
   Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
-  for (Eigen::Index f = 0; f < embedding.faces.rows(); ++f) {
+  for (Eigen::Index f = 0; f < embedding.triangles.rows(); ++f) {
     const auto [a, b, c] = corners(embedding, f);
     const Vector2d middle = space.flatten(centred * Vector3((a + b + c) / 3));
     spread += std::abs(space.area(a, b, c)) * middle * middle.transpose();
@@ -81,7 +81,7 @@ void reach_over_date_line(const Embedding& embedding, TextureCoordinates& result
   std::map<int, int> further;
   std::vector<Eigen::RowVector2d> added;
   const int vertices = static_cast<int>(result.uv.rows());
-  const FaceView faces = embedding.input_faces();
+  const FaceView faces = embedding.faces();
   std::size_t corner = 0;
   for (int f = 0; f < faces.count(); ++f) {
     double right = 0;
@@ -134,7 +134,7 @@ FaceAreas face_areas(const Embedding& embedding, const Eigen::MatrixX2d& uv, std
 }
 
 double max_area_distortion(const Embedding& embedding, const TextureCoordinates& coordinates) {
-  const FaceView faces = embedding.input_faces();
+  const FaceView faces = embedding.faces();
   std::vector<FaceAreas> areas;
   FaceAreas sum;
   const int* rows = coordinates.of_corner.data();
@@ -161,32 +161,12 @@ std::vector<int> corner_vertices(const FaceView& faces) {
 
 }  // namespace
 
-std::string name(TextureChart chart) {
-  switch (chart) {
-    case TextureChart::stereographic:
-      return "stereographic";
-    case TextureChart::equirectangular:
-      return "equirectangular";
-    case TextureChart::octahedral:
-      return "octahedral";
-  }
-  return {};
-}
-
-TextureChart parse_texture_chart(const std::string& text) {
-  for (const TextureChart chart :
-       {TextureChart::stereographic, TextureChart::equirectangular, TextureChart::octahedral})
-    if (name(chart) == text) return chart;
-  throw ArgumentError(
-      fmt::format("the chart is '{}'; it may be stereographic, equirectangular or octahedral", text));
-}
-
 TextureCoordinates texture_coordinates(const Embedding& embedding, TextureChart chart) {
   if (chart != TextureChart::stereographic && !embedding.space().is_closed())
     throw ArgumentError(
         fmt::format("the {} chart is one of the sphere, but {} is {}; take stereographic, which "
                     "is the plane itself there",
-                    name(chart), embedding.target.signature, embedding.space().name()));
+                    name_of(chart), embedding.target.signature, embedding.space().name()));
   const Points seen = frame(embedding).on_rows(embedding.positions);
   TextureCoordinates result;
   result.uv.resize(seen.rows(), 2);
@@ -196,7 +176,7 @@ TextureCoordinates texture_coordinates(const Embedding& embedding, TextureChart 
                        : chart == TextureChart::equirectangular ? equirectangular(p)
                                                                 : octahedral(p);
   }
-  const FaceView faces = embedding.input_faces();
+  const FaceView faces = embedding.faces();
   result.of_corner = corner_vertices(faces);
   if (chart == TextureChart::stereographic) fit_into_unit_square(result.of_corner, result.uv);
   if (chart == TextureChart::equirectangular) reach_over_date_line(embedding, result);

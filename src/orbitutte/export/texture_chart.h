@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "orbitutte/names.h"
 #include "orbitutte/orbifold/embedding.h"
 
 namespace orbitutte {
@@ -19,17 +20,19 @@ enum class TextureChart {
   octahedral
 };
 
-/// "stereographic", "equirectangular" or "octahedral".
-std::string name(TextureChart chart);
-
-/// The chart with this name. Throws an ArgumentError that lists all names.
-TextureChart parse_texture_chart(const std::string& text);
+/// Its names.
+template <>
+struct NameTable<TextureChart> {
+  static constexpr NamedValue<TextureChart> rows[] = {{TextureChart::stereographic, "stereographic"},
+                                                      {TextureChart::equirectangular, "equirectangular"},
+                                                      {TextureChart::octahedral, "octahedral"}};
+};
 
 /// A point of the unit square for every corner of every face.
 struct TextureCoordinates {
   /// One pair for every cut vertex, then further ones for faces that need them.
   Eigen::MatrixX2d uv;
-  /// The row of uv of every corner of the embedding's input_faces().
+  /// The row of uv of every corner of the embedding's faces().
   std::vector<int> of_corner;
   /// The largest max(A, 1/A), where A is a face's share of the area in the square over its share on the
   /// sphere.

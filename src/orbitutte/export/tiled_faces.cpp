@@ -54,7 +54,7 @@ class Selection {
       : embedding_(embedding), mirrors_(mirrors) {}
 
   TiledFaces run() {
-    const FaceView faces = embedding_.input_faces();
+    const FaceView faces = embedding_.faces();
     int triangle = 0;  // the first of the face
     for (int f = 0; f < faces.count(); ++f) {
       const int triangles = static_cast<int>(faces[f].size()) - 2;
@@ -67,7 +67,7 @@ class Selection {
     }
     require_no_chord();
     const auto count = static_cast<Eigen::Index>(corners_.size() / 3);
-    result_.triangles = Eigen::Map<const Faces>(corners_.data(), count, 3);
+    result_.triangles = Eigen::Map<const Triangles>(corners_.data(), count, 3);
     return std::move(result_);
   }
 
@@ -78,7 +78,7 @@ class Selection {
     const int triangles = static_cast<int>(face.size()) - 2;
     result_.face_of.insert(result_.face_of.end(), triangles, f);
     if (triangles == 1 || !has_diagonal_on_mirror(face, first_triangle)) {
-      const int* const begin = embedding_.faces.data() + 3 * std::ptrdiff_t{first_triangle};
+      const int* const begin = embedding_.triangles.data() + 3 * std::ptrdiff_t{first_triangle};
       corners_.insert(corners_.end(), begin, begin + 3 * std::ptrdiff_t{triangles});
     } else {
       divide(f, face);
@@ -98,7 +98,7 @@ class Selection {
     };
     for (int t = first_triangle; t < first_triangle + static_cast<int>(face.size()) - 2; ++t)
       for (int k = 0; k < 3; ++k) {
-        const int v = embedding_.faces(t, k), w = embedding_.faces(t, (k + 1) % 3);
+        const int v = embedding_.triangles(t, k), w = embedding_.triangles(t, (k + 1) % 3);
         if (share_mirror(mirrors_, v, w) && !is_side(v, w)) return true;
       }
     return false;

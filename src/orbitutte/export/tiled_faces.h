@@ -15,7 +15,7 @@ using MirrorsOfVertices = std::vector<std::array<int, 2>>;
 
 /// What every copy of the tile consists of.
 struct TiledFaces {
-  Faces triangles;               ///< on cut vertices
+  Triangles triangles;           ///< on cut vertices
   std::vector<int> face_of;      ///< of every triangle: the input face
   Polygons polygons;             ///< on cut vertices; none where all faces are triangles
   std::vector<int> input_faces;  ///< those that are here, ascending

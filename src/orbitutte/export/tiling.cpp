@@ -29,8 +29,8 @@ void check_embedding(const Embedding& embedding, int copies) {
     throw ArgumentError("the embedding has positions that are not finite");
   if (embedding.source_vertex.size() != static_cast<std::size_t>(vertices))
     throw ArgumentError("the embedding does not name a source vertex for every cut vertex");
-  if (embedding.faces.size() > 0 &&
-      (embedding.faces.minCoeff() < 0 || embedding.faces.maxCoeff() >= vertices))
+  if (embedding.triangles.size() > 0 &&
+      (embedding.triangles.minCoeff() < 0 || embedding.triangles.maxCoeff() >= vertices))
     throw ArgumentError("a face of the embedding names a vertex that does not exist");
   for (const Seam& seam : embedding.seams) {
     if (seam.left.size() != seam.right.size())
@@ -43,19 +43,19 @@ void check_embedding(const Embedding& embedding, int copies) {
         "the embedding has no seams, so that no symmetric copies of it tile the sphere; embed the mesh into "
         "an orbifold, not into a fixed polygon");
   const auto corners = static_cast<long long>(embedding.polygons.corners.size());
-  const long long largest = std::max<long long>({vertices, embedding.faces.rows(), corners});
+  const long long largest = std::max<long long>({vertices, embedding.triangles.rows(), corners});
   if (3 * largest * copies > std::numeric_limits<int>::max())
     throw ArgumentError(
         fmt::format("{} copies of {} faces have more than 2^31 - 1 corners; tile a coarser mesh", copies,
-                    embedding.faces.rows()));
+                    embedding.triangles.rows()));
 }
 
 /// The copies that are asked for: all, or of infinitely many so many.
-SymmetryGroup checked_group(const Embedding& embedding, int patch) {
-  if (patch < 1) throw ArgumentError(fmt::format("{} copies make no tiling; ask for one or more", patch));
+SymmetryGroup checked_group(const Embedding& embedding, int copies) {
+  if (copies < 1) throw ArgumentError(fmt::format("{} copies make no tiling; ask for one or more", copies));
   const int order = embedding.target.group_order;
-  check_embedding(embedding, order > 0 ? order : patch);
-  return group_of(embedding, patch);
+  check_embedding(embedding, order > 0 ? order : copies);
+  return group_of(embedding, copies);
 }
 
 /// across[s][g]: the copy whose right bank of seam s meets the left bank of seam s of copy g; -1 at the
@@ -71,17 +71,17 @@ std::vector<std::vector<int>> copies_across_seams(const Embedding& embedding, co
 }
 
 /// Gives every copy the first colour that no neighbour has, copy by copy.
-std::vector<int> greedy_colours(const std::vector<std::vector<int>>& across, int tiles) {
-  std::vector<std::vector<int>> neighbours(tiles);
+std::vector<int> greedy_colours(const std::vector<std::vector<int>>& across, int count) {
+  std::vector<std::vector<int>> neighbours(count);
   for (const std::vector<int>& copies : across) {
-    for (int g = 0; g < tiles; ++g) {
+    for (int g = 0; g < count; ++g) {
       if (copies[g] == g || copies[g] < 0) continue;
       neighbours[g].push_back(copies[g]);
       neighbours[copies[g]].push_back(g);
     }
   }
-  std::vector<int> colour(tiles, -1);
-  for (int g = 0; g < tiles; ++g) {
+  std::vector<int> colour(count, -1);
+  for (int g = 0; g < count; ++g) {
     const auto taken = [&](int c) {
       return std::any_of(neighbours[g].begin(), neighbours[g].end(), [&](int h) { return colour[h] == c; });
     };
@@ -101,8 +101,8 @@ std::vector<TileCopy> tile_copies(const SymmetryGroup& group, const std::vector<
   return copies;
 }
 
-/// The vertices of the sphere. A vertex inside the tile has a copy in every tile. Copies of vertices on seams
-/// coincide, so only these need sets. Vertices that no face uses have no copies.
+/// The vertices of the sphere. A vertex inside the tile has an image in every copy. Copies of vertices on
+/// seams coincide, so only these need sets. Vertices that no face uses have no copies.
 struct Welding {
   /// The cut vertices that faces use, ascending.
   std::vector<int> copied;
@@ -258,7 +258,7 @@ void place_triangles(const TiledFaces& tiled, int g, const std::vector<int>& ver
     tiling.mesh.F(row, 0) = vertex_of[tiled.triangles(f, 0)];
     tiling.mesh.F(row, 1) = vertex_of[tiled.triangles(f, second)];
     tiling.mesh.F(row, 2) = vertex_of[tiled.triangles(f, 3 - second)];
-    tiling.tile[row] = g;
+    tiling.copy[row] = g;
   }
 }
 
@@ -272,13 +272,13 @@ void require_closed(const Tiling& tiling) {
 
 }  // namespace
 
-std::vector<TileCopy> tile_copies(const Embedding& embedding, int patch) {
-  const SymmetryGroup group = checked_group(embedding, patch);
+std::vector<TileCopy> tile_copies(const Embedding& embedding, int copies) {
+  const SymmetryGroup group = checked_group(embedding, copies);
   return tile_copies(group, copies_across_seams(embedding, group));
 }
 
-Tiling weld_copies(const Embedding& embedding, int patch) {
-  const SymmetryGroup group = checked_group(embedding, patch);
+Tiling weld_copies(const Embedding& embedding, int copies) {
+  const SymmetryGroup group = checked_group(embedding, copies);
   const std::vector<std::vector<int>> across = copies_across_seams(embedding, group);
   const TiledFaces tiled = tiled_faces(embedding, mirrors_of_vertices(embedding, across));
   const Welding welding = weld(embedding, tiled, across);
@@ -287,15 +287,14 @@ Tiling weld_copies(const Embedding& embedding, int patch) {
   if (closes_up) check_sphere(welding.vertices, faces);
 
   Tiling tiling;
-  tiling.tiles = group.order();
   tiling.copies = tile_copies(group, across);
   tiling.input_faces = tiled.input_faces;
   tiling.left_out = tiled.left_out;
   tiling.mesh.F.resize(faces, 3);
-  tiling.tile.resize(faces);
+  tiling.copy.resize(faces);
   tiling.source_face.reserve(faces);
   VertexSweep sweep(embedding, welding, tiling);
-  for (int g = 0; g < tiling.tiles; ++g) {
+  for (int g = 0; g < tiling.copy_count(); ++g) {
     const std::vector<int>& vertex_of = sweep.copy(g);
     place_triangles(tiled, g, vertex_of, tiling);
     place_polygons(tiled, g, vertex_of, tiling);

@@ -31,7 +31,7 @@ void append_stl_vector(std::string& bytes, const Vector3& vector) {
   for (int k = 0; k < 3; ++k) append_little_endian(bytes, static_cast<float>(vector[k]));
 }
 
-int faces_in_tile(const Tiling& tiling) { return std::max(1, static_cast<int>(tiling.input_faces.size())); }
+int faces_in_copy(const Tiling& tiling) { return std::max(1, static_cast<int>(tiling.input_faces.size())); }
 
 /// Of polygons the diagonals may coincide where two polygons share two vertices that no edge joins.
 void require_closed_triangles(const Tiling& tiling) {
@@ -53,7 +53,7 @@ TileMaterials tile_materials(const Tiling& tiling) {
     const std::string name = fmt::format("colour_{}{}", copy.colour, copy.mirrored ? "_mirrored" : "");
     const auto found = std::find_if(result.materials.begin(), result.materials.end(),
                                     [&](const TileMaterial& material) { return material.name == name; });
-    result.of_tile.push_back(static_cast<int>(found - result.materials.begin()));
+    result.of_copy.push_back(static_cast<int>(found - result.materials.begin()));
     if (found == result.materials.end())
       result.materials.push_back({name, tile_colour(copy.colour, copy.mirrored)});
   }
@@ -64,7 +64,7 @@ TileMaterials tile_materials(const Tiling& tiling) {
 std::string ply_bytes(const Tiling& tiling) {
   const Mesh& mesh = tiling.mesh;
   const FaceView faces = tiling.faces();
-  const int faces_per_tile = faces_in_tile(tiling);
+  const int faces_per_copy = faces_in_copy(tiling);
   const PlyType count_type = corner_count_type(faces);
   std::string bytes = fmt::format(
       "ply\nformat binary_little_endian 1.0\ncomment tiling of the sphere by {} copies\n"
@@ -74,7 +74,7 @@ std::string ply_bytes(const Tiling& tiling) {
       "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty int tile\nproperty int "
       "source_face\n"
       "end_header\n",
-      tiling.tiles, mesh.V.rows(), faces.count(), name(count_type));
+      tiling.copy_count(), mesh.V.rows(), faces.count(), ply_type_name(count_type));
   constexpr std::size_t vertex_size = 3 * sizeof(double) + sizeof(int);
   constexpr std::size_t face_size = 1 + 3 * sizeof(int) + 3 + 2 * sizeof(int);
   bytes.reserve(bytes.size() + vertex_size * mesh.V.rows() + face_size * mesh.F.rows());
@@ -83,23 +83,23 @@ std::string ply_bytes(const Tiling& tiling) {
     for (int k = 0; k < 3; ++k) append_little_endian(bytes, mesh.V(v, k));
     append_little_endian(bytes, tiling.source_vertex[v]);
   }
-  for (int f = 0; f < faces.count(); ++f) {  // tile by tile
+  for (int f = 0; f < faces.count(); ++f) {  // copy by copy
     visit_type(count_type,
                [&](auto type) { append_little_endian(bytes, static_cast<decltype(type)>(faces[f].size())); });
     for (const int v : faces[f]) append_little_endian(bytes, v);
-    const TileCopy& copy = tiling.copies[f / faces_per_tile];
+    const TileCopy& copy = tiling.copies[f / faces_per_copy];
     const Rgb colour = tile_colour(copy.colour, copy.mirrored);
     for (const std::uint8_t channel : {colour.red, colour.green, colour.blue})
       append_little_endian(bytes, channel);
-    append_little_endian(bytes, f / faces_per_tile);
-    append_little_endian(bytes, tiling.input_faces[f % faces_per_tile]);
+    append_little_endian(bytes, f / faces_per_copy);
+    append_little_endian(bytes, tiling.input_faces[f % faces_per_copy]);
   }
   return bytes;
 }
 
 std::string stl_bytes(const Tiling& tiling) {
   const Mesh& mesh = tiling.mesh;
-  std::string bytes = fmt::format("binary STL: tiling of the sphere by {} copies", tiling.tiles);
+  std::string bytes = fmt::format("binary STL: tiling of the sphere by {} copies", tiling.copy_count());
   bytes.reserve(84 + 50 * static_cast<std::size_t>(mesh.F.rows()));
   bytes.resize(80, ' ');
   append_little_endian(bytes, static_cast<std::uint32_t>(mesh.F.rows()));
@@ -107,7 +107,7 @@ std::string stl_bytes(const Tiling& tiling) {
     const Vector3 a = mesh.V.row(mesh.F(f, 0)), b = mesh.V.row(mesh.F(f, 1)), c = mesh.V.row(mesh.F(f, 2));
     append_stl_vector(bytes, (b - a).cross(c - a).normalized());
     for (const Vector3* corner : {&a, &b, &c}) append_stl_vector(bytes, *corner);
-    const TileCopy& copy = tiling.copies[tiling.tile[f]];
+    const TileCopy& copy = tiling.copies[tiling.copy[f]];
     append_little_endian(bytes, stl_attribute(tile_colour(copy.colour, copy.mirrored)));
   }
   return bytes;
@@ -130,12 +130,12 @@ std::string obj_text(const Tiling& tiling, const std::string& library) {
   for (Eigen::Index v = 0; v < mesh.V.rows(); ++v)
     fmt::format_to(out, FMT_COMPILE("v {} {} {}\n"), mesh.V(v, 0), mesh.V(v, 1), mesh.V(v, 2));
   const FaceView faces = tiling.faces();
-  const int faces_per_tile = faces_in_tile(tiling);
-  int tile = -1;
+  const int faces_per_copy = faces_in_copy(tiling);
+  int copy = -1;
   for (int f = 0; f < faces.count(); ++f) {
-    if (f / faces_per_tile != tile) {
-      tile = f / faces_per_tile;
-      fmt::format_to(out, "g tile_{}\nusemtl {}\n", tile, materials.materials[materials.of_tile[tile]].name);
+    if (f / faces_per_copy != copy) {
+      copy = f / faces_per_copy;
+      fmt::format_to(out, "g tile_{}\nusemtl {}\n", copy, materials.materials[materials.of_copy[copy]].name);
     }
     text += 'f';
     for (const int v : faces[f]) fmt::format_to(out, FMT_COMPILE(" {}"), v + 1);
@@ -145,7 +145,7 @@ std::string obj_text(const Tiling& tiling, const std::string& library) {
 }
 
 std::string glb_bytes(const Tiling& tiling) {
-  const Faces& F = tiling.mesh.F;
+  const Triangles& F = tiling.mesh.F;
   check_glb_size(3 * sizeof(float) * tiling.mesh.V.rows() + 3 * sizeof(std::uint32_t) * F.rows(),
                  "the tiling");
   const TileMaterials materials = tile_materials(tiling);
@@ -155,7 +155,7 @@ std::string glb_bytes(const Tiling& tiling) {
   for (int m = 0; m < static_cast<int>(materials.materials.size()); ++m) {
     std::vector<std::uint32_t> indices;
     for (Eigen::Index f = 0; f < F.rows(); ++f)
-      if (materials.of_tile[tiling.tile[f]] == m)
+      if (materials.of_copy[tiling.copy[f]] == m)
         for (int k = 0; k < 3; ++k) indices.push_back(static_cast<std::uint32_t>(F(f, k)));
     const auto& [name, colour] = materials.materials[m];
     model.add_primitive({{"POSITION", positions}, {"NORMAL", positions}}, model.add_triangles(indices),

@@ -17,11 +17,11 @@ struct TileMaterial {
   Rgb colour;
 };
 
-/// The colours in use, in the order in which the tiles first show them, and the colour of each tile.
+/// The colours in use, in the order in which the copies first show them, and the colour of each copy.
 struct TileMaterials {
   std::vector<TileMaterial> materials;
   /// |G|.
-  std::vector<int> of_tile;
+  std::vector<int> of_copy;
 };
 
 TileMaterials tile_materials(const Tiling& tiling);

@@ -87,7 +87,7 @@ std::string vtp_text(const ExportedModel& model) {
          "</PointData>\n<CellData Scalars=\"log2_area\">\n" +
          float_array("log2_area", 1, face_quality(model)) + float_array("angle", 1, angle_distortion(model)) +
          "</CellData>\n<Points>\n" + float_array("Points", 3, source_positions(model)) + "</Points>\n" +
-         polygons(model.embedding.input_faces()) + "</Piece>\n</PolyData>\n</VTKFile>\n";
+         polygons(model.embedding.faces()) + "</Piece>\n</PolyData>\n</VTKFile>\n";
 }
 
 }  // namespace orbitutte

@@ -56,7 +56,7 @@ Vector3 barycentric_point(Space space, const TriangleCorners& corners, const Vec
                        coordinates[2] * corners[2]);
 }
 
-bool contains(const TriangleCorners& corners, const Vector3& point) {
+bool triangle_contains(const TriangleCorners& corners, const Vector3& point) {
   for (int k = 0; k < 3; ++k)
     if (side(point, corners[k], corners[(k + 1) % 3]) < 0) return false;
   return true;
@@ -103,7 +103,7 @@ Vector3 nearest_on_edges(Space space, const TriangleCorners& corners, const Vect
 
 // With the squared chords c_ij, sum l_i a_i is sqrt(1 - k sum l_i l_j c_ij) times a point of the space, and
 // the sum of l_i l_j over the pairs is 1/3 at most.
-double bulge(Space space, const TriangleCorners& corners) {
+double triangle_bulge(Space space, const TriangleCorners& corners) {
   double squared_chord = 0, length = 0;
   for (int k = 0; k < 3; ++k) {
     const Vector3 chord = corners[k] - corners[(k + 1) % 3];

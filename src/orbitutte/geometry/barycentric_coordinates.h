@@ -21,7 +21,7 @@ using TriangleCorners = std::array<Vector3, 3>;
 Vector3 barycentric_point(Space space, const TriangleCorners& corners, const Vector3& coordinates);
 
 /// Is the point in the triangle, its edges and corners included? Exact on the numbers as stored.
-bool contains(const TriangleCorners& corners, const Vector3& point);
+bool triangle_contains(const TriangleCorners& corners, const Vector3& point);
 
 /// The coordinates of a point in the triangle: l_0 : l_1 : l_2 = det[p a_1 a_2] : det[a_0 p a_2] : det[a_0
 /// a_1 p], not negative, with the sum 1. barycentric_point takes them back to the point, up to rounding.
@@ -32,6 +32,6 @@ Vector3 barycentric_coordinates(Space space, const TriangleCorners& corners, con
 Vector3 nearest_on_edges(Space space, const TriangleCorners& corners, const Vector3& point);
 
 /// How far the triangle's points are from the flat triangle with the same corners, at the most.
-double bulge(Space space, const TriangleCorners& corners);
+double triangle_bulge(Space space, const TriangleCorners& corners);
 
 }  // namespace orbitutte

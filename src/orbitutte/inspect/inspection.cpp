@@ -69,25 +69,6 @@ void report_emptiness(Inspection& result) {
 
 }  // namespace
 
-std::string name(DefectKind kind) {
-  static constexpr const char* names[] = {"empty_mesh",
-                                          "index_out_of_range",
-                                          "non_finite_position",
-                                          "size_out_of_range",
-                                          "too_few_corners",
-                                          "repeated_vertex",
-                                          "duplicate_face",
-                                          "non_manifold_edge",
-                                          "non_manifold_vertex",
-                                          "inconsistent_orientation",
-                                          "several_components",
-                                          "holes",
-                                          "genus",
-                                          "not_orientable",
-                                          "no_area"};
-  return names[static_cast<int>(kind)];
-}
-
 Inspection inspect(const PolygonMesh& mesh) {
   require_ascending_offsets(mesh);
   Inspection result;
@@ -95,10 +76,10 @@ Inspection inspect(const PolygonMesh& mesh) {
   report_emptiness(result);
   if (!result.defects.empty()) return result;
 
-  inspection::Surface surface(mesh);
-  inspect_faces(surface, result);
-  inspect_topology(surface, result);
-  inspect_quality(surface, result);
+  inspection::InspectedMesh inspected(mesh);
+  inspect_faces(inspected, result);
+  inspect_topology(inspected, result);
+  inspect_quality(inspected, result);
   return result;
 }
 

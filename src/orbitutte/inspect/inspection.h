@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "orbitutte/mesh/polygon_mesh.h"
+#include "orbitutte/names.h"
 
 namespace orbitutte {
 
@@ -28,8 +29,26 @@ enum class DefectKind {
   no_area          ///< no face has any: all vertices at one point, say
 };
 
-/// The name of a defect, as in the JSON of `orbitutte info`: "non_manifold_edge" and so on.
-std::string name(DefectKind kind);
+/// Its names.
+template <>
+struct NameTable<DefectKind> {
+  static constexpr NamedValue<DefectKind> rows[] = {
+      {DefectKind::empty_mesh, "empty_mesh"},
+      {DefectKind::index_out_of_range, "index_out_of_range"},
+      {DefectKind::non_finite_position, "non_finite_position"},
+      {DefectKind::size_out_of_range, "size_out_of_range"},
+      {DefectKind::too_few_corners, "too_few_corners"},
+      {DefectKind::repeated_vertex, "repeated_vertex"},
+      {DefectKind::duplicate_face, "duplicate_face"},
+      {DefectKind::non_manifold_edge, "non_manifold_edge"},
+      {DefectKind::non_manifold_vertex, "non_manifold_vertex"},
+      {DefectKind::inconsistent_orientation, "inconsistent_orientation"},
+      {DefectKind::several_components, "several_components"},
+      {DefectKind::holes, "holes"},
+      {DefectKind::genus, "genus"},
+      {DefectKind::not_orientable, "not_orientable"},
+      {DefectKind::no_area, "no_area"}};
+};
 
 /// One defect: the sentence names the first offending vertex, edge or face, and says what to do about it.
 struct Defect {

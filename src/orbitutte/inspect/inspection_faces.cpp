@@ -12,7 +12,7 @@
 namespace orbitutte::inspection {
 namespace {
 
-void report_indices(Surface& s, Inspection& result) {
+void report_indices(InspectedMesh& s, Inspection& result) {
   int faces = 0, first = -1;
   for (int c = 0; c < s.corner_count(); ++c) {
     FaceState& state = s.state[s.face_of[c]];
@@ -64,7 +64,7 @@ void report_size(const PolygonMesh& mesh, Inspection& result) {
                   size));
 }
 
-void report_corner_counts(Surface& s, Inspection& result) {
+void report_corner_counts(InspectedMesh& s, Inspection& result) {
   int faces = 0, first = -1;
   for (int f = 0; f < result.faces; ++f) {
     if (s.mesh.face_degree(f) >= 3) continue;
@@ -86,7 +86,7 @@ std::vector<int> sorted_corners(const PolygonMesh& mesh) {
   return corners;
 }
 
-void report_repeated_vertices(Surface& s, const std::vector<int>& sorted, Inspection& result) {
+void report_repeated_vertices(InspectedMesh& s, const std::vector<int>& sorted, Inspection& result) {
   int faces = 0, first = -1, vertex = -1;
   for (int f = 0; f < result.faces; ++f) {
     const auto end = sorted.begin() + s.mesh.face_start[f + 1];
@@ -103,7 +103,7 @@ void report_repeated_vertices(Surface& s, const std::vector<int>& sorted, Inspec
 
 // Well-formed faces in an order in which those with the same vertices are neighbours, the smallest face
 // first.
-std::vector<int> faces_by_vertices(const Surface& s, const std::vector<int>& sorted) {
+std::vector<int> faces_by_vertices(const InspectedMesh& s, const std::vector<int>& sorted) {
   const auto& start = s.mesh.face_start;
   const auto smallest = [&](int f) { return s.well_formed(f) ? sorted[start[f]] : -1; };
   Groups faces = group_by(s.mesh.face_count(), s.mesh.vertex_count(), smallest);
@@ -118,7 +118,7 @@ std::vector<int> faces_by_vertices(const Surface& s, const std::vector<int>& sor
   return std::move(faces.items);
 }
 
-void report_duplicates(Surface& s, const std::vector<int>& sorted, Inspection& result) {
+void report_duplicates(InspectedMesh& s, const std::vector<int>& sorted, Inspection& result) {
   const auto& start = s.mesh.face_start;
   const auto same = [&](int f, int g) {
     return std::equal(sorted.begin() + start[f], sorted.begin() + start[f + 1], sorted.begin() + start[g],
@@ -144,14 +144,14 @@ void report_duplicates(Surface& s, const std::vector<int>& sorted, Inspection& r
 
 }  // namespace
 
-void inspect_faces(Surface& surface, Inspection& result) {
-  const std::vector<int> sorted = sorted_corners(surface.mesh);
-  report_indices(surface, result);
-  report_positions(surface.mesh, result);
-  report_size(surface.mesh, result);
-  report_corner_counts(surface, result);
-  report_repeated_vertices(surface, sorted, result);
-  report_duplicates(surface, sorted, result);
+void inspect_faces(InspectedMesh& inspected, Inspection& result) {
+  const std::vector<int> sorted = sorted_corners(inspected.mesh);
+  report_indices(inspected, result);
+  report_positions(inspected.mesh, result);
+  report_size(inspected.mesh, result);
+  report_corner_counts(inspected, result);
+  report_repeated_vertices(inspected, sorted, result);
+  report_duplicates(inspected, sorted, result);
 }
 
 }  // namespace orbitutte::inspection

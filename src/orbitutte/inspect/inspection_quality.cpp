@@ -62,9 +62,9 @@ class Outline {
   Vector3 normal_ = Vector3::Zero();  // twice the vector area over the square of the unit
 };
 
-bool is_triangle(const Surface& s, int f) { return s.well_formed(f) && s.mesh.face_degree(f) == 3; }
+bool is_triangle(const InspectedMesh& s, int f) { return s.well_formed(f) && s.mesh.face_degree(f) == 3; }
 
-void measure_faces(const Surface& s, Inspection& result) {
+void measure_faces(const InspectedMesh& s, Inspection& result) {
   double min_angle = std::numeric_limits<double>::infinity(), min_edge = min_angle;
   for (int f = 0; f < result.faces; ++f) {
     if (!s.well_formed(f)) continue;
@@ -95,7 +95,7 @@ void report_missing_area(const PolygonMesh& mesh, Inspection& result) {
 }
 
 // w_ij = (cot a + cot b)/2 over the angles opposite to the edge.
-double cotangent_weight(const Surface& s, int e) {
+double cotangent_weight(const InspectedMesh& s, int e) {
   double weight = 0;
   for (int i = 0; i < s.faces_on(e); ++i) {
     const int h = s.half_edge(e, i), f = s.face_of[h];
@@ -105,7 +105,7 @@ double cotangent_weight(const Surface& s, int e) {
   return weight;
 }
 
-void count_cotangents(const Surface& s, Inspection& result) {
+void count_cotangents(const InspectedMesh& s, Inspection& result) {
   for (int e = 0; e < s.edge_count(); ++e) {
     const auto on_triangle = [&](int h) { return is_triangle(s, s.face_of[h]); };
     const auto begin = s.edges.items.begin() + s.edges.start[e],
@@ -119,11 +119,11 @@ void count_cotangents(const Surface& s, Inspection& result) {
 
 }  // namespace
 
-void inspect_quality(const Surface& surface, Inspection& result) {
+void inspect_quality(const InspectedMesh& inspected, Inspection& result) {
   if (has(result, DefectKind::non_finite_position) || has(result, DefectKind::size_out_of_range)) return;
-  measure_faces(surface, result);
-  report_missing_area(surface.mesh, result);
-  count_cotangents(surface, result);
+  measure_faces(inspected, result);
+  report_missing_area(inspected.mesh, result);
+  count_cotangents(inspected, result);
 }
 
 }  // namespace orbitutte::inspection

@@ -14,7 +14,7 @@ namespace orbitutte::inspection {
 enum class FaceState : unsigned char { well_formed, malformed, duplicate };
 
 // The polygons with their half-edges: half-edge h runs from corner h to the next corner of the same face.
-struct Surface {
+struct InspectedMesh {
   const PolygonMesh& mesh;
   std::vector<int> face_of;      // of every corner
   std::vector<FaceState> state;  // of every face
@@ -22,7 +22,7 @@ struct Surface {
   Groups edges;  // half-edges of well-formed faces by undirected edge, in lexicographic order of (lower,
                  // upper) vertex
 
-  explicit Surface(const PolygonMesh& polygons)
+  explicit InspectedMesh(const PolygonMesh& polygons)
       : mesh(polygons),
         face_of(polygons.corners.size()),
         state(polygons.face_count(), FaceState::well_formed),
@@ -58,9 +58,9 @@ inline bool in_range(const PolygonMesh& mesh, int vertex) {
 
 // The steps, in their order. Each reports one kind of defect, or a few that hang together, and leaves out
 // what earlier defects have made meaningless.
-void inspect_faces(Surface& surface, Inspection& result);
-void inspect_topology(Surface& surface, Inspection& result);
-void inspect_quality(const Surface& surface, Inspection& result);
+void inspect_faces(InspectedMesh& inspected, Inspection& result);
+void inspect_topology(InspectedMesh& inspected, Inspection& result);
+void inspect_quality(const InspectedMesh& inspected, Inspection& result);
 
 void add(Inspection& result, DefectKind kind, long long count, std::string message);
 bool has(const Inspection& result, DefectKind kind);

@@ -14,7 +14,7 @@
 namespace orbitutte::inspection {
 namespace {
 
-void find_edges(Surface& s) {
+void find_edges(InspectedMesh& s) {
   const auto lower = [&](int h) { return s.well_formed(s.face_of[h]) ? s.lower(h) : -1; };
   Groups by_lower = group_by(s.corner_count(), s.mesh.vertex_count(), lower);
   auto& half_edges = by_lower.items;
@@ -32,7 +32,7 @@ void find_edges(Surface& s) {
   s.edges.items = std::move(half_edges);
 }
 
-void report_edges(const Surface& s, Inspection& result) {
+void report_edges(const InspectedMesh& s, Inspection& result) {
   int edges = 0, first = -1;
   for (int e = 0; e < s.edge_count(); ++e) {
     if (s.faces_on(e) <= 2) continue;
@@ -50,7 +50,7 @@ void report_edges(const Surface& s, Inspection& result) {
 }
 
 // Corners of well-formed faces, united across edges of two faces: a fan of faces around a vertex is one set.
-DisjointSets corner_fans(const Surface& s) {
+DisjointSets corner_fans(const InspectedMesh& s) {
   DisjointSets fans(s.corner_count());
   for (int e = 0; e < s.edge_count(); ++e) {
     if (s.faces_on(e) != 2) continue;
@@ -62,7 +62,7 @@ DisjointSets corner_fans(const Surface& s) {
 
 // Vertices of malformed faces and of faces on an edge of too many: once those are mended, they may have one
 // fan.
-std::vector<char> excused_vertices(const Surface& s) {
+std::vector<char> excused_vertices(const InspectedMesh& s) {
   std::vector<char> face_excused(s.mesh.face_count(), 0), excused(s.mesh.vertex_count(), 0);
   for (int e = 0; e < s.edge_count(); ++e) {
     for (int i = 0; s.faces_on(e) > 2 && i < s.faces_on(e); ++i)
@@ -76,7 +76,7 @@ std::vector<char> excused_vertices(const Surface& s) {
   return excused;
 }
 
-void report_vertices(const Surface& s, Inspection& result) {
+void report_vertices(const InspectedMesh& s, Inspection& result) {
   DisjointSets fan_of = corner_fans(s);
   const auto starts_fan = [&](int c) { return s.well_formed(s.face_of[c]) && fan_of.find(c) == c; };
   std::vector<int> fans(s.mesh.vertex_count(), 0);
@@ -125,7 +125,7 @@ struct Components {
   Component& of(int vertex) { return list[of_vertex[vertex]]; }
 };
 
-Components find_components(const Surface& s) {
+Components find_components(const InspectedMesh& s) {
   DisjointSets connected(s.mesh.vertex_count());
   std::vector<char> referenced(s.mesh.vertex_count(), 0), used(s.mesh.vertex_count(), 0);
   for (int c = 0; c < s.corner_count(); ++c) {
@@ -163,14 +163,14 @@ std::string subject(const Components& components, const Component& component) {
                                      : fmt::format("the component of vertex {}", component.vertex);
 }
 
-std::string welding_advice(const Surface& s) {
+std::string welding_advice(const InspectedMesh& s) {
   std::vector<std::array<int, 2>> boundary;
   for (int e = 0; e < s.edge_count(); ++e)
     if (s.faces_on(e) == 1) boundary.push_back({s.lower(s.half_edge(e, 0)), s.upper(s.half_edge(e, 0))});
   return orbitutte::welding_advice(find_coincidence(s.mesh.V, boundary));
 }
 
-void report_components(const Surface& s, Components components, Inspection& result) {
+void report_components(const InspectedMesh& s, Components components, Inspection& result) {
   auto& list = components.list;
   result.components = static_cast<int>(list.size());
   // A face with an index out of range may be what connects them.
@@ -190,7 +190,7 @@ void report_components(const Surface& s, Components components, Inspection& resu
 // The two sides of every face, f and f + m, united where one passes into the other across an edge of two
 // faces: the orientation double cover. A component is orientable unless it contains both sides of a face in
 // one set.
-DisjointSets face_sides(const Surface& s) {
+DisjointSets face_sides(const InspectedMesh& s) {
   const int m = s.mesh.face_count();
   DisjointSets sides(2 * m);
   for (int e = 0; e < s.edge_count(); ++e) {
@@ -203,7 +203,7 @@ DisjointSets face_sides(const Surface& s) {
   return sides;
 }
 
-void find_orientability(const Surface& s, Components& components) {
+void find_orientability(const InspectedMesh& s, Components& components) {
   const int m = s.mesh.face_count();
   DisjointSets sides = face_sides(s);
   for (int f = 0; f < m; ++f) {
@@ -220,7 +220,7 @@ struct Clash {
 };
 
 template <typename Concerned>
-Clash find_clashes(const Surface& s, const Concerned& concerned) {
+Clash find_clashes(const InspectedMesh& s, const Concerned& concerned) {
   Clash result;
   for (int e = 0; e < s.edge_count(); ++e) {
     if (s.faces_on(e) != 2 || !s.runs_twice(e) || !concerned(e)) continue;
@@ -229,13 +229,13 @@ Clash find_clashes(const Surface& s, const Concerned& concerned) {
   return result;
 }
 
-std::string clash_of(const Surface& s, int edge) {
+std::string clash_of(const InspectedMesh& s, int edge) {
   const int g = s.half_edge(edge, 0), h = s.half_edge(edge, 1);
   return fmt::format("faces {} and {} run through edge ({}, {}) in the same direction", s.face_of[g],
                      s.face_of[h], s.lower(g), s.upper(g));
 }
 
-void report_orientation(const Surface& s, Components& components, Inspection& result) {
+void report_orientation(const InspectedMesh& s, Components& components, Inspection& result) {
   const Clash clash = find_clashes(s, [&](int e) {
     const int g = s.half_edge(e, 0), h = s.half_edge(e, 1);
     return components.of(s.origin(g)).orientable && !s.has_double[s.face_of[g]] &&
@@ -249,7 +249,7 @@ void report_orientation(const Surface& s, Components& components, Inspection& re
 
 // The two neighbours of every boundary vertex along the boundary, its successor along the faces' half-edges
 // first where the faces agree; -1 in the interior. Manifold vertices have no third.
-std::vector<std::array<int, 2>> boundary_neighbors(const Surface& s) {
+std::vector<std::array<int, 2>> boundary_neighbors(const InspectedMesh& s) {
   std::vector<std::array<int, 2>> result(s.mesh.vertex_count(), {-1, -1});
   const auto put = [&](int v, int slot, int neighbor) {
     result[v][result[v][slot] < 0 ? slot : 1 - slot] = neighbor;
@@ -263,7 +263,7 @@ std::vector<std::array<int, 2>> boundary_neighbors(const Surface& s) {
   return result;
 }
 
-std::vector<std::vector<int>> boundary_curves(const Surface& s) {
+std::vector<std::vector<int>> boundary_curves(const InspectedMesh& s) {
   const auto neighbors = boundary_neighbors(s);
   std::vector<char> visited(s.mesh.vertex_count(), 0);
   std::vector<std::vector<int>> curves;
@@ -283,7 +283,7 @@ std::vector<std::vector<int>> boundary_curves(const Surface& s) {
   return curves;
 }
 
-void report_holes(const Surface& s, const Components& components, Inspection& result) {
+void report_holes(const InspectedMesh& s, const Components& components, Inspection& result) {
   int curves = 0;
   const Component* first = nullptr;
   for (const Component& component : components.list) {
@@ -323,7 +323,7 @@ void report_genus(const Components& components, Inspection& result) {
                   one ? "the handle" : "every handle", one ? "" : " of each"));
 }
 
-void report_non_orientability(const Surface& s, Components& components, Inspection& result) {
+void report_non_orientability(const InspectedMesh& s, Components& components, Inspection& result) {
   const auto offends = [](const Component& c) { return !c.orientable && !c.projective_plane(); };
   const auto count = std::count_if(components.list.begin(), components.list.end(), offends);
   if (count == 0) return;
@@ -355,7 +355,7 @@ bool is_surface(const Inspection& result) {
   return std::none_of(broken.begin(), broken.end(), [&](DefectKind kind) { return has(result, kind); });
 }
 
-void classify(const Surface& s, Components& components, Inspection& result) {
+void classify(const InspectedMesh& s, Components& components, Inspection& result) {
   result.boundary = boundary_curves(s);
   for (int c = 0; c < static_cast<int>(result.boundary.size()); ++c)
     components.of(result.boundary[c].front()).curves.push_back(c);
@@ -373,7 +373,7 @@ void classify(const Surface& s, Components& components, Inspection& result) {
 
 }  // namespace
 
-void inspect_topology(Surface& s, Inspection& result) {
+void inspect_topology(InspectedMesh& s, Inspection& result) {
   find_edges(s);
   result.edges = s.edge_count();
   report_edges(s, result);

@@ -41,9 +41,10 @@ bool is_in_range(const Vector3& position) { return (position.array().abs() <= la
 double size_of(const Points& V) { return (V.colwise().maxCoeff() - V.colwise().minCoeff()).maxCoeff(); }
 
 // Is the edge of half-edge h on the boundary, or between two faces that run along it in opposite directions?
-bool is_manifold(const Faces& F, const Connectivity& connectivity, int h) {
+bool is_manifold(const Triangles& F, const Connectivity& connectivity, int h) {
   const int other = connectivity.opposite[h];
-  return other < 0 || (connectivity.opposite[other] == h && origin(F, other) == target(F, h));
+  return other < 0 ||
+         (connectivity.opposite[other] == h && halfedge_origin(F, other) == halfedge_target(F, h));
 }
 
 struct Fans {
@@ -52,10 +53,10 @@ struct Fans {
       outgoing;  // a half-edge that leaves it, on the boundary where there is one; -1: in no face
 };
 
-Fans fans_of(const Faces& F, const std::vector<int>& opposite, int vertex_count) {
+Fans fans_of(const Triangles& F, const std::vector<int>& opposite, int vertex_count) {
   Fans fans = {std::vector<int>(vertex_count, 0), std::vector<int>(vertex_count, -1)};
   for (int h = 0; h < static_cast<int>(F.size()); ++h) {
-    const int v = origin(F, h);
+    const int v = halfedge_origin(F, h);
     ++fans.corners[v];
     if (fans.outgoing[v] < 0 || opposite[h] < 0) fans.outgoing[v] = h;
   }
@@ -87,7 +88,7 @@ bool is_connected(const Connectivity& connectivity, const std::vector<int>& corn
 }
 
 // The boundary curves of a surface all of whose vertices have one fan.
-int count_boundary_curves(const Faces& F, const std::vector<int>& opposite) {
+int count_boundary_curves(const Triangles& F, const std::vector<int>& opposite) {
   std::vector<char> seen(F.size(), 0);
   int curves = 0;
   for (int first = 0; first < static_cast<int>(F.size()); ++first) {
@@ -113,7 +114,7 @@ Surface judged(const Inspection& inspection) {
 
 }  // namespace
 
-bool is_degenerate(const Vector3& a, const Vector3& b, const Vector3& c) {
+bool is_degenerate_triangle(const Vector3& a, const Vector3& b, const Vector3& c) {
   Vector3 ab = b - a, bc = c - b;
   const double unit = std::max(
       {ab.lpNorm<Eigen::Infinity>(), bc.lpNorm<Eigen::Infinity>(), (a - c).lpNorm<Eigen::Infinity>()});
@@ -134,7 +135,7 @@ std::optional<Surface> judge_quickly(const Mesh& mesh) {
     return std::nullopt;
 
   Surface result;
-  result.connectivity = connect(mesh.F, n);
+  result.connectivity = connectivity_of(mesh.F, n);
   const std::vector<int>& opposite = result.connectivity.opposite;
   if (!all_of(3 * m, [&](int h) { return is_manifold(mesh.F, result.connectivity, h); })) return std::nullopt;
   const Fans fans = fans_of(mesh.F, opposite, n);
@@ -150,8 +151,10 @@ std::optional<Surface> judge_quickly(const Mesh& mesh) {
   if (euler + curves != 2 || curves > 1) return std::nullopt;
   result.topology = curves == 0 ? Topology::sphere : Topology::disk;
   result.zero_area_faces = static_cast<int>(parallel_sum(m, [&](int f) {
-    return is_degenerate(mesh.V.row(mesh.F(f, 0)), mesh.V.row(mesh.F(f, 1)), mesh.V.row(mesh.F(f, 2))) ? 1.0
-                                                                                                       : 0.0;
+    return is_degenerate_triangle(mesh.V.row(mesh.F(f, 0)), mesh.V.row(mesh.F(f, 1)),
+                                  mesh.V.row(mesh.F(f, 2)))
+               ? 1.0
+               : 0.0;
   }));
   if (result.zero_area_faces == m) return std::nullopt;
   return result;
@@ -165,7 +168,7 @@ Surface judge(const Mesh& mesh) {
   if (inspection.topology != Topology::projective_plane)
     throw std::logic_error("a mesh without defects was not recognised");
   Surface surface = judged(inspection);
-  surface.connectivity = connect(mesh.F, inspection.vertices);
+  surface.connectivity = connectivity_of(mesh.F, inspection.vertices);
   return surface;
 }
 
@@ -176,7 +179,7 @@ void take(Mesh&& mesh, Surface& surface) {
 
 }  // namespace
 
-std::optional<Surface> recognize(Mesh&& mesh) {
+std::optional<Surface> recognize_sphere_or_disk(Mesh&& mesh) {
   std::optional<Surface> surface = judge_quickly(mesh);
   if (surface) take(std::move(mesh), *surface);
   return surface;
@@ -206,8 +209,8 @@ Surface make_surface(PolygonMesh&& mesh) {
   require_embeddable(inspection);
   Surface surface = judged(inspection);
   surface.division = triangulate(mesh);
-  surface.triangles = on_vertices(surface.division, mesh.corners);
-  surface.connectivity = connect(mesh, surface.division);
+  surface.triangles = triangles_on_vertices(surface.division, mesh.corners);
+  surface.connectivity = connectivity_of(mesh, surface.division);
   surface.polygons = {std::move(mesh.corners), std::move(mesh.face_start)};
   surface.V = std::move(mesh.V);
   surface.colours = std::move(mesh.colours);

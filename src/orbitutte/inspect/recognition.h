@@ -26,12 +26,12 @@ Surface make_surface(const PolygonMesh& mesh);
 
 /// The mesh as a sphere or disk, in a few linear sweeps. Nothing if it is another surface, or has a defect of
 /// any kind; then the mesh stays as it was.
-std::optional<Surface> recognize(Mesh&& mesh);
+std::optional<Surface> recognize_sphere_or_disk(Mesh&& mesh);
 
 /// Is the mesh a sphere without a defect, and every vertex in some face? In a few linear sweeps.
 bool is_sound_sphere(const Mesh& mesh);
 
 /// Has the triangle no area but rounding errors, for the largest coordinate of its edges as the unit?
-bool is_degenerate(const Vector3& a, const Vector3& b, const Vector3& c);
+bool is_degenerate_triangle(const Vector3& a, const Vector3& b, const Vector3& c);
 
 }  // namespace orbitutte

@@ -278,22 +278,6 @@ class Collapse {
 
 }  // namespace
 
-std::string name(WeakPlaceKind kind) {
-  switch (kind) {
-    case WeakPlaceKind::degree_two:
-      return "degree_two";
-    case WeakPlaceKind::ear:
-      return "ear";
-    case WeakPlaceKind::chord:
-      return "chord";
-    case WeakPlaceKind::boundary_face:
-      return "boundary_face";
-    case WeakPlaceKind::double_contact:
-      return "double_contact";
-  }
-  return {};
-}
-
 std::vector<WeakPlace> find_weak_places(int vertex_count, const FaceView& faces) {
   const PolygonTopology surface = topology_of(faces);
   const std::vector<char> on_boundary = boundary_vertices(surface, vertex_count);

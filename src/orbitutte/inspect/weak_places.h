@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "orbitutte/mesh/polygon_mesh.h"
+#include "orbitutte/names.h"
 
 namespace orbitutte {
 
@@ -18,8 +19,15 @@ enum class WeakPlaceKind {
   double_contact  ///< two faces that share vertices which no common edge joins
 };
 
-/// "degree_two", "ear", "chord", "boundary_face", "double_contact".
-std::string name(WeakPlaceKind kind);
+/// Its names.
+template <>
+struct NameTable<WeakPlaceKind> {
+  static constexpr NamedValue<WeakPlaceKind> rows[] = {{WeakPlaceKind::degree_two, "degree_two"},
+                                                       {WeakPlaceKind::ear, "ear"},
+                                                       {WeakPlaceKind::chord, "chord"},
+                                                       {WeakPlaceKind::boundary_face, "boundary_face"},
+                                                       {WeakPlaceKind::double_contact, "double_contact"}};
+};
 
 /// All places of one kind: the sentence names the first.
 struct WeakPlace {

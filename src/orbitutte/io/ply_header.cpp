@@ -152,7 +152,7 @@ std::string in_one_line(std::string text) {
 
 }  // namespace
 
-std::string_view name(PlyType type) { return types[static_cast<int>(type)].name; }
+std::string_view ply_type_name(PlyType type) { return types[static_cast<int>(type)].name; }
 
 PlyHeader parse_ply_header(std::string_view bytes) {
   PlyHeader header;
@@ -176,8 +176,9 @@ std::string serialize_ply_header(const PlyFile& file) {
   for (const PlyElement& element : file.elements) {
     text += fmt::format("element {} {}\n", element.name, element.count);
     for (const PlyProperty& property : element.properties) {
-      const std::string list = property.is_list ? fmt::format("list {} ", name(property.count_type)) : "";
-      text += fmt::format("property {}{} {}\n", list, name(property.type), property.name);
+      const std::string list =
+          property.is_list ? fmt::format("list {} ", ply_type_name(property.count_type)) : "";
+      text += fmt::format("property {}{} {}\n", list, ply_type_name(property.type), property.name);
     }
   }
   return text + "end_header\n";

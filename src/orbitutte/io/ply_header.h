@@ -59,6 +59,6 @@ inline std::size_t size_of(PlyType type) {
 inline bool is_integer(PlyType type) { return type != PlyType::float32 && type != PlyType::float64; }
 
 /// The name of a type in headers: "uchar".
-std::string_view name(PlyType type);
+std::string_view ply_type_name(PlyType type);
 
 }  // namespace orbitutte

@@ -212,7 +212,7 @@ PlyType corner_count_type(const FaceView& faces) {
   return most > 255 ? PlyType::int32 : PlyType::uint8;
 }
 
-std::string write_ply_triangles(const Points& V, const Faces& F,
+std::string write_ply_triangles(const Points& V, const Triangles& F,
                                 const std::vector<PlyIntegers>& further_properties,
                                 const std::vector<std::string>& comments) {
   return write_ply_faces(V, FaceView(F), further_properties, comments);

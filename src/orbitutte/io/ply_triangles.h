@@ -31,7 +31,7 @@ struct PlyIntegers {
 /// The bytes of a little-endian file of this layout, with x, y, z as doubles and the further properties
 /// behind them: what serialize_ply makes of the same numbers. Throws ArgumentError where a property does not
 /// have one value for each vertex.
-std::string write_ply_triangles(const Points& V, const Faces& F,
+std::string write_ply_triangles(const Points& V, const Triangles& F,
                                 const std::vector<PlyIntegers>& further_properties = {},
                                 const std::vector<std::string>& comments = {});
 

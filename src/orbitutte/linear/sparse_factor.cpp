@@ -62,8 +62,6 @@ bool equal(const SparseMatrix& A, const SparseMatrix& B) {
          std::equal(A.valuePtr(), A.valuePtr() + nonzeros, B.valuePtr());
 }
 
-std::string name(Backend backend) { return backend == Backend::cholmod ? "cholmod" : "eigen"; }
-
 std::vector<Backend> available_backends() {
 #ifdef ORBITUTTE_HAS_CHOLMOD
   return {Backend::cholmod, Backend::eigen};

@@ -24,9 +24,9 @@ namespace {
 
 namespace bg = boost::geometry;
 using TreePoint = bg::model::point<double, 3, bg::cs::cartesian>;
-using FaceBox = bg::model::box<TreePoint>;
-using FaceEntry = std::pair<FaceBox, int>;  // a triangle
-using FaceTree = bg::index::rtree<FaceEntry, bg::index::rstar<16>>;
+using TriangleBox = bg::model::box<TreePoint>;
+using TriangleEntry = std::pair<TriangleBox, int>;  // a triangle
+using TriangleTree = bg::index::rtree<TriangleEntry, bg::index::rstar<16>>;
 
 constexpr double largest_gap = 1e-11;  // the certificate allows seams a residual of 1e-12
 constexpr int most_copies = 100000;    // of infinitely many
@@ -35,26 +35,26 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 void require_sound(const Embedding& embedding) {
   if (!embedding.positions.allFinite())
     throw ArgumentError("the embedding has positions that are not finite");
-  if (embedding.faces.size() > 0 &&
-      (embedding.faces.minCoeff() < 0 || embedding.faces.maxCoeff() >= embedding.positions.rows()))
+  if (embedding.triangles.size() > 0 &&
+      (embedding.triangles.minCoeff() < 0 || embedding.triangles.maxCoeff() >= embedding.positions.rows()))
     throw ArgumentError("a face of the embedding names a vertex that does not exist");
 }
 
-TriangleCorners corners_of(const Points& positions, const Faces& faces, int f) {
-  return {positions.row(faces(f, 0)), positions.row(faces(f, 1)), positions.row(faces(f, 2))};
+TriangleCorners corners_of(const Points& positions, const Triangles& triangles, int t) {
+  return {positions.row(triangles(t, 0)), positions.row(triangles(t, 1)), positions.row(triangles(t, 2))};
 }
 
 // A box around the triangle and all within largest_gap of it.
-FaceBox box_around(Space space, const TriangleCorners& corners) {
+TriangleBox box_around(Space space, const TriangleCorners& corners) {
   const auto& [a, b, c] = corners;
-  const Vector3 margin = Vector3::Constant(bulge(space, corners) + 2 * largest_gap);
+  const Vector3 margin = Vector3::Constant(triangle_bulge(space, corners) + 2 * largest_gap);
   const Vector3 low = a.cwiseMin(b).cwiseMin(c) - margin, high = a.cwiseMax(b).cwiseMax(c) + margin;
   return {TreePoint(low.x(), low.y(), low.z()), TreePoint(high.x(), high.y(), high.z())};
 }
 
 struct Location {
-  int face = -1;
-  int element = -1;
+  int triangle = -1;
+  int copy = -1;
   Vector3 barycentric = Vector3::Constant(nan);
 };
 
@@ -63,38 +63,38 @@ struct Location {
 struct PointLocator::State {
   Space space;
   Points positions;  // in the canonical frame
-  Faces faces;
+  Triangles triangles;
   std::vector<Isometry> elements;
-  FaceTree tree;
+  TriangleTree tree;
 
-  TriangleCorners corners(int f) const { return corners_of(positions, faces, f); }
+  TriangleCorners corners(int f) const { return corners_of(positions, triangles, f); }
 
   // The triangles that are positively oriented.
   void grow_tree() {
-    std::vector<char> positive(faces.rows());
-    parallel_ranges(static_cast<int>(faces.rows()), [&](int begin, int end) {
+    std::vector<char> positive(triangles.rows());
+    parallel_ranges(static_cast<int>(triangles.rows()), [&](int begin, int end) {
       for (int f = begin; f < end; ++f) {
         const auto [a, b, c] = corners(f);
         positive[f] = orientation_sign(a, b, c) > 0;
       }
     });
-    std::vector<FaceEntry> entries;
-    for (int f = 0; f < static_cast<int>(faces.rows()); ++f)
+    std::vector<TriangleEntry> entries;
+    for (int f = 0; f < static_cast<int>(triangles.rows()); ++f)
       if (positive[f]) entries.emplace_back(box_around(space, corners(f)), f);
-    tree = FaceTree(entries);
+    tree = TriangleTree(entries);
   }
 
   // The triangles whose boxes hold the point.
   void find_near(const Vector3& point, std::vector<int>& found) const {
     found.clear();
-    tree.query(
-        bg::index::intersects(TreePoint(point.x(), point.y(), point.z())),
-        boost::make_function_output_iterator([&](const FaceEntry& entry) { found.push_back(entry.second); }));
+    tree.query(bg::index::intersects(TreePoint(point.x(), point.y(), point.z())),
+               boost::make_function_output_iterator(
+                   [&](const TriangleEntry& entry) { found.push_back(entry.second); }));
     std::sort(found.begin(), found.end());
   }
 
   bool may_hold(const Vector3& point) const {
-    const FaceBox bounds = tree.bounds();
+    const TriangleBox bounds = tree.bounds();
     return bg::covered_by(TreePoint(point.x(), point.y(), point.z()), bounds);
   }
 
@@ -115,11 +115,11 @@ struct PointLocator::State {
   Location locate(const Vector3& point, std::vector<int>& near) const {
     Location found;
     visit_near(point, near, [&](int f, int g, const Vector3& here) {
-      if (!contains(corners(f), here)) return false;
+      if (!triangle_contains(corners(f), here)) return false;
       found = {f, g, barycentric_coordinates(space, corners(f), here)};
       return true;
     });
-    return found.face >= 0 ? found : nearest(point, near);
+    return found.triangle >= 0 ? found : nearest(point, near);
   }
 
   // For points in gaps between banks.
@@ -141,8 +141,9 @@ struct PointLocator::State {
 
 PointLocator::PointLocator(const Embedding& embedding, int copies) {
   require_sound(embedding);
-  state_ = std::make_unique<State>(State{embedding.space(), embedding.canonical_positions(), embedding.faces,
-                                         group_of(embedding.target, copies).elements(), FaceTree()});
+  state_ =
+      std::make_unique<State>(State{embedding.space(), embedding.canonical_positions(), embedding.triangles,
+                                    group_of(embedding.target, copies).elements(), TriangleTree()});
   state_->grow_tree();
 }
 
@@ -164,8 +165,8 @@ SurfacePoints PointLocator::locate(const Points& points) const {
       const Vector3 point = state_->space.retract(direction / length);
       if (!point.allFinite()) continue;
       const Location found = state_->locate(point, near);
-      result.face[k] = found.face;
-      result.element[k] = found.element;
+      result.triangle[k] = found.triangle;
+      result.copy[k] = found.copy;
       result.barycentric.row(k) = found.barycentric.transpose();
     }
   });
@@ -192,9 +193,9 @@ void require_index(int index, std::size_t count, const char* what, int point) {
 void require_lengths(const SurfacePoints& points) {
   const auto count = static_cast<std::size_t>(points.count());
   if (static_cast<std::size_t>(points.barycentric.rows()) != count ||
-      (!points.element.empty() && points.element.size() != count))
-    throw ArgumentError(fmt::format("there are {} faces, {} rows of coordinates and {} copies", count,
-                                    points.barycentric.rows(), points.element.size()));
+      (!points.copy.empty() && points.copy.size() != count))
+    throw ArgumentError(fmt::format("there are {} triangles, {} rows of coordinates and {} copies", count,
+                                    points.barycentric.rows(), points.copy.size()));
 }
 
 }  // namespace
@@ -202,8 +203,7 @@ void require_lengths(const SurfacePoints& points) {
 Points map_points(const Embedding& embedding, const SurfacePoints& points) {
   require_lengths(points);
   require_sound(embedding);
-  const int last =
-      points.element.empty() ? 0 : *std::max_element(points.element.begin(), points.element.end());
+  const int last = points.copy.empty() ? 0 : *std::max_element(points.copy.begin(), points.copy.end());
   const std::vector<Isometry> elements =
       last > 0 ? group_of(embedding.target, std::min(last, most_copies) + 1).elements()
                : std::vector<Isometry>(1);
@@ -211,15 +211,15 @@ Points map_points(const Embedding& embedding, const SurfacePoints& points) {
   Points images = Points::Constant(points.count(), 3, nan);
   parallel_ranges(points.count(), [&](int begin, int end) {
     for (int k = begin; k < end; ++k) {
-      const int face = points.face[k], element = points.element.empty() ? 0 : points.element[k];
-      if (face == -1) continue;
+      const int triangle = points.triangle[k], copy = points.copy.empty() ? 0 : points.copy[k];
+      if (triangle == -1) continue;
       const Vector3 coordinates = points.barycentric.row(k);
-      require_index(face, static_cast<std::size_t>(embedding.faces.rows()), "face", k);
-      require_index(element, elements.size(), "copy", k);
+      require_index(triangle, static_cast<std::size_t>(embedding.triangles.rows()), "triangle", k);
+      require_index(copy, elements.size(), "copy", k);
       require_coordinates(coordinates, k);
-      const Vector3 image =
-          barycentric_point(embedding.space(), corners_of(positions, embedding.faces, face), coordinates);
-      images.row(k) = (elements[element] * image).transpose();
+      const Vector3 image = barycentric_point(
+          embedding.space(), corners_of(positions, embedding.triangles, triangle), coordinates);
+      images.row(k) = (elements[copy] * image).transpose();
     }
   });
   return images;

@@ -30,7 +30,7 @@ void for_vertex_ranges(int vertex_count, const Visit& visit) {
 // Calls visit(lower, upper, half-edge) for every half-edge whose lower vertex is in begin .. end - 1, in
 // ascending order.
 template <typename Visit>
-void for_halfedges(const Faces& F, int begin, int end, const Visit& visit) {
+void for_halfedges(const Triangles& F, int begin, int end, const Visit& visit) {
   const int* corner = F.data();
   for (int h = 0, size = static_cast<int>(F.size()); h < size; h += 3, corner += 3) {
     for (int k = 0; k < 3; ++k) {
@@ -42,7 +42,7 @@ void for_halfedges(const Faces& F, int begin, int end, const Visit& visit) {
 
 }  // namespace
 
-Connectivity connect(const Faces& F, int vertex_count) {
+Connectivity connectivity_of(const Triangles& F, int vertex_count) {
   // A counting sort by the lower vertex, then a sort of each short bucket.
   std::vector<int> start(vertex_count + 1, 0), first_edge(vertex_count + 1, 0);
   for_vertex_ranges(vertex_count, [&](int begin, int end) {
@@ -82,7 +82,7 @@ Connectivity connect(const Faces& F, int vertex_count) {
   return result;
 }
 
-Neighbors neighbors(const std::vector<std::array<int, 2>>& edges, int vertex_count) {
+Neighbors vertex_neighbors(const std::vector<std::array<int, 2>>& edges, int vertex_count) {
   Neighbors result;
   result.start.assign(vertex_count + 1, 0);
   for (const auto& [i, j] : edges) {

@@ -13,8 +13,8 @@ namespace orbitutte {
 /// Half-edge h = 3 f + k runs from F(f, k) to F(f, (k + 1) % 3), its face on its left.
 inline int next_halfedge(int h) { return h % 3 == 2 ? h - 2 : h + 1; }
 inline int previous_halfedge(int h) { return h % 3 == 0 ? h + 2 : h - 1; }
-inline int origin(const Faces& F, int h) { return F.data()[h]; }
-inline int target(const Faces& F, int h) { return F.data()[next_halfedge(h)]; }
+inline int halfedge_origin(const Triangles& F, int h) { return F.data()[h]; }
+inline int halfedge_target(const Triangles& F, int h) { return F.data()[next_halfedge(h)]; }
 
 /// The neighbours of vertex v are neighbor[start[v]] .. neighbor[start[v + 1] - 1], over the edges edge[...].
 struct Neighbors {
@@ -32,8 +32,8 @@ struct Connectivity {
 
 /// The edges of an edge-manifold mesh of n vertices, in O(n + m). The mesh is expected to have passed
 /// `inspect`.
-Connectivity connect(const Faces& F, int vertex_count);
+Connectivity connectivity_of(const Triangles& F, int vertex_count);
 
-Neighbors neighbors(const std::vector<std::array<int, 2>>& edges, int vertex_count);
+Neighbors vertex_neighbors(const std::vector<std::array<int, 2>>& edges, int vertex_count);
 
 }  // namespace orbitutte

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "orbitutte/mesh/intrinsic_triangulation.h"
+#include "orbitutte/names.h"
 
 namespace orbitutte {
 
@@ -21,8 +22,14 @@ enum class WeightKind {
   file         ///< given by the caller
 };
 
-/// "standard", "cotan", "delaunay", "mean-value", "uniform" or "file".
-std::string name(WeightKind kind);
+/// Its names.
+template <>
+struct NameTable<WeightKind> {
+  static constexpr NamedValue<WeightKind> rows[] = {
+      {WeightKind::standard, "standard"}, {WeightKind::cotan, "cotan"},
+      {WeightKind::delaunay, "delaunay"}, {WeightKind::mean_value, "mean-value"},
+      {WeightKind::uniform, "uniform"},   {WeightKind::file, "file", false}};
+};
 
 /// A weight for every edge of the mesh, or of an intrinsic triangulation of its surface.
 struct EdgeWeights {

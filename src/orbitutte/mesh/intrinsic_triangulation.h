@@ -24,7 +24,7 @@ struct Flip {
 /// face has its own unit of length: two faces beside an edge need not agree on its length, only on what is
 /// similar, and angles, flips and cotangents know no more.
 struct IntrinsicTriangulation {
-  Faces F;                                          ///< m x 3
+  Triangles F;                                      ///< m x 3
   Connectivity connectivity;                        ///< of F
   std::vector<double> length;                       ///< 3 m: of every half-edge, in its face's unit
   std::vector<double> half_cotangent;               ///< 3 m: of the angle opposite to every half-edge

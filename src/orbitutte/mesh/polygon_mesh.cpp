@@ -22,7 +22,7 @@ Mesh to_triangle_mesh(PolygonMesh mesh) {
     throw MeshError(
         fmt::format("face {} has {} corners instead of three; triangulate the mesh", f, mesh.face_degree(f)));
   }
-  Mesh triangles{std::move(mesh.V), Faces(mesh.face_count(), 3)};
+  Mesh triangles{std::move(mesh.V), Triangles(mesh.face_count(), 3)};
   std::copy(mesh.corners.begin(), mesh.corners.end(), triangles.F.data());
   return triangles;
 }

@@ -6,7 +6,7 @@
 
 namespace orbitutte {
 
-Polygons Surface::polygons_on(const Faces& cut, const std::vector<char>& turned) const {
+Polygons Surface::polygons_on(const Triangles& cut, const std::vector<char>& turned) const {
   Polygons result;
   if (!has_polygons()) return result;
   result.start = polygons.start;

@@ -14,13 +14,13 @@ struct Surface {
   /// n x 3 positions.
   Points V;
   /// T x 3: the faces in their order, larger ones divided into triangles.
-  Faces triangles;
+  Triangles triangles;
   /// The half-edges of the triangles, and the edges of the faces alone.
   Connectivity connectivity;
   /// The faces, if some have more than three corners; none if all are triangles.
   Polygons polygons;
   /// T x 3: the triangles as indices into polygons.corners (triangulate); none if all faces are triangles.
-  Faces division;
+  Triangles division;
   Topology topology = Topology::other;
   int unreferenced_vertices = 0;
   /// As Inspection counts them.
@@ -38,7 +38,7 @@ struct Surface {
   /// The polygons that the triangles make up on other vertices, such as those of a cut mesh; none if all
   /// faces are triangles. cut: T x 3, the triangles there. turned: T, or empty; if a triangle is turned over
   /// (its second and third vertex exchanged), its polygon is, too.
-  Polygons polygons_on(const Faces& cut, const std::vector<char>& turned = {}) const;
+  Polygons polygons_on(const Triangles& cut, const std::vector<char>& turned = {}) const;
 };
 
 }  // namespace orbitutte

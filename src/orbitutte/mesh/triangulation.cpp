@@ -101,12 +101,12 @@ struct Side {
   auto key() const { return std::tuple(lower, upper, face, halfedge); }
 };
 
-std::vector<Side> sorted_sides(const PolygonMesh& mesh, const Faces& division) {
+std::vector<Side> sorted_sides(const PolygonMesh& mesh, const Triangles& division) {
   std::vector<Side> sides;
   sides.reserve(division.size());
   int face = 0;
   for (int h = 0; h < static_cast<int>(division.size()); ++h) {
-    const int from = origin(division, h), to = target(division, h);
+    const int from = halfedge_origin(division, h), to = halfedge_target(division, h);
     while (from >= mesh.face_start[face + 1]) ++face;
     const int next = from + 1 < mesh.face_start[face + 1] ? from + 1 : mesh.face_start[face];
     const auto [lower, upper] = std::minmax(mesh.corners[from], mesh.corners[to]);
@@ -124,8 +124,8 @@ bool is_triangle_mesh(const PolygonMesh& mesh) {
   return true;
 }
 
-Faces triangulate(const PolygonMesh& mesh) {
-  Faces result(static_cast<int>(mesh.corners.size()) - 2 * mesh.face_count(), 3);
+Triangles triangulate(const PolygonMesh& mesh) {
+  Triangles result(static_cast<int>(mesh.corners.size()) - 2 * mesh.face_count(), 3);
   int row = 0;
   for (int f = 0; f < mesh.face_count(); ++f) {
     const auto add = [&](int i, int j, int k) { result.row(row++) << i, j, k; };
@@ -138,8 +138,8 @@ Faces triangulate(const PolygonMesh& mesh) {
   return result;
 }
 
-Faces fan(const Polygons& polygons) {
-  Faces result(static_cast<int>(polygons.corners.size()) - 2 * polygons.count(), 3);
+Triangles fan_triangles(const Polygons& polygons) {
+  Triangles result(static_cast<int>(polygons.corners.size()) - 2 * polygons.count(), 3);
   int row = 0;
   for (int f = 0; f < polygons.count(); ++f)
     for (int c = polygons.start[f] + 2; c < polygons.start[f + 1]; ++c)
@@ -147,12 +147,13 @@ Faces fan(const Polygons& polygons) {
   return result;
 }
 
-Faces on_vertices(const Faces& division, const std::vector<int>& corners) {
+Triangles triangles_on_vertices(const Triangles& division, const std::vector<int>& corners) {
   return division.unaryExpr([&](int c) { return corners[c]; });
 }
 
-Connectivity connect(const PolygonMesh& mesh, const Faces& division) {
-  if (is_triangle_mesh(mesh)) return connect(on_vertices(division, mesh.corners), mesh.vertex_count());
+Connectivity connectivity_of(const PolygonMesh& mesh, const Triangles& division) {
+  if (is_triangle_mesh(mesh))
+    return connectivity_of(triangles_on_vertices(division, mesh.corners), mesh.vertex_count());
   const std::vector<Side> sides = sorted_sides(mesh, division);
   Connectivity result;
   result.edge_of.resize(sides.size());

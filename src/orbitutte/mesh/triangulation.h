@@ -17,16 +17,16 @@ bool is_triangle_mesh(const PolygonMesh& mesh);
 /// equilateral one (the largest area over the sum of its squared sides, negative where the polygon bends
 /// inwards), until four corners are left, and these by the diagonal whose worse triangle is the better. O(c
 /// log c) for c corners. The mesh is expected to have passed `inspect`.
-Faces triangulate(const PolygonMesh& mesh);
+Triangles triangulate(const PolygonMesh& mesh);
 
 /// Every polygon in triangles from its first corner: what convex ones need.
-Faces fan(const Polygons& polygons);
+Triangles fan_triangles(const Polygons& polygons);
 
 /// The triangles (T x 3) on vertices: those of `corners` (Polygons::corners).
-Faces on_vertices(const Faces& division, const std::vector<int>& corners);
+Triangles triangles_on_vertices(const Triangles& division, const std::vector<int>& corners);
 
 /// The half-edges of the triangles and the edges of the polygons, in O(c log c). Half-edges of diagonals have
 /// the opposite one in the same polygon, and the edge -1.
-Connectivity connect(const PolygonMesh& mesh, const Faces& division);
+Connectivity connectivity_of(const PolygonMesh& mesh, const Triangles& division);
 
 }  // namespace orbitutte

@@ -3,18 +3,6 @@
 
 namespace orbitutte {
 
-std::string name(SeamKind kind) {
-  switch (kind) {
-    case SeamKind::rotation:
-      return "rotation";
-    case SeamKind::reflection:
-      return "reflection";
-    case SeamKind::rotoreflection:
-      return "rotoreflection";
-  }
-  return {};
-}
-
 SeamKind Seam::kind() const {
   if (is_mirror()) return SeamKind::reflection;
   return transform.reverses_orientation() ? SeamKind::rotoreflection : SeamKind::rotation;

@@ -5,14 +5,20 @@
 #include <string>
 #include <vector>
 
+#include "orbitutte/names.h"
 #include "orbitutte/orbifold/target.h"
 
 namespace orbitutte {
 
 enum class SeamKind { rotation, reflection, rotoreflection };
 
-/// "rotation", "reflection" or "rotoreflection".
-std::string name(SeamKind kind);
+/// Its names.
+template <>
+struct NameTable<SeamKind> {
+  static constexpr NamedValue<SeamKind> rows[] = {{SeamKind::rotation, "rotation"},
+                                                  {SeamKind::reflection, "reflection"},
+                                                  {SeamKind::rotoreflection, "rotoreflection"}};
+};
 
 /// Two banks of the cut mesh's boundary and the symmetry that takes the right one to the left one:
 /// position(left[i]) = transform * position(right[i]), for the interior vertices of the seam and its two end
@@ -58,8 +64,8 @@ struct Embedding {
   /// n_cut x 3, points of the target's space; vertices that no face uses sit at (0, 0, 1).
   Points positions;
 
-  /// m x 3, the faces of the input in their order, on cut vertices; polygons in triangles.
-  Faces faces;
+  /// T x 3, on cut vertices: the faces of the input in their order, polygons divided into triangles.
+  Triangles triangles;
 
   /// n_cut: the input vertex; the first n cut vertices are the input vertices.
   std::vector<int> source_vertex;
@@ -77,7 +83,7 @@ struct Embedding {
   const Space& space() const { return target.space; }
 
   /// The faces of the input, on cut vertices.
-  FaceView input_faces() const { return polygons.count() > 0 ? FaceView(polygons) : FaceView(faces); }
+  FaceView faces() const { return polygons.count() > 0 ? FaceView(polygons) : FaceView(triangles); }
 
   /// The positions in the target's canonical frame (n_cut x 3), in which results can be compared.
   Points canonical_positions() const;

@@ -53,7 +53,7 @@ void glue_sides(Tile& tile, int left, int right, const Isometry& transform) {
 Tile polygon(Space space, const std::vector<Vector3>& corners, const std::vector<int>& marks) {
   Tile tile;
   for (std::size_t k = 0; k < corners.size(); ++k)
-    tile.sides.push_back(geodesic(space, corners[k], corners[(k + 1) % corners.size()], marks[k]));
+    tile.sides.push_back(geodesic_side(space, corners[k], corners[(k + 1) % corners.size()], marks[k]));
   return tile;
 }
 
@@ -155,8 +155,9 @@ Tile sector(const Target& target, const Arrangement& marks) {
   const double angle = target.marks[0].angle;
   const Vector3 pole = Vector3::UnitZ(), start = Vector3::UnitX(), end = target.space.polar(pi / 2, angle);
   Tile tile;
-  tile.sides = {geodesic(target.space, pole, start, marks[0]), arc(start, Vector3::UnitY(), angle, marks[1]),
-                geodesic(target.space, end, pole, marks[1])};
+  tile.sides = {geodesic_side(target.space, pole, start, marks[0]),
+                arc(start, Vector3::UnitY(), angle, marks[1]),
+                geodesic_side(target.space, end, pole, marks[1])};
   glue_sides(tile, 0, 2, target.space.rotation(pole, -angle));
   make_mirror(tile, 1);
   return tile;

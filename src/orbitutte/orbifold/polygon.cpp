@@ -180,8 +180,8 @@ Tile polygon_tile(const std::vector<PolygonCorner>& corners, const std::vector<i
                       "polygon has it; give the corners in the order in which the boundary, its faces on the "
                       "left, meets their vertices",
                       corners[k].vertex));
-    tile.sides.push_back(geodesic(Space::sphere(), corners[k].position, corner_after(corners, k).position,
-                                  static_cast<int>(k)));
+    tile.sides.push_back(geodesic_side(Space::sphere(), corners[k].position,
+                                       corner_after(corners, k).position, static_cast<int>(k)));
   }
   return tile;
 }
@@ -206,7 +206,7 @@ double plane_area(const Tile& tile) {
 
 }  // namespace
 
-double area(const Target& target) {
+double target_area(const Target& target) {
   if (target.space == Space::plane()) return plane_area(basic_tile(target, first_arrangement(target)));
   if (target.corners.empty()) return 4 * pi / target.group_order;
   double area = 2 * pi;

@@ -30,6 +30,6 @@ Target read_target(const std::string& signature, const std::vector<ConeCopies>& 
                    const Points& positions);
 
 /// 4 pi/|G|; in the plane the tile's; of a polygon the sum of its interior angles less (n - 2) pi.
-double area(const Target& target);
+double target_area(const Target& target);
 
 }  // namespace orbitutte

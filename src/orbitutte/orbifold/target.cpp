@@ -14,18 +14,6 @@ double whole_angle(ConeKind kind) {
 
 }  // namespace
 
-std::string name(ConeKind kind) {
-  switch (kind) {
-    case ConeKind::rotation:
-      return "rotation";
-    case ConeKind::corner:
-      return "corner";
-    case ConeKind::fixed:
-      return "fixed";
-  }
-  return {};
-}
-
 Mark Mark::of_order(int order, ConeKind kind) {
   return {kind == ConeKind::fixed ? 0.0 : whole_angle(kind) / order, kind};
 }

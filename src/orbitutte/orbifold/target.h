@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "orbitutte/geometry/space.h"
+#include "orbitutte/names.h"
 #include "orbitutte/types.h"
 
 namespace orbitutte {
@@ -26,8 +27,12 @@ inline const std::string polygon_signature = "polygon";
 
 enum class ConeKind { rotation, corner, fixed };
 
-/// "rotation", "corner" or "fixed".
-std::string name(ConeKind kind);
+/// Its names.
+template <>
+struct NameTable<ConeKind> {
+  static constexpr NamedValue<ConeKind> rows[] = {
+      {ConeKind::rotation, "rotation"}, {ConeKind::corner, "corner"}, {ConeKind::fixed, "fixed"}};
+};
 
 /// A marked point of the target.
 struct Mark {

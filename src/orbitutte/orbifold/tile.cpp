@@ -10,7 +10,7 @@
 
 namespace orbitutte {
 
-TileSide geodesic(Space space, const Vector3& from, const Vector3& to, int mark) {
+TileSide geodesic_side(Space space, const Vector3& from, const Vector3& to, int mark) {
   TileSide side;
   side.space = space;
   side.start = from;
@@ -50,7 +50,7 @@ std::vector<int> first_arrangement(const Target& target) {
   return arrangement;
 }
 
-Tile moved(const Tile& tile, const Isometry& isometry) {
+Tile moved_tile(const Tile& tile, const Isometry& isometry) {
   Tile result = tile;
   for (TileSide& side : result.sides) {
     side.start = isometry * side.start;
@@ -60,7 +60,7 @@ Tile moved(const Tile& tile, const Isometry& isometry) {
   return result;
 }
 
-bool stays_put(const Tile& tile) {
+bool has_held_side(const Tile& tile) {
   return std::any_of(tile.sides.begin(), tile.sides.end(), [](const TileSide& side) { return side.held(); });
 }
 

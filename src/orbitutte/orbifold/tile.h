@@ -47,7 +47,7 @@ struct TileSide {
 };
 
 /// The shortest geodesic between two points, on the sphere not antipodal, as a side without a partner.
-TileSide geodesic(Space space, const Vector3& from, const Vector3& to, int mark);
+TileSide geodesic_side(Space space, const Vector3& from, const Vector3& to, int mark);
 
 /// A polygon of geodesics; corner k is where side k begins. Counterclockwise from outside.
 struct Tile {
@@ -75,10 +75,10 @@ Tile basic_tile(const Target& target, const std::vector<int>& arrangement);
 std::vector<int> first_arrangement(const Target& target);
 
 /// The same tile moved by an isometry that keeps orientations.
-Tile moved(const Tile& tile, const Isometry& isometry);
+Tile moved_tile(const Tile& tile, const Isometry& isometry);
 
 /// True where a side is held, so that the tile lies where it was asked for and may not be turned.
-bool stays_put(const Tile& tile);
+bool has_held_side(const Tile& tile);
 
 /// Does a rotation about (0, 0, 1) change no side's gluing, so that the embedding is fixed only up to it?
 bool is_free_to_rotate(const Tile& tile);

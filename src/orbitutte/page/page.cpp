@@ -156,7 +156,7 @@ Content warnings(const Json& report, const Judgement& judgement) {
 // Sections
 
 Content key_figures(const Json& report, const Embedding& embedding) {
-  const double conformal = 2 * area(embedding.target);
+  const double conformal = 2 * target_area(embedding.target);
   return {{"angle", measure_text(number_at(report, "/distortion/angle/mean"))},
           {"area", measure_text(number_at(report, "/distortion/area/median"))},
           {"energy", measure_text(number_at(report, "/energy"))},
@@ -206,7 +206,7 @@ Content cone_rows(const Embedding& embedding) {
     rows.push_back({{"colour", hexadecimal(cone_colour(static_cast<int>(c)))},
                     {"vertex", std::to_string(cone.vertex)},
                     {"order", std::to_string(cone.mark.order())},
-                    {"kind", name(cone.mark.kind)},
+                    {"kind", name_of(cone.mark.kind)},
                     {"copies", std::to_string(cone.copies.size())}});
   }
   return rows;
@@ -223,7 +223,7 @@ Content seam_rows(const Embedding& embedding) {
   for (const Seam& seam : embedding.seams) {
     const Matrix3& M = seam.transform.matrix();
     const double turn = std::acos(std::clamp((M.determinant() * M.trace() - 1) / 2, -1.0, 1.0));
-    rows.push_back({{"kind", name(seam.kind())},
+    rows.push_back({{"kind", name_of(seam.kind())},
                     {"vertices", grouped_digits(static_cast<long long>(seam.left.size()))},
                     {"angle", fmt::format("{:.4g}°", turn * 180 / std::numbers::pi)}});
   }
@@ -293,9 +293,9 @@ Json parse(const std::string& report) {
 void require_match(const PageSubject& subject) {
   const Surface& surface = subject.surface;
   const Embedding& embedding = subject.embedding;
-  if (embedding.faces.rows() != surface.triangles.rows())
+  if (embedding.triangles.rows() != surface.triangles.rows())
     throw MeshError(fmt::format("the embedding has {} faces, the mesh {}: it is not of this mesh",
-                                embedding.faces.rows(), surface.triangles.rows()));
+                                embedding.triangles.rows(), surface.triangles.rows()));
   for (const int v : embedding.source_vertex)
     if (v < 0 || v >= surface.V.rows())
       throw MeshError(fmt::format(
@@ -343,7 +343,7 @@ Content page_content(const PageSubject& subject, const Json& report, const PageO
   const Embedding& embedding = subject.embedding;
   const Judgement judgement = {certify(subject.surface, embedding),
                                at(report, "/termination") == "converged"};
-  const std::vector<FaceDistortion> faces = measure_faces(subject.surface, embedding);
+  const std::vector<FaceDistortion> faces = measure_triangles(subject.surface, embedding);
   const std::vector<Iteration> history = history_of(report);
   const std::string style_sheet = style();
   Content content = {{"version", version},

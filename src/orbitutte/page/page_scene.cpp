@@ -55,10 +55,10 @@ template <typename Measure>
 std::vector<double> vertex_means(const Embedding& embedding, const Measure& measure) {
   std::vector<double> sum(embedding.source_vertex.size(), 0.0);
   std::vector<int> count(sum.size(), 0);
-  for (Eigen::Index f = 0; f < embedding.faces.rows(); ++f) {
+  for (Eigen::Index f = 0; f < embedding.triangles.rows(); ++f) {
     const double value = measure(f);
     if (!(value > 0)) continue;
-    for (const int v : embedding.faces.row(f)) {
+    for (const int v : embedding.triangles.row(f)) {
       sum[v] += std::log2(value);
       ++count[v];
     }
@@ -70,12 +70,12 @@ std::vector<double> vertex_means(const Embedding& embedding, const Measure& meas
 /// The normals of the source at the cut vertices, by area, as the cut mesh's faces run.
 Points normals_along_banks(const Surface& surface, const Embedding& embedding) {
   Points normals = Points::Zero(embedding.positions.rows(), 3);
-  for (Eigen::Index f = 0; f < embedding.faces.rows(); ++f) {
+  for (Eigen::Index f = 0; f < embedding.triangles.rows(); ++f) {
     const auto corner = [&](int k) -> Vector3 {
-      return surface.V.row(embedding.source_vertex[embedding.faces(f, k)]);
+      return surface.V.row(embedding.source_vertex[embedding.triangles(f, k)]);
     };
     const Vector3 normal = (corner(1) - corner(0)).cross(corner(2) - corner(0));
-    for (const int v : embedding.faces.row(f)) normals.row(v) += normal.transpose();
+    for (const int v : embedding.triangles.row(f)) normals.row(v) += normal.transpose();
   }
   return normals;
 }
@@ -207,7 +207,7 @@ void add_colours(const Points& colours, const Embedding& embedding, const std::v
 std::string page_scene(const Surface& surface, const Embedding& embedding,
                        const std::vector<FaceDistortion>& faces, const DisplayLimits& limits) {
   const DisplayMesh display = display_mesh(surface, embedding, limits);
-  Json scene = {{"faces", embedding.faces.rows()},
+  Json scene = {{"faces", embedding.triangles.rows()},
                 {"shown_faces", display.fine.faces.rows()},
                 {"copy_faces", display.coarse.faces.rows()},
                 {"vertices", display.cut_vertex.size()}};

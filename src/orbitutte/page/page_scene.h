@@ -29,7 +29,7 @@ namespace orbitutte {
 /// Holds no `<`, so that it can stand within a script element. Throws as weld_copies does where the seams
 /// generate no group of the right order; then `copies` would mean nothing.
 ///
-/// faces: as measure_faces has them.
+/// faces: as measure_triangles has them.
 std::string page_scene(const Surface& surface, const Embedding& embedding,
                        const std::vector<FaceDistortion>& faces, const DisplayLimits& limits = {});
 

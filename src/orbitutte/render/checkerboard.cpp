@@ -25,13 +25,13 @@ Plane seen_from(Space space, const Points& positions, const Vector3& centre) {
 
 double source_area(const Embedding& embedding, const Points& source, Eigen::Index f) {
   const auto corner = [&](int k) -> Vector3 {
-    return source.row(embedding.source_vertex[embedding.faces(f, k)]);
+    return source.row(embedding.source_vertex[embedding.triangles(f, k)]);
   };
   return 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
 }
 
 double plane_area(const Embedding& embedding, const Plane& plane, Eigen::Index f) {
-  const auto corner = [&](int k) -> Eigen::Vector2d { return plane.row(embedding.faces(f, k)); };
+  const auto corner = [&](int k) -> Eigen::Vector2d { return plane.row(embedding.triangles(f, k)); };
   const Eigen::Vector2d e = corner(1) - corner(0), g = corner(2) - corner(0);
   return 0.5 * std::abs(e[0] * g[1] - e[1] * g[0]);
 }
@@ -70,8 +70,8 @@ double board(Eigen::Vector2d place, double enlarged) {
 }  // namespace
 
 std::vector<float> sides_on_source(const Embedding& embedding, const Points& source, const Plane& plane) {
-  std::vector<float> sides(embedding.faces.rows(), std::numeric_limits<float>::infinity());
-  for (Eigen::Index f = 0; f < embedding.faces.rows(); ++f) {
+  std::vector<float> sides(embedding.triangles.rows(), std::numeric_limits<float>::infinity());
+  for (Eigen::Index f = 0; f < embedding.triangles.rows(); ++f) {
     const double area = plane_area(embedding, plane, f);
     if (area > 0) sides[f] = static_cast<float>(std::sqrt(source_area(embedding, source, f) / area));
   }
@@ -81,7 +81,7 @@ std::vector<float> sides_on_source(const Embedding& embedding, const Points& sou
 Checkerboard::Checkerboard(const Embedding& embedding, const Points& source, const Vector3& centre,
                            double side)
     : coordinates_(seen_from(embedding.space(), embedding.positions, centre)),
-      faces_(embedding.faces),
+      faces_(embedding.triangles),
       side_(side),
       side_on_source_(sides_on_source(embedding, source, coordinates_)) {
   std::vector<double> areas(faces_.rows());

@@ -25,7 +25,7 @@ class Checkerboard {
 
  private:
   Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> coordinates_;
-  Faces faces_;
+  Triangles faces_;
   double side_;
   std::vector<float> side_on_source_;  ///< m: of a square, by the face that it lies in
 };

@@ -58,8 +58,8 @@ void draw_title(Canvas& canvas, const Box& box, const ComparedMap& map) {
 // The same view of the mesh for every map, and one scale.
 void draw_figures(Canvas& canvas, double top, const Comparison& comparison, const ColourScale& scale) {
   const SourceFigure figure(comparison.surface.V, comparison.surface.triangles);
-  const View view =
-      default_view(figure, polyline(figure.positions(), comparison.cones), default_up(comparison.surface));
+  const View view = default_view(figure, polyline(figure.positions(), comparison.cones),
+                                 default_up_direction(comparison.surface));
   const Box box = cell(0, top, figure_row).inset(2 * picture_em, 0, 2 * picture_em, 0);
   const Camera camera =
       fit_camera(view, figure.positions(), {static_cast<int>(box.width), static_cast<int>(box.height)}, 0.95);

@@ -32,7 +32,7 @@ struct Orientation {
   double area = 0;
 };
 
-Orientation orientation(const Points& V, const Faces& F) {
+Orientation orientation(const Points& V, const Triangles& F) {
   Orientation result;
   for (Eigen::Index f = 0; f < F.rows(); ++f) {
     const Vector3 a = V.row(F(f, 0)), b = V.row(F(f, 1)), c = V.row(F(f, 2));
@@ -89,7 +89,7 @@ double score(const SourceFigure& figure, const Points& marked, const View& view)
 
 }  // namespace
 
-Vector3 default_up(const Surface& surface) {
+Vector3 default_up_direction(const Surface& surface) {
   // What is open does not stand on its rim but faces the viewer.
   if (surface.triangles.rows() == 0 || is_open(orientation(surface.V, surface.triangles)))
     return Vector3::UnitY();

@@ -13,7 +13,7 @@
 namespace orbitutte {
 namespace {
 
-CornerNormals face_normals(const Points& V, const Faces& F) {
+CornerNormals face_normals(const Points& V, const Triangles& F) {
   CornerNormals normals(F.rows(), 3);
   for (Eigen::Index f = 0; f < F.rows(); ++f) {
     const Vector3 a = V.row(F(f, 0)), b = V.row(F(f, 1)), c = V.row(F(f, 2));
@@ -29,12 +29,12 @@ bool is_smooth(const CornerNormals& faces, int h, int opposite, float cosine) {
 }
 
 // The corners that share a normal.
-DisjointSets smooth_corners(const Points& V, const Faces& F, const CornerNormals& faces, float cosine) {
-  const Connectivity connectivity = connect(F, static_cast<int>(V.rows()));
+DisjointSets smooth_corners(const Points& V, const Triangles& F, const CornerNormals& faces, float cosine) {
+  const Connectivity connectivity = connectivity_of(F, static_cast<int>(V.rows()));
   DisjointSets corners(static_cast<int>(F.size()));
   for (int h = 0; h < static_cast<int>(F.size()); ++h) {
     const int o = connectivity.opposite[h];
-    if (o < h || origin(F, h) != target(F, o) || !is_smooth(faces, h, o, cosine)) continue;
+    if (o < h || halfedge_origin(F, h) != halfedge_target(F, o) || !is_smooth(faces, h, o, cosine)) continue;
     corners.unite(h, next_halfedge(o));
     corners.unite(next_halfedge(h), o);
   }
@@ -69,7 +69,7 @@ constexpr float shade = 0.75F;        // the share of the main light that its sh
 
 }  // namespace
 
-CornerNormals corner_normals(const Points& V, const Faces& F, double crease) {
+CornerNormals corner_normals(const Points& V, const Triangles& F, double crease) {
   const CornerNormals faces = face_normals(V, F);
   DisjointSets sets = smooth_corners(V, F, faces, static_cast<float>(std::cos(crease)));
   CornerNormals normals = CornerNormals::Zero(F.size(), 3);

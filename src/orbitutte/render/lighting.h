@@ -14,7 +14,7 @@ using CornerNormals = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
 /// Faces around a vertex share a normal, the mean weighted by area, as long as no edge sharper than `crease`
 /// (radians) parts them: smooth surfaces look smooth, and edges of machine parts stay sharp. O(m).
-CornerNormals corner_normals(const Points& V, const Faces& F, double crease);
+CornerNormals corner_normals(const Points& V, const Triangles& F, double crease);
 
 /// How much light reaches a point, 0 .. 1 each.
 struct Exposure {

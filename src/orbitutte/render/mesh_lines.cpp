@@ -8,7 +8,7 @@
 
 namespace orbitutte {
 
-double mean_edge_length(const Points& V, const Faces& F) {
+double mean_edge_length(const Points& V, const Triangles& F) {
   if (F.rows() == 0) return 0;
   const double sum = parallel_sum(static_cast<int>(F.rows()), [&](int f) {
     double length = 0;
@@ -22,7 +22,7 @@ float line_strength(double edge_pixels) {
   return static_cast<float>(std::clamp((edge_pixels - 6) / 10, 0.0, 1.0));
 }
 
-float line_coverage(const Points& V, const Faces& F, const Hit& hit, double pixel) {
+float line_coverage(const Points& V, const Triangles& F, const Hit& hit, double pixel) {
   constexpr double half_width = 0.55;  // pixels
   const Vector3 a = V.row(F(hit.primitive, 0)), b = V.row(F(hit.primitive, 1)),
                 c = V.row(F(hit.primitive, 2));

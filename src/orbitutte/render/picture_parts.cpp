@@ -8,8 +8,8 @@ namespace {
 
 // The embedding's faces on the vertices of the source: those of the mesh, some turned over on projective
 // planes.
-Faces source_faces(const Embedding& embedding) {
-  Faces faces = embedding.faces;
+Triangles source_faces(const Embedding& embedding) {
+  Triangles faces = embedding.triangles;
   for (int& v : faces.reshaped()) v = embedding.source_vertex[v];
   return faces;
 }
@@ -24,14 +24,14 @@ const SourceFigure& PictureParts::figure() {
 const View& PictureParts::source_view() {
   if (source_view_) return *source_view_;
   const bool is_of_sphere = options_.panel == Panel::sphere;  // then view and up are the sphere's
-  const Vector3 up = options_.up && !is_of_sphere ? *options_.up : default_up(subject_.surface);
+  const Vector3 up = options_.up && !is_of_sphere ? *options_.up : default_up_direction(subject_.surface);
   source_view_ = options_.view && !is_of_sphere ? View{options_.view->normalized(), up}
                                                 : default_view(figure(), marked_positions(), up);
   return *source_view_;
 }
 
 const std::vector<FaceDistortion>& PictureParts::distortion() {
-  if (!distortion_) distortion_ = measure_faces(subject_.surface, subject_.embedding);
+  if (!distortion_) distortion_ = measure_triangles(subject_.surface, subject_.embedding);
   return *distortion_;
 }
 

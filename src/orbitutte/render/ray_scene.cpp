@@ -99,7 +99,7 @@ RayScene::RayScene() : scene_(rtcNewScene(device()), rtcReleaseScene) {
   rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
 }
 
-int RayScene::add_triangles(const Points& V, const Faces& F) {
+int RayScene::add_triangles(const Points& V, const Triangles& F) {
   const RTCGeometry geometry = new_geometry(RTC_GEOMETRY_TYPE_TRIANGLE);
   using Position = std::array<float, 3>;
   auto* const positions = new_buffer<Position>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, V.rows());

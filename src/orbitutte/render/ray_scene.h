@@ -37,7 +37,7 @@ class RayScene {
  public:
   RayScene();
 
-  int add_triangles(const Points& V, const Faces& F);
+  int add_triangles(const Points& V, const Triangles& F);
 
   /// A round tube along a polyline of n >= 2 points (n x 3).
   int add_tube(const Points& points, double radius);

@@ -19,9 +19,6 @@
 namespace orbitutte {
 namespace {
 
-constexpr std::array panels = {Panel::source,       Panel::sphere,    Panel::area,        Panel::angle,
-                               Panel::checkerboard, Panel::histogram, Panel::convergence, Panel::sheet};
-
 constexpr int smallest_side = 64, largest_side = 10000;
 
 bool is_plot(Panel panel) { return panel == Panel::histogram || panel == Panel::convergence; }
@@ -54,9 +51,9 @@ double em_of(Panel panel, const PictureSize& size) {
 
 void require_same_mesh(const RenderSubject& subject) {
   const Embedding& embedding = subject.embedding;
-  if (subject.surface.triangles.rows() != embedding.faces.rows())
+  if (subject.surface.triangles.rows() != embedding.triangles.rows())
     throw MeshError(fmt::format("the mesh has {} faces and the embedding {}: they do not belong together",
-                                subject.surface.triangles.rows(), embedding.faces.rows()));
+                                subject.surface.triangles.rows(), embedding.triangles.rows()));
   if (subject.surface.triangles.rows() == 0)
     throw MeshError("the mesh has no faces: there is nothing to draw");
   if (!subject.surface.V.allFinite()) throw MeshError("the mesh has coordinates that are not finite");
@@ -115,38 +112,7 @@ std::string lower_case_ending(const std::string& path) {
 
 }  // namespace
 
-std::string name(Panel panel) {
-  switch (panel) {
-    case Panel::source:
-      return "source";
-    case Panel::sphere:
-      return "sphere";
-    case Panel::area:
-      return "area";
-    case Panel::angle:
-      return "angle";
-    case Panel::checkerboard:
-      return "checkerboard";
-    case Panel::histogram:
-      return "histogram";
-    case Panel::convergence:
-      return "convergence";
-    case Panel::sheet:
-      return "sheet";
-  }
-  return {};
-}
-
-Panel parse_panel(const std::string& text) {
-  std::vector<std::string> names;
-  for (const Panel panel : panels) {
-    if (name(panel) == text) return panel;
-    names.push_back(name(panel));
-  }
-  throw ArgumentError(fmt::format("there is no panel '{}'; it may be {}", text, fmt::join(names, ", ")));
-}
-
-void parse_size(const std::string& text, RenderOptions& options) {
+void parse_picture_size(const std::string& text, RenderOptions& options) {
   const std::size_t cross = text.find('x');
   const std::string_view width = std::string_view(text).substr(0, cross);
   const std::string_view height =
@@ -160,7 +126,7 @@ void parse_size(const std::string& text, RenderOptions& options) {
   picture_size(options);
 }
 
-Vector3 parse_up(const std::string& text) {
+Vector3 parse_up_direction(const std::string& text) {
   const std::string_view axis =
       text.starts_with('-') ? std::string_view(text).substr(1) : std::string_view(text);
   const double sign = text.starts_with('-') ? -1 : 1;
@@ -172,7 +138,7 @@ Vector3 parse_up(const std::string& text) {
       fmt::format("the direction up is '{}'; give x, y, z, -x, -y, -z or three numbers 'x,y,z'", text));
 }
 
-Vector3 parse_view(const std::string& text, const Vector3& up) {
+Vector3 parse_view_direction(const std::string& text, const Vector3& up) {
   const Matrix3 axes = front_axes(up);
   Vector3 right = axes.row(0), above = axes.row(1), front = axes.row(2);
   if (text == "front") return front;
@@ -195,7 +161,7 @@ std::string render_png(const RenderSubject& subject, const RenderOptions& option
 std::string render_svg(const RenderSubject& subject, const RenderOptions& options) {
   if (!is_plot(options.panel))
     throw ArgumentError(fmt::format("the panel '{}' is no plot, and SVG holds plots only: write a .png",
-                                    name(options.panel)));
+                                    name_of(options.panel)));
   return picture(PictureFormat::svg, subject, options);
 }
 

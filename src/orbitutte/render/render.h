@@ -7,6 +7,7 @@
 #include <string>
 
 #include "orbitutte/mesh/surface.h"
+#include "orbitutte/names.h"
 #include "orbitutte/orbifold/embedding.h"
 #include "orbitutte/report/report.h"
 
@@ -14,11 +15,18 @@ namespace orbitutte {
 
 enum class Panel { source, sphere, area, angle, checkerboard, histogram, convergence, sheet };
 
-/// "source", "sphere" and so on.
-std::string name(Panel panel);
-
-/// The panel of this name. Throws ArgumentError naming all of them.
-Panel parse_panel(const std::string& text);
+/// Its names.
+template <>
+struct NameTable<Panel> {
+  static constexpr NamedValue<Panel> rows[] = {{Panel::source, "source"},
+                                               {Panel::sphere, "sphere"},
+                                               {Panel::area, "area"},
+                                               {Panel::angle, "angle"},
+                                               {Panel::checkerboard, "checkerboard"},
+                                               {Panel::histogram, "histogram"},
+                                               {Panel::convergence, "convergence"},
+                                               {Panel::sheet, "sheet"}};
+};
 
 /// What a picture shows, from where, and how large.
 struct RenderOptions {
@@ -31,18 +39,18 @@ struct RenderOptions {
 };
 
 /// "1200x800", or "1200" for a square. Throws ArgumentError.
-void parse_size(const std::string& text, RenderOptions& options);
+void parse_picture_size(const std::string& text, RenderOptions& options);
 
 /// What points up where nobody says: y, as in most files; z for closed meshes that stand on a broad base
 /// across z and not across y, as parts for printing do.
-Vector3 default_up(const Surface& surface);
+Vector3 default_up_direction(const Surface& surface);
 
 /// A direction "x,y,z" or "x", "-x", ... "-z". Throws ArgumentError.
-Vector3 parse_up(const std::string& text);
+Vector3 parse_up_direction(const std::string& text);
 
 /// The direction towards the viewer: "front", "back", "left", "right", "top", "bottom" relative to `up`, or
 /// "x,y,z". Where y is up, the front is at +z, and where z is up, at -y. Throws ArgumentError.
-Vector3 parse_view(const std::string& text, const Vector3& up);
+Vector3 parse_view_direction(const std::string& text, const Vector3& up);
 
 /// What is shown. The surface is the one that was embedded.
 struct RenderSubject {

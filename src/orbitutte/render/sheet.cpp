@@ -26,7 +26,7 @@ std::string summary(const RenderSubject& subject) {
   for (const ConeCopies& cone : subject.embedding.cones) marked.push_back(cone.vertex);
   const Report& report = subject.report;
   return fmt::format("{} faces,  marked vertices {},  {},  energy {:.6g},  {}",
-                     grouped_digits(subject.embedding.input_faces().count()), fmt::join(marked, ", "),
+                     grouped_digits(subject.embedding.faces().count()), fmt::join(marked, ", "),
                      group_text(report), report.energy,
                      report.bijective ? "certified bijective" : "not certified");
 }

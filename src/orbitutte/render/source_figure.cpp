@@ -18,7 +18,7 @@ constexpr int rays_to_surroundings = 3;  // for each sample
 
 // Vertices that no face uses come to lie on the first face's first corner: they must not make the figure
 // small.
-Points used_positions(const Points& V, const Faces& F) {
+Points used_positions(const Points& V, const Triangles& F) {
   Points used = V(F(0, 0), Eigen::all).replicate(V.rows(), 1);
   for (const int v : F.reshaped()) used.row(v) = V.row(v);
   return used;
@@ -41,7 +41,7 @@ Vector3f towards(const Vector3f& normal, const Vector3f& viewer) {
 
 }  // namespace
 
-SourceFigure::SourceFigure(const Points& V, const Faces& F)
+SourceFigure::SourceFigure(const Points& V, const Triangles& F)
     : V_(in_unit_ball(used_positions(V, F))), F_(F), normals_(corner_normals(V_, F_, crease)) {
   scene_.add_triangles(V_, F_);
   scene_.commit();

@@ -17,10 +17,10 @@ using SurfaceColour = std::function<Colour(const Hit&)>;
 class SourceFigure {
  public:
   /// V (n x 3, finite) is scaled into the unit ball about the origin. There must be a face.
-  SourceFigure(const Points& V, const Faces& F);
+  SourceFigure(const Points& V, const Triangles& F);
 
   const Points& positions() const { return V_; }  ///< n x 3, in the unit ball
-  const Faces& faces() const { return F_; }
+  const Triangles& faces() const { return F_; }
   const CornerNormals& normals() const { return normals_; }
 
   /// The ornaments throw shadows on the surface, too.
@@ -34,7 +34,7 @@ class SourceFigure {
   Ray normal_at(const Ray& ray, const Hit& hit) const;
 
   Points V_;
-  Faces F_;
+  Triangles F_;
   CornerNormals normals_;
   RayScene scene_;
 };

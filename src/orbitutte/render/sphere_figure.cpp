@@ -31,7 +31,8 @@ std::vector<TileCopy> copies_of(const Embedding& embedding) {
                                  : tile_copies(embedding, enough_to_fill_a_picture);
 }
 
-RayScene copies_of_tile(const Points& positions, const Faces& faces, const std::vector<TileCopy>& copies) {
+RayScene copies_of_tile(const Points& positions, const Triangles& faces,
+                        const std::vector<TileCopy>& copies) {
   RayScene tile;
   tile.add_triangles(positions, faces);
   tile.commit();
@@ -91,7 +92,7 @@ Colour copy_colour(const TileCopy& copy) {
 SphereFigure::SphereFigure(const Embedding& embedding, std::vector<float> relief)
     : space_(embedding.space()),
       positions_(embedding.positions),
-      faces_(embedding.faces),
+      faces_(embedding.triangles),
       relief_(std::move(relief)),
       copies_(copies_of(embedding)),
       edge_length_(mean_edge_length(positions_, faces_)),
@@ -130,7 +131,7 @@ Image SphereFigure::draw(const Camera& camera, const Ornaments& ornaments) const
 }
 
 double seam_radius(const Target& target) {
-  const double side = std::sqrt(area(target));
+  const double side = std::sqrt(target_area(target));
   return std::clamp(0.012 * side, 0.005, 0.012);
 }
 
@@ -185,8 +186,8 @@ Camera sphere_camera(const Embedding& embedding, const View& view, const Picture
 Vector3 tile_centre(const Embedding& embedding) {
   const Points& X = embedding.positions;
   Vector3 sum = Vector3::Zero();
-  for (Eigen::Index f = 0; f < embedding.faces.rows(); ++f) {
-    const auto v = embedding.faces.row(f);
+  for (Eigen::Index f = 0; f < embedding.triangles.rows(); ++f) {
+    const auto v = embedding.triangles.row(f);
     const Vector3 a = X.row(v[0]), b = X.row(v[1]), c = X.row(v[2]);
     sum += (b - a).cross(c - a).norm() * (a + b + c);
   }

@@ -25,7 +25,7 @@ class SphereFigure {
 
   Space space_;
   Points positions_;
-  Faces faces_;
+  Triangles faces_;
   std::vector<float> relief_;
   std::vector<TileCopy> copies_;
   double edge_length_ = 0;  // the mean, on the sphere

@@ -13,7 +13,7 @@ namespace orbitutte {
 struct ComparedMap {
   std::string title;                  ///< "sphere: 432"
   Distortion::Area area;              ///< of max(A, 1/A), as measure_distortion has it
-  std::vector<FaceDistortion> faces;  ///< m, as measure_faces has them
+  std::vector<FaceDistortion> faces;  ///< m, as measure_triangles has them
 };
 
 struct Comparison {

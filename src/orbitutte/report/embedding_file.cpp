@@ -68,18 +68,17 @@ void check_faces(const PolygonMesh& mesh) {
 void take_faces(PolygonMesh& mesh, Embedding& embedding) {
   check_faces(mesh);
   if (is_triangle_mesh(mesh)) {
-    embedding.faces = Eigen::Map<const Faces>(mesh.corners.data(), mesh.face_count(), 3);
+    embedding.triangles = Eigen::Map<const Triangles>(mesh.corners.data(), mesh.face_count(), 3);
     return;
   }
   embedding.polygons = {std::move(mesh.corners), std::move(mesh.face_start)};
-  embedding.faces = on_vertices(fan(embedding.polygons), embedding.polygons.corners);
+  embedding.triangles = triangles_on_vertices(fan_triangles(embedding.polygons), embedding.polygons.corners);
 }
 
 }  // namespace
 
 std::string serialize_embedding(const Embedding& embedding) {
-  return write_ply_faces(embedding.positions, embedding.input_faces(),
-                         {{"source_vertex", embedding.source_vertex}},
+  return write_ply_faces(embedding.positions, embedding.faces(), {{"source_vertex", embedding.source_vertex}},
                          {fmt::format("orbitutte embedding {}", embedding.target.signature)});
 }
 

@@ -13,7 +13,7 @@ using Json = nlohmann::ordered_json;
 Json to_json(const std::vector<WeakPlace>& places) {
   Json rows = Json::array();
   for (const WeakPlace& place : places)
-    rows.push_back({{"kind", name(place.kind)}, {"count", place.count}, {"message", place.message}});
+    rows.push_back({{"kind", name_of(place.kind)}, {"count", place.count}, {"message", place.message}});
   return rows;
 }
 
@@ -22,9 +22,9 @@ Json to_json(const std::string& path, const Inspection& inspection) {
   for (const std::vector<int>& loop : inspection.boundary)
     loops.push_back({{"vertices", loop.size()}, {"first", loop.front()}});
   for (const Defect& defect : inspection.defects)
-    defects.push_back({{"kind", name(defect.kind)}, {"count", defect.count}, {"message", defect.message}});
+    defects.push_back({{"kind", name_of(defect.kind)}, {"count", defect.count}, {"message", defect.message}});
   return {{"path", path},
-          {"topology", name(inspection.topology)},
+          {"topology", name_of(inspection.topology)},
           {"vertices", inspection.vertices},
           {"unreferenced_vertices", inspection.unreferenced_vertices},
           {"edges", inspection.edges},
@@ -57,7 +57,7 @@ std::vector<std::string> families_for(const Inspection& inspection) {
   return result;
 }
 
-std::vector<WeakPlace> weak_places(const PolygonMesh& mesh, const Inspection& inspection) {
+std::vector<WeakPlace> weak_places_if_sound(const PolygonMesh& mesh, const Inspection& inspection) {
   return inspection.defects.empty() ? find_weak_places(mesh) : std::vector<WeakPlace>();
 }
 
@@ -76,7 +76,7 @@ std::string families_json() {
   for (const FamilyDescription& family : families())
     rows.push_back({{"family", family.family},
                     {"group_order", family.group_order},
-                    {"input", name(family.topology)},
+                    {"input", name_of(family.topology)},
                     {"marked_points", family.marked_points}});
   return rows.dump(1) + "\n";
 }

@@ -14,7 +14,7 @@ namespace orbitutte {
 std::vector<std::string> families_for(const Inspection& inspection);
 
 /// Where a mesh is not 3-connected; none are looked for where it has defects.
-std::vector<WeakPlace> weak_places(const PolygonMesh& mesh, const Inspection& inspection);
+std::vector<WeakPlace> weak_places_if_sound(const PolygonMesh& mesh, const Inspection& inspection);
 
 /// Topology, quality, defects and weak places of a mesh, and what it embeds into, as JSON
 /// (docs/file-formats.md). `path`: of the file that the mesh was read from.

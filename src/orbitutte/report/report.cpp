@@ -5,7 +5,6 @@
 #include <openssl/evp.h>
 
 #include <cstdint>
-#include <initializer_list>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -36,12 +35,12 @@ Json to_json(const ConeCopies& cone) {
   return {{"vertex", cone.vertex},
           {"order", order > 0 ? Json(order) : Json()},
           {"angle", cone.mark.angle},
-          {"kind", name(cone.mark.kind)},
+          {"kind", name_of(cone.mark.kind)},
           {"copies", cone.copies}};
 }
 
 Json to_json(const Seam& seam) {
-  return {{"kind", name(seam.kind())},
+  return {{"kind", name_of(seam.kind())},
           {"left", seam.left},
           {"right", seam.right},
           {"transform", to_json(seam.transform.matrix())}};
@@ -49,7 +48,7 @@ Json to_json(const Seam& seam) {
 
 Json to_json(const EdgeWeights& weights) {
   Json json = {
-      {"kind", name(weights.kind)}, {"clamp", weights.clamp}, {"clamped_edges", weights.clamped_edges}};
+      {"kind", name_of(weights.kind)}, {"clamp", weights.clamp}, {"clamped_edges", weights.clamped_edges}};
   if (weights.triangulation) {
     json["flips"] = weights.triangulation->flips.size();
     json["kept_faces"] = weights.triangulation->kept_faces;
@@ -108,7 +107,7 @@ Json timings_json(const Timings& stages, const RunRecord& run) {
 }
 
 Json environment_json(const EmbedResult& result, const RunRecord& run) {
-  return {{"version", version},         {"commit", commit},          {"backend", name(result.backend)},
+  return {{"version", version},         {"commit", commit},          {"backend", name_of(result.backend)},
           {"blas", blas_description()}, {"threads", result.threads}, {"input_sha256", run.input_sha256}};
 }
 
@@ -188,10 +187,9 @@ Matrix3 matrix(const Json& json, const char* key) {
 }
 
 template <typename Kind>
-Kind one_of(std::initializer_list<Kind> kinds, const std::string& word, const char* what) {
-  for (const Kind kind : kinds)
-    if (name(kind) == word) return kind;
-  throw MeshError(fmt::format("the 'kind' of {} is '{}', which is not known", what, word));
+Kind to_kind(const std::string& name, const char* what) {
+  if (const auto kind = find_by_name<Kind>(name)) return *kind;
+  throw MeshError(fmt::format("the 'kind' of {} is '{}', which is not known", what, name));
 }
 
 Space to_space(const std::string& name) {
@@ -209,8 +207,7 @@ Seam to_seam(Space space, const Json& json) {
 
 // Reports of the first version have no angles; the order is null if the angle is no 2 pi/n.
 Mark to_mark(const Json& json) {
-  const ConeKind kind =
-      one_of({ConeKind::rotation, ConeKind::corner, ConeKind::fixed}, text(json, "kind"), "a cone");
+  const auto kind = to_kind<ConeKind>(text(json, "kind"), "a cone");
   const bool has_order = !json.contains("order") || !json["order"].is_null();
   const int order = has_order ? integer(json, "order") : 0;
   if (has_order && !json.contains("angle")) return Mark::of_order(order, kind);
@@ -227,9 +224,9 @@ ConeCopies to_cone(const Json& json) {
 }
 
 WeightOptions to_weights(const Json& json) {
-  const WeightKind kind = one_of({WeightKind::cotan, WeightKind::delaunay, WeightKind::mean_value,
-                                  WeightKind::uniform, WeightKind::file},
-                                 text(json, "kind"), "the weights");
+  const auto kind = to_kind<WeightKind>(text(json, "kind"), "the weights");
+  if (kind == WeightKind::standard)
+    throw MeshError("the 'kind' of the weights is 'standard', which stands for another one");
   return {kind, number(json, "clamp"), {}};
 }
 
@@ -261,7 +258,7 @@ Report to_report(const Json& json) {
   if (report.weights.kind == WeightKind::delaunay) report.kept_faces = integers(weights, "kept_faces");
   report.energy = number(json, "energy");
   report.history = to_history(array(json, "history"));
-  report.converged = text(json, "termination") == name(Termination::converged);
+  report.converged = text(json, "termination") == name_of(Termination::converged);
   const Json& certificate = object(json, "certificate");
   report.bijective = boolean(certificate, "bijective");
   report.expected_area = number(certificate, "expected_area");
@@ -281,8 +278,8 @@ std::string report_json(const EmbedResult& result, const RunRecord& run) {
                {"mesh",
                 {{"path", run.mesh_path},
                  {"vertices", vertices},
-                 {"faces", embedding.input_faces().count()},
-                 {"topology", name(result.topology)},
+                 {"faces", embedding.faces().count()},
+                 {"topology", name_of(result.topology)},
                  {"unreferenced_vertices", result.unreferenced_vertices},
                  {"zero_area_faces", result.zero_area_faces}}},
                {"orbifold", to_json(embedding.target)},
@@ -293,7 +290,7 @@ std::string report_json(const EmbedResult& result, const RunRecord& run) {
                {"energy", minimum.energy},
                {"iterations", minimum.iterations},
                {"evaluations", minimum.evaluations},
-               {"termination", name(minimum.termination)},
+               {"termination", name_of(minimum.termination)},
                {"gradient_norm", minimum.gradient_norm},
                {"history", history_json(minimum.history)},
                {"certificate", to_json(result.certificate)},

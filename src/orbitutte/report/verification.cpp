@@ -106,10 +106,10 @@ Json to_json(const Theorem2& theorem2) {
   Json representations = Json::array();
   for (const RepresentationInertia& part : theorem2.representations) representations.push_back(to_json(part));
   const bool measured = theorem2.status == Theorem2::Status::measured;
-  return {{"status", name(theorem2.status)},
+  return {{"status", name_of(theorem2.status)},
           {"holds", theorem2.holds()},
           {"detail", theorem2.detail},
-          {"method", name(theorem2.method)},
+          {"method", name_of(theorem2.method)},
           {"max_edge_length", theorem2.max_edge_length},
           {"negative_eigenvalues", measured ? Json(theorem2.negative) : Json()},
           {"kernel_dimension", measured ? Json(theorem2.kernel) : Json()},

@@ -24,7 +24,7 @@ constexpr int dividing_rounds = 2;  // after every division
 int face_count(const Mesh& mesh) { return static_cast<int>(mesh.F.rows()); }
 int vertex_count(const Mesh& mesh) { return static_cast<int>(mesh.V.rows()); }
 
-Connectivity connectivity_of(const Mesh& mesh) { return connect(mesh.F, vertex_count(mesh)); }
+Connectivity connectivity_of(const Mesh& mesh) { return connectivity_of(mesh.F, vertex_count(mesh)); }
 
 // One half-edge of every edge, the one with the lower index.
 std::vector<int> halfedge_of_edges(const Connectivity& connectivity) {
@@ -37,7 +37,7 @@ std::vector<int> halfedge_of_edges(const Connectivity& connectivity) {
 std::vector<char> boundary_vertices(const Mesh& mesh, const Connectivity& connectivity) {
   std::vector<char> result(mesh.V.rows(), 0);
   for (int h = 0; h < static_cast<int>(connectivity.opposite.size()); ++h) {
-    if (connectivity.opposite[h] < 0) result[origin(mesh.F, h)] = 1;
+    if (connectivity.opposite[h] < 0) result[halfedge_origin(mesh.F, h)] = 1;
   }
   return result;
 }
@@ -84,8 +84,8 @@ Points normals(const Points& V, const SmoothSurface& surface) {
 // ---- growing
 
 // Splits the edge of half-edge h at vertex m in one of its faces. The new face gets the number `new_face`.
-void split_face(Faces& F, int h, int m, int new_face) {
-  const int b = target(F, h), o = origin(F, previous_halfedge(h));
+void split_face(Triangles& F, int h, int m, int new_face) {
+  const int b = halfedge_target(F, h), o = halfedge_origin(F, previous_halfedge(h));
   F.data()[next_halfedge(h)] = m;
   F.row(new_face) << m, b, o;
 }
@@ -158,8 +158,9 @@ int flip_edges(Mesh& mesh, const SmoothSurface& surface) {
   for (int h = 0; h < static_cast<int>(mesh.F.size()); ++h) {
     const int g = connectivity.opposite[h];
     if (g < h) continue;
-    const int a = origin(mesh.F, h), b = target(mesh.F, h);
-    const int o = origin(mesh.F, previous_halfedge(h)), q = origin(mesh.F, previous_halfedge(g));
+    const int a = halfedge_origin(mesh.F, h), b = halfedge_target(mesh.F, h);
+    const int o = halfedge_origin(mesh.F, previous_halfedge(h)),
+              q = halfedge_origin(mesh.F, previous_halfedge(g));
     if (at_flip[a] || at_flip[b] || at_flip[o] || at_flip[q]) continue;
     if (cotangent(mesh, a, b, o) + cotangent(mesh, a, b, q) >= -rounding || has_edge(connectivity, o, q))
       continue;
@@ -199,7 +200,7 @@ Points centres(const Mesh& mesh, const Connectivity& connectivity, const std::ve
   }
   for (int h = 0; h < static_cast<int>(mesh.F.size()); ++h) {
     if (connectivity.opposite[h] >= 0) continue;
-    const int v = origin(mesh.F, h), w = target(mesh.F, h);
+    const int v = halfedge_origin(mesh.F, h), w = halfedge_target(mesh.F, h);
     put(v, 1, mesh.V.row(w));
     put(w, 1, mesh.V.row(v));
   }

@@ -57,7 +57,7 @@ class DividedVertices {
  public:
   DividedVertices(const Mesh& mesh, int k)
       : mesh_(mesh),
-        connectivity_(connect(mesh.F, static_cast<int>(mesh.V.rows()))),
+        connectivity_(connectivity_of(mesh.F, static_cast<int>(mesh.V.rows()))),
         k_(k),
         first_inside_(static_cast<int>(mesh.V.rows() + connectivity_.edges.size() * (k - 1))) {}
 
@@ -80,7 +80,7 @@ class DividedVertices {
   int inside_a_face() const { return (k_ - 1) * (k_ - 2) / 2; }
 
   int on_edge(int h, int steps) const {
-    const int from_lower = origin(mesh_.F, h) < target(mesh_.F, h) ? steps : k_ - steps;
+    const int from_lower = halfedge_origin(mesh_.F, h) < halfedge_target(mesh_.F, h) ? steps : k_ - steps;
     return static_cast<int>(mesh_.V.rows()) + connectivity_.edge_of[h] * (k_ - 1) + from_lower - 1;
   }
 
@@ -92,7 +92,7 @@ class DividedVertices {
 // Divides every face into k^2.
 Mesh divided(const Mesh& mesh, int k) {
   const DividedVertices vertex(mesh, k);
-  Mesh result = {Points(vertex.count(), 3), Faces(mesh.F.rows() * k * k, 3)};
+  Mesh result = {Points(vertex.count(), 3), Triangles(mesh.F.rows() * k * k, 3)};
   Eigen::Index next = 0;
   for (int f = 0; f < static_cast<int>(mesh.F.rows()); ++f) {
     const auto [a, b, c] = aligned_corners(mesh, f);
@@ -113,8 +113,8 @@ Mesh divided(const Mesh& mesh, int k) {
 // its two sides. Each new edge has one face on either side. L. Kobbelt, sqrt(3)-subdivision (2000).
 Mesh tripled(const Mesh& mesh) {
   const int n = static_cast<int>(mesh.V.rows()), m = static_cast<int>(mesh.F.rows());
-  const Connectivity connectivity = connect(mesh.F, n);
-  Mesh result = {Points(n + m, 3), Faces(3 * m, 3)};
+  const Connectivity connectivity = connectivity_of(mesh.F, n);
+  Mesh result = {Points(n + m, 3), Triangles(3 * m, 3)};
   result.V.topRows(n) = mesh.V;
   for (int f = 0; f < m; ++f) {
     const auto [a, b, c] = aligned_corners(mesh, f);
@@ -124,7 +124,7 @@ Mesh tripled(const Mesh& mesh) {
   for (int h = 0; h < 3 * m; ++h) {
     const int other = connectivity.opposite[h];
     if (other < h) continue;
-    for (const int v : {origin(mesh.F, h), target(mesh.F, h)})
+    for (const int v : {halfedge_origin(mesh.F, h), halfedge_target(mesh.F, h)})
       result.F.row(next++) << v, n + h / 3, n + other / 3;
   }
   return result;

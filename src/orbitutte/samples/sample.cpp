@@ -246,17 +246,16 @@ Mesh coarse_mask() {
 
 struct Shape {
   SampleShape shape;
-  std::string name;
   EvenMap projective_map;  // of a projective plane; otherwise null
 };
 
 const std::array<Shape, 6>& shapes() {
-  static const std::array<Shape, 6> result = {{{SampleShape::figure, "figure", nullptr},
-                                               {SampleShape::mask, "mask", nullptr},
-                                               {SampleShape::boy, "boy", boys_surface},
-                                               {SampleShape::roman, "roman", roman_surface},
-                                               {SampleShape::crosscap, "crosscap", cross_cap},
-                                               {SampleShape::quotient, "quotient", limbed_quotient}}};
+  static const std::array<Shape, 6> result = {{{SampleShape::figure, nullptr},
+                                               {SampleShape::mask, nullptr},
+                                               {SampleShape::boy, boys_surface},
+                                               {SampleShape::roman, roman_surface},
+                                               {SampleShape::crosscap, cross_cap},
+                                               {SampleShape::quotient, limbed_quotient}}};
   return result;
 }
 
@@ -280,17 +279,6 @@ int extreme_vertex(const Mesh& mesh, const Vector3& direction) {
 }
 
 }  // namespace
-
-std::string name(SampleShape shape) { return row_of(shape).name; }
-
-SampleShape sample_shape(const std::string& name) {
-  std::string names;
-  for (const Shape& shape : shapes()) {
-    if (shape.name == name) return shape.shape;
-    names += (names.empty() ? "" : ", ") + shape.name;
-  }
-  throw ArgumentError(fmt::format("there is no shape '{}'; choose one of {}", name, names));
-}
 
 bool passes_through_itself(SampleShape shape) { return row_of(shape).projective_map != nullptr; }
 

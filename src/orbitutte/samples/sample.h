@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "orbitutte/names.h"
 #include "orbitutte/types.h"
 
 namespace orbitutte {
@@ -24,11 +25,14 @@ enum class SampleShape {
   quotient
 };
 
-/// "figure", "mask", "boy", "roman", "crosscap" or "quotient".
-std::string name(SampleShape shape);
-
-/// The shape with this name. Throws an ArgumentError that lists all names if there is none.
-SampleShape sample_shape(const std::string& name);
+/// Its names.
+template <>
+struct NameTable<SampleShape> {
+  static constexpr NamedValue<SampleShape> rows[] = {
+      {SampleShape::figure, "figure"},     {SampleShape::mask, "mask"},
+      {SampleShape::boy, "boy"},           {SampleShape::roman, "roman"},
+      {SampleShape::crosscap, "crosscap"}, {SampleShape::quotient, "quotient"}};
+};
 
 /// Does the surface pass through itself in space, as every projective plane does? Its mesh does not, but
 /// different vertices may have equal positions. A format that identifies vertices by position (STL) would

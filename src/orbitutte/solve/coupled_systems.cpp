@@ -13,7 +13,7 @@ struct System {
 // Of the nodes, those in place in the order of the vertices.
 System disk_system(const LaplacianProblem& problem, Backend backend) {
   const DiskGraph& graph = problem.graph;
-  const Neighbors near = neighbors(graph.ends, graph.node_count());
+  const Neighbors near = vertex_neighbors(graph.ends, graph.node_count());
   std::vector<int> order = problem.dissection.order, count(graph.node_count());
   for (int node = static_cast<int>(order.size()); node < graph.node_count(); ++node) order.push_back(node);
   for (int node = 0; node < graph.node_count(); ++node)
@@ -33,7 +33,7 @@ class CoupledSystems : public LaplacianSystems {
   CoupledSystems(const LaplacianProblem& problem, Backend backend)
       : boundary_(problem.boundary), disk_(disk_system(problem, backend)) {
     const int n = static_cast<int>(problem.graph.inside.size());
-    const Neighbors near = neighbors(ends(problem.glued), n);
+    const Neighbors near = vertex_neighbors(ends(problem.glued), n);
 
     std::vector<int> room(n);
     for (int v = 0; v < n; ++v) room[v] = static_cast<int>(boundary_.basis(v).cols());

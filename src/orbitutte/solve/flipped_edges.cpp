@@ -59,14 +59,14 @@ std::map<CutEdge, int> changes_at_banks(const std::vector<Seam>& seams, ElementT
 // The faces in their frames, all of them the cut mesh's before the first flip.
 class Frames {
  public:
-  Frames(const Faces& F, const CutMesh& cut, const BoundaryConditions& boundary, ElementTable& elements)
+  Frames(const Triangles& F, const CutMesh& cut, const BoundaryConditions& boundary, ElementTable& elements)
       : elements_(elements), corner_(F.size()), change_(F.size(), 0) {
     for (int h = 0; h < static_cast<int>(F.size()); ++h)
       corner_[h] = boundary.transform_of[copy_at(F, cut, h)];
   }
 
   // The changes of frame at the half-edges along the cut.
-  void open_banks(const Faces& F, const Connectivity& connectivity, const CutMesh& cut,
+  void open_banks(const Triangles& F, const Connectivity& connectivity, const CutMesh& cut,
                   const std::map<CutEdge, int>& changes) {
     if (changes.empty()) return;
     for (int h = 0; h < static_cast<int>(F.size()); ++h) {
@@ -104,9 +104,9 @@ class Frames {
  private:
   // The copy in the cut mesh of the vertex where a half-edge of the mesh begins; the cut mesh may have its
   // face turned over.
-  static int copy_at(const Faces& F, const CutMesh& cut, int h) {
+  static int copy_at(const Triangles& F, const CutMesh& cut, int h) {
     for (int k = 0; k < 3; ++k)
-      if (cut.source_vertex[cut.F(h / 3, k)] == origin(F, h)) return cut.F(h / 3, k);
+      if (cut.source_vertex[cut.F(h / 3, k)] == halfedge_origin(F, h)) return cut.F(h / 3, k);
     return -1;
   }
 
@@ -119,7 +119,7 @@ class Frames {
 
 GluedEdges flipped_edges(const Surface& surface, const IntrinsicTriangulation& triangulation,
                          const CutMesh& cut, const BoundaryConditions& boundary) {
-  const Faces& F = surface.triangles;
+  const Triangles& F = surface.triangles;
   ElementTable elements(boundary.transforms);
   Frames frames(F, cut, boundary, elements);
   frames.open_banks(F, surface.connectivity, cut, changes_at_banks(boundary.seams, elements));
@@ -127,10 +127,10 @@ GluedEdges flipped_edges(const Surface& surface, const IntrinsicTriangulation& t
 
   GluedEdges result;
   result.edges.resize(triangulation.connectivity.edges.size());
-  const Faces& flipped = triangulation.F;
+  const Triangles& flipped = triangulation.F;
   for (int h = static_cast<int>(flipped.size()) - 1; h >= 0; --h)
-    result.edges[triangulation.connectivity.edge_of[h]] = {origin(flipped, h), target(flipped, h),
-                                                           frames.along(h)};
+    result.edges[triangulation.connectivity.edge_of[h]] = {halfedge_origin(flipped, h),
+                                                           halfedge_target(flipped, h), frames.along(h)};
   result.transforms = elements.release();
   return result;
 }

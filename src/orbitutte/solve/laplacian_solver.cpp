@@ -45,7 +45,7 @@ std::shared_ptr<LaplacianReuse> reusable_laplacians(Kept kept) {
 void order_ahead(LaplacianReuse& reuse, const std::vector<std::array<int, 2>>& edges, int vertex_count) {
   if (reuse.dissection && reuse.edges == edges) return;
   reuse.edges = edges;
-  reuse.dissection = std::make_shared<Dissection>(dissect(neighbors(edges, vertex_count)));
+  reuse.dissection = std::make_shared<Dissection>(dissect(vertex_neighbors(edges, vertex_count)));
 }
 
 LaplacianSolver::~LaplacianSolver() = default;

@@ -45,7 +45,7 @@ int vertex_far_from_poles(const BoundaryConditions& boundary, const Points& posi
 
 // Moves the map, the tile and its gluing.
 void move(const GluingProblem& problem, const Isometry& isometry, Placement& placed) {
-  placed.tile = moved(placed.tile, isometry);
+  placed.tile = moved_tile(placed.tile, isometry);
   placed.boundary = glue(problem.cut, placed.tile, problem.target);
 }
 

@@ -157,7 +157,7 @@ std::optional<SpreadMap> with_faces_repaired(const GluingProblem& problem, const
 }
 
 std::optional<SpreadMap> with_limbs_resolved(const GluingProblem& problem, const Placement& placed) {
-  if (stays_put(placed.tile)) return std::nullopt;
+  if (has_held_side(placed.tile)) return std::nullopt;
   const DirichletEnergy energy(glued_along(problem, placed.boundary), problem.weights, placed.boundary);
   const auto [vertex, length] = energy.smallest_spot(placed.minimum.positions);
   if (!(length < small)) return std::nullopt;

@@ -10,13 +10,13 @@ namespace orbitutte {
 Stars::Stars(const CutMesh& cut, const BoundaryConditions& boundary, Elements& elements)
     : cut_(cut), boundary_(boundary), start_(boundary.basis_of.size() + 1, 0), halfedges_(cut.F.size()) {
   const int halfedges = static_cast<int>(cut.F.size());
-  const auto vertex = [&](int h) { return cut.source_vertex[origin(cut.F, h)]; };
+  const auto vertex = [&](int h) { return cut.source_vertex[halfedge_origin(cut.F, h)]; };
   for (int h = 0; h < halfedges; ++h) ++start_[vertex(h) + 1];
   std::partial_sum(start_.begin(), start_.end(), start_.begin());
   std::vector<int> fill(start_.begin(), start_.end() - 1);
   for (int h = 0; h < halfedges; ++h) halfedges_[fill[vertex(h)]++] = h;
   for (int h = 0; h < halfedges; ++h) {
-    const int a = origin(cut.F, h), b = target(cut.F, h);
+    const int a = halfedge_origin(cut.F, h), b = halfedge_target(cut.F, h);
     for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)}) {
       const std::pair key(boundary.transform_of[from], boundary.transform_of[to]);
       if (key.first == key.second || element_of_.contains(key)) continue;
@@ -34,8 +34,8 @@ std::vector<StarTriangle> Stars::around(int vertex) const {
   std::vector<StarTriangle> star;
   for (int k = start_[vertex]; k < start_[vertex + 1]; ++k) {
     const int h = halfedges_[k];
-    const int v = origin(cut_.F, h);
-    int a = target(cut_.F, h), b = origin(cut_.F, previous_halfedge(h));
+    const int v = halfedge_origin(cut_.F, h);
+    int a = halfedge_target(cut_.F, h), b = halfedge_origin(cut_.F, previous_halfedge(h));
     // Seen from the vertex itself, what a rotary reflection has turned over.
     if (boundary_.transform(v).reverses_orientation()) std::swap(a, b);
     star.push_back({h / 3, cut_.source_vertex[a], cut_.source_vertex[b], element_between(v, a),

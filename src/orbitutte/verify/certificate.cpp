@@ -93,7 +93,7 @@ bool is_input_face(std::span<const int> input, std::span<const int> cut, const s
 // vertices.
 Check cut_mesh_check(int n, const FaceView& input, const Embedding& embedding) {
   Offences offences;
-  const FaceView faces = embedding.input_faces();
+  const FaceView faces = embedding.faces();
   const int n_cut = static_cast<int>(embedding.source_vertex.size());
   if (embedding.positions.rows() != n_cut || n_cut < n)
     offences.add("{} positions, {} source vertices and {} input vertices do not fit together",
@@ -129,21 +129,22 @@ Check surface_check(const Embedding& embedding) {
 // a disk: every edge has one face, or two that run along it in opposite directions, there is one simple
 // boundary loop, and V - E + F = 1.
 std::unordered_map<int, int> disk_boundary(const Embedding& embedding, Offences& offences) {
-  const Faces& F = embedding.faces;
+  const Triangles& F = embedding.triangles;
   const int n_cut = static_cast<int>(embedding.source_vertex.size());
-  const Connectivity connectivity = connect(F, n_cut);
+  const Connectivity connectivity = connectivity_of(F, n_cut);
   std::vector<char> used(n_cut, 0), faces_of_edge(connectivity.edges.size(), 0);
   std::unordered_map<int, int> next;
   for (int h = 0; h < static_cast<int>(F.size()); ++h) {
-    used[origin(F, h)] = 1;
+    used[halfedge_origin(F, h)] = 1;
     if (++faces_of_edge[connectivity.edge_of[h]] > 2)
-      offences.add("edge ({}, {}) of the cut mesh has more than two faces", origin(F, h), target(F, h));
+      offences.add("edge ({}, {}) of the cut mesh has more than two faces", halfedge_origin(F, h),
+                   halfedge_target(F, h));
     const int other = connectivity.opposite[h];
-    if (other >= 0 && origin(F, other) == origin(F, h))
-      offences.add("two faces run along edge ({}, {}) of the cut mesh in the same direction", origin(F, h),
-                   target(F, h));
-    if (other < 0 && !next.emplace(origin(F, h), target(F, h)).second)
-      offences.add("the boundary of the cut mesh passes twice through vertex {}", origin(F, h));
+    if (other >= 0 && halfedge_origin(F, other) == halfedge_origin(F, h))
+      offences.add("two faces run along edge ({}, {}) of the cut mesh in the same direction",
+                   halfedge_origin(F, h), halfedge_target(F, h));
+    if (other < 0 && !next.emplace(halfedge_origin(F, h), halfedge_target(F, h)).second)
+      offences.add("the boundary of the cut mesh passes twice through vertex {}", halfedge_origin(F, h));
   }
   const long long euler =
       std::count(used.begin(), used.end(), 1) - static_cast<long long>(connectivity.edges.size()) + F.rows();
@@ -300,7 +301,7 @@ Check cone_check(const Embedding& embedding) {
       const Mark& mark = target.marks[k];
       if (cone.mark.order() != mark.order() || cone.mark.kind != mark.kind)
         offences.add("vertex {} is a {} of order {}, which {} does not ask for there", cone.vertex,
-                     name(cone.mark.kind), cone.mark.order(), target.signature);
+                     name_of(cone.mark.kind), cone.mark.order(), target.signature);
     }
   } catch (const Error& error) {
     offences.add("{}", error.what());
@@ -324,13 +325,13 @@ Check angle_check(const Embedding& embedding) {
   for (std::size_t k = 0; k < embedding.cones.size(); ++k)
     for (const int v : embedding.cones[k].copies) cone_of[v] = static_cast<int>(k);
   std::vector<double> angle(embedding.cones.size(), 0.0);
-  const Faces& F = embedding.faces;
+  const Triangles& F = embedding.triangles;
   for (int h = 0; h < static_cast<int>(F.size()); ++h) {
-    const int cone = cone_of[origin(F, h)];
+    const int cone = cone_of[halfedge_origin(F, h)];
     if (cone == no_cone) continue;
     const Points& X = embedding.positions;
-    angle[cone] +=
-        space.angle(X.row(origin(F, h)), X.row(target(F, h)), X.row(origin(F, previous_halfedge(h))));
+    angle[cone] += space.angle(X.row(halfedge_origin(F, h)), X.row(halfedge_target(F, h)),
+                               X.row(halfedge_origin(F, previous_halfedge(h))));
   }
   double worst = 0;
   for (std::size_t k = 0; k < embedding.cones.size(); ++k) {
@@ -366,10 +367,10 @@ Check group_check(const Embedding& embedding) {
 Check orientation_check(const Embedding& embedding, const std::vector<int>& face_of,
                         std::vector<int>& nonpositive) {
   const Points& X = embedding.positions;
-  std::vector<char> positive(embedding.faces.rows());
+  std::vector<char> positive(embedding.triangles.rows());
   parallel_ranges(static_cast<int>(positive.size()), [&](int begin, int end) {
     for (int f = begin; f < end; ++f) {
-      const auto v = embedding.faces.row(f);
+      const auto v = embedding.triangles.row(f);
       positive[f] = orientation_sign(X.row(v[0]), X.row(v[1]), X.row(v[2])) > 0;
     }
   });
@@ -396,7 +397,7 @@ Check convexity_check(const Embedding& embedding, std::vector<int>& nonpositive)
 
 Check edge_length_check(const Embedding& embedding, double& longest) {
   const Points& X = embedding.positions;
-  const FaceView faces = embedding.input_faces();
+  const FaceView faces = embedding.faces();
   const Space space = embedding.space();
   const auto squared_chord = [&](int a, int b) {
     const Vector3 chord = X.row(a) - X.row(b);
@@ -423,8 +424,8 @@ Check edge_length_check(const Embedding& embedding, double& longest) {
 Check area_check(const Embedding& embedding, Certificate& certificate) {
   const Points& X = embedding.positions;
   const Space space = embedding.space();
-  certificate.signed_area = parallel_sum(static_cast<int>(embedding.faces.rows()), [&](int f) {
-    const auto v = embedding.faces.row(f);
+  certificate.signed_area = parallel_sum(static_cast<int>(embedding.triangles.rows()), [&](int f) {
+    const auto v = embedding.triangles.row(f);
     return space.area(X.row(v[0]), X.row(v[1]), X.row(v[2]));
   });
   Check check =
@@ -482,7 +483,7 @@ bool check_layout(const Embedding& layout, const IntrinsicTriangulation& triangu
                   Certificate& certificate) {
   Offences offences;
   for (int h = 0; h < static_cast<int>(triangulation.F.size()); ++h)
-    if (layout.source_vertex[h] != origin(triangulation.F, h))
+    if (layout.source_vertex[h] != halfedge_origin(triangulation.F, h))
       offences.add("flips do not lead to face {} of the triangulation", h / 3);
   certificate.checks.push_back(offences.check("flips"));
   Check unit = surface_check(layout);

@@ -27,10 +27,10 @@ std::array<int, 2> beside(std::span<const int> corners, std::size_t k) {
 // Per input vertex: does it have two edges, so that all its corners have the same neighbours? Cones do not
 // count.
 std::vector<char> vertices_with_two_edges(const Embedding& embedding) {
-  const FaceView faces = embedding.input_faces();
+  const FaceView faces = embedding.faces();
   const std::vector<int>& source = embedding.source_vertex;
   constexpr std::array<int, 2> none = {-1, -1};
-  std::vector<std::array<int, 2>> neighbors(source.size(), none);
+  std::vector<std::array<int, 2>> vertex_neighbors(source.size(), none);
   std::vector<char> result(source.size(), 1);
   for (const ConeCopies& cone : embedding.cones) result[cone.vertex] = 0;
   for (int f = 0; f < faces.count(); ++f) {
@@ -55,7 +55,7 @@ double offset(const Vector3& a, const Vector3& b, const Vector3& c) {
 }  // namespace
 
 DividedPolygons divide_from_middles(const Embedding& embedding) {
-  const FaceView faces = embedding.input_faces();
+  const FaceView faces = embedding.faces();
   DividedPolygons result;
   Embedding& divided = result.embedding;
   divided.target = embedding.target;
@@ -79,7 +79,8 @@ DividedPolygons divide_from_middles(const Embedding& embedding) {
     divided.source_vertex.push_back(-1);
     middles.push_back(middle(embedding.space(), embedding.positions, face));
   }
-  divided.faces = Eigen::Map<const Faces>(corners.data(), static_cast<Eigen::Index>(corners.size() / 3), 3);
+  divided.faces =
+      Eigen::Map<const Triangles>(corners.data(), static_cast<Eigen::Index>(corners.size() / 3), 3);
   divided.positions.resize(static_cast<Eigen::Index>(divided.source_vertex.size()), 3);
   divided.positions.topRows(embedding.positions.rows()) = embedding.positions;
   for (std::size_t k = 0; k < middles.size(); ++k)
@@ -88,7 +89,7 @@ DividedPolygons divide_from_middles(const Embedding& embedding) {
 }
 
 std::vector<ConcaveCorner> concave_corners(const Embedding& embedding, double straight_bound) {
-  const FaceView faces = embedding.input_faces();
+  const FaceView faces = embedding.faces();
   const Points& X = embedding.positions;
   const std::vector<char> has_two_edges = vertices_with_two_edges(embedding);
   const auto is_concave = [&](std::span<const int> face, std::size_t k) {

@@ -97,8 +97,8 @@ class Lifting {
 Eigen::VectorXd vertex_areas(const Embedding& embedding, int vertices) {
   Eigen::VectorXd area = Eigen::VectorXd::Zero(vertices);
   const Points& X = embedding.positions;
-  for (int f = 0; f < embedding.faces.rows(); ++f) {
-    const auto v = embedding.faces.row(f);
+  for (int f = 0; f < embedding.triangles.rows(); ++f) {
+    const auto v = embedding.triangles.row(f);
     const double third = std::abs(embedding.space().area(X.row(v[0]), X.row(v[1]), X.row(v[2]))) / 3;
     for (int k = 0; k < 3; ++k) area[embedding.source_vertex[v[k]]] += third;
   }

@@ -159,18 +159,18 @@ FaceDistortion face_distortion(const std::array<Vector3, 3>& source, const std::
 
 }  // namespace
 
-std::vector<FaceDistortion> measure_faces(const Surface& surface, const Embedding& embedding) {
+std::vector<FaceDistortion> measure_triangles(const Surface& surface, const Embedding& embedding) {
   const int m = surface.triangle_count();
   const double unit = length_unit(surface);
   const Space space = embedding.space();
   const auto source = [&](int f) {
     const auto corner = [&](int k) {
-      return surface.V.row(embedding.source_vertex[embedding.faces(f, k)]) / unit;
+      return surface.V.row(embedding.source_vertex[embedding.triangles(f, k)]) / unit;
     };
     return std::array<Vector3, 3>{corner(0), corner(1), corner(2)};
   };
   const auto image = [&](int f) {
-    const auto v = embedding.faces.row(f);
+    const auto v = embedding.triangles.row(f);
     const Points& X = embedding.positions;
     return std::array<Vector3, 3>{X.row(v[0]), X.row(v[1]), X.row(v[2])};
   };
@@ -194,7 +194,7 @@ std::vector<FaceDistortion> measure_faces(const Surface& surface, const Embeddin
 }
 
 Distortion measure_distortion(const Surface& surface, const Embedding& embedding) {
-  const std::vector<FaceDistortion> of_face = measure_faces(surface, embedding);
+  const std::vector<FaceDistortion> of_face = measure_triangles(surface, embedding);
   Distortion result;
   result.histogram = empty_histogram();
   std::vector<double> areas;

@@ -41,7 +41,7 @@ struct FaceDistortion {
 };
 
 /// Of every face of the embedding (m).
-std::vector<FaceDistortion> measure_faces(const Surface& surface, const Embedding& embedding);
+std::vector<FaceDistortion> measure_triangles(const Surface& surface, const Embedding& embedding);
 
 /// Triangles without area are left out and not counted, and so are images that are not positively oriented or
 /// thinner than the rounding errors of positions, since their shape is noise. They are neither within_4 nor

@@ -37,7 +37,7 @@ class EdgeIndex {
 /// certify).
 template <typename Visit>
 void visit_edges(const Connectivity& connectivity, const Embedding& embedding, const Visit& visit) {
-  const FaceView faces = embedding.input_faces();
+  const FaceView faces = embedding.faces();
   const std::vector<int>& source = embedding.source_vertex;
   const EdgeIndex edge_between(connectivity, static_cast<int>(source.size()));
   std::vector<char> done(connectivity.edges.size(), 0);

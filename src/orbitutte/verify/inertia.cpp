@@ -51,8 +51,6 @@ class EigenCounter : public InertiaCounter {
 
 }  // namespace
 
-std::string name(InertiaMethod method) { return method == InertiaMethod::mumps ? "mumps" : "eigen"; }
-
 std::vector<InertiaMethod> available_inertia_methods() {
 #ifdef ORBITUTTE_HAS_MUMPS
   return {InertiaMethod::mumps, InertiaMethod::eigen};

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "orbitutte/names.h"
 #include "orbitutte/types.h"
 
 namespace orbitutte {
@@ -20,8 +21,12 @@ enum class InertiaMethod {
   eigen
 };
 
-/// "mumps" or "eigen".
-std::string name(InertiaMethod method);
+/// Its names.
+template <>
+struct NameTable<InertiaMethod> {
+  static constexpr NamedValue<InertiaMethod> rows[] = {{InertiaMethod::mumps, "mumps"},
+                                                       {InertiaMethod::eigen, "eigen"}};
+};
 
 /// The methods in this binary; the first is the default.
 std::vector<InertiaMethod> available_inertia_methods();

@@ -31,8 +31,8 @@ class Layout {
       : F_(surface.triangles), opposite_(surface.connectivity.opposite), positions_(F_.size(), 3) {
     std::vector<int> copy(F_.size());  // of the vertex where each half-edge begins: its cut vertex
     for (int h = 0; h < static_cast<int>(F_.size()); ++h) {
-      for (const int v : embedding.faces.row(h / 3))
-        if (embedding.source_vertex[v] == origin(F_, h)) copy[h] = v;
+      for (const int v : embedding.triangles.row(h / 3))
+        if (embedding.source_vertex[v] == halfedge_origin(F_, h)) copy[h] = v;
       positions_.row(h) = embedding.positions.row(copy[h]);
     }
     const std::map<Pair, Isometry> beyond = continuations(embedding.seams);
@@ -49,7 +49,7 @@ class Layout {
   void flip(int h) {
     const int g = opposite_[h], bk = next_halfedge(h), ka = previous_halfedge(h);
     const int lh = previous_halfedge(g);  // begins at l
-    const bool turned = origin(F_, g) == origin(F_, h);
+    const bool turned = halfedge_origin(F_, g) == halfedge_origin(F_, h);
     const int al = turned ? lh : next_halfedge(g), lb = turned ? next_halfedge(g) : lh;
     const Isometry into = beyond(h);
     const Corner a = corner(h), b = corner(bk), k = corner(ka),
@@ -72,7 +72,7 @@ class Layout {
     }
   }
 
-  const Faces& faces() const { return F_; }
+  const Triangles& faces() const { return F_; }
   const Points& positions() const { return positions_; }
 
  private:
@@ -103,7 +103,7 @@ class Layout {
     }
   }
 
-  Faces F_;
+  Triangles F_;
   std::vector<int> opposite_;
   Points positions_;                          // of the corner where each half-edge begins
   std::unordered_map<int, Isometry> beyond_;  // takes the face beyond a half-edge to where its own goes on

@@ -265,18 +265,6 @@ Check count_check(std::string name, long value, long expected) {
 
 }  // namespace
 
-std::string name(Theorem2::Status status) {
-  switch (status) {
-    case Theorem2::Status::measured:
-      return "measured";
-    case Theorem2::Status::inconclusive:
-      return "inconclusive";
-    case Theorem2::Status::not_run:
-      return "not run";
-  }
-  return {};
-}
-
 std::vector<Check> Theorem2::checks() const {
   Check edges = {"theorem2_edges", max_edge_length < pi / 2, max_edge_length, pi / 2, {}};
   if (!edges.passed) edges.detail = fmt::format("an edge is {:.6g} long, not below pi/2", max_edge_length);

@@ -7,6 +7,7 @@
 
 #include "orbitutte/mesh/edge_weights.h"
 #include "orbitutte/mesh/surface.h"
+#include "orbitutte/names.h"
 #include "orbitutte/orbifold/embedding.h"
 #include "orbitutte/verify/certificate.h"
 #include "orbitutte/verify/inertia.h"
@@ -59,8 +60,13 @@ struct Theorem2 {
   bool holds() const;
 };
 
-/// "measured", "inconclusive" or "not run".
-std::string name(Theorem2::Status status);
+/// Its names.
+template <>
+struct NameTable<Theorem2::Status> {
+  static constexpr NamedValue<Theorem2::Status> rows[] = {{Theorem2::Status::measured, "measured"},
+                                                          {Theorem2::Status::inconclusive, "inconclusive"},
+                                                          {Theorem2::Status::not_run, "not run"}};
+};
 
 /// Measures the longest edge, and the inertia of the matrix W of equation (11) on the |G|-fold cover,
 ///

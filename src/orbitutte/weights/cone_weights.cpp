@@ -28,7 +28,7 @@ std::vector<std::vector<int>> leaving(const IntrinsicTriangulation& T, const std
   std::vector<std::vector<int>> result(cones.size());
   for (int h = 0; h < static_cast<int>(T.F.size()); ++h)
     for (std::size_t k = 0; k < cones.size(); ++k)
-      if (origin(T.F, h) == cones[k].vertex) result[k].push_back(h);
+      if (halfedge_origin(T.F, h) == cones[k].vertex) result[k].push_back(h);
   return result;
 }
 

@@ -94,7 +94,7 @@ class DelaunayFlips {
     flip.g = opposite_[h];
     flip.al = next_halfedge(flip.g);
     flip.lb = previous_halfedge(flip.g);
-    if (origin(T_.F, flip.g) == origin(T_.F, h)) std::swap(flip.al, flip.lb);
+    if (halfedge_origin(T_.F, flip.g) == halfedge_origin(T_.F, h)) std::swap(flip.al, flip.lb);
     flip.beyond_al = opposite_[flip.al];
     flip.beyond_lb = opposite_[flip.lb];
     return flip;
@@ -104,8 +104,8 @@ class DelaunayFlips {
     const int bk = next_halfedge(flip.h), ka = previous_halfedge(flip.h);
     const bool leaves_an_ear =
         (opposite_[ka] < 0 && flip.beyond_al < 0) || (opposite_[bk] < 0 && flip.beyond_lb < 0);
-    const int l = origin(T_.F, previous_halfedge(flip.g));
-    const int k = origin(T_.F, ka);
+    const int l = halfedge_origin(T_.F, previous_halfedge(flip.g));
+    const int k = halfedge_origin(T_.F, ka);
     return leaves_an_ear || k == l || are_kept_apart(k, l) || are_joined(ka, l);
   }
 
@@ -118,13 +118,13 @@ class DelaunayFlips {
   // Does an edge join the origin of half-edge `out` to w? w is not a vertex of the face of `out`. Walks
   // around the origin, in both directions if the boundary ends the first walk.
   bool are_joined(int out, int w) const {
-    const int v = origin(T_.F, out);
+    const int v = halfedge_origin(T_.F, out);
     for (const int across : {previous_halfedge(out), out}) {
       int h = opposite_[across];
       for (; h >= 0 && h / 3 != out / 3; h = opposite_[h]) {
-        const bool leaves = origin(T_.F, h) == v;
+        const bool leaves = halfedge_origin(T_.F, h) == v;
         h = leaves ? previous_halfedge(h) : next_halfedge(h);
-        if ((leaves ? origin(T_.F, h) : target(T_.F, h)) == w) return true;
+        if ((leaves ? halfedge_origin(T_.F, h) : halfedge_target(T_.F, h)) == w) return true;
       }
       if (h >= 0) break;
     }
@@ -143,8 +143,8 @@ class DelaunayFlips {
   void apply(const Flip& flip) {
     const int h = flip.h, g = flip.g, bk = next_halfedge(h), ka = previous_halfedge(h);
     const double unit = T_.length[h] / T_.length[g], kl = diagonal(flip, unit);
-    const int a = origin(T_.F, h), b = target(T_.F, h), k = origin(T_.F, ka),
-              l = origin(T_.F, previous_halfedge(g));
+    const int a = halfedge_origin(T_.F, h), b = halfedge_target(T_.F, h), k = halfedge_origin(T_.F, ka),
+              l = halfedge_origin(T_.F, previous_halfedge(g));
     const std::array<int, 4> edges = {edge_of_[ka], edge_of_[flip.al], edge_of_[flip.lb], edge_of_[bk]},
                              beyond = {opposite_[ka], flip.beyond_al, flip.beyond_lb, opposite_[bk]},
                              place = {next_halfedge(h), previous_halfedge(h), next_halfedge(g),

@@ -53,12 +53,13 @@ Eigen::VectorXd summed_over_sides(const Connectivity& connectivity, const std::v
 EdgeWeights cotangent_weights(const Surface& surface, double clamp) {
   EdgeWeights result;
   result.clamp = clamp;
-  const Faces& F = surface.triangles;
+  const Triangles& F = surface.triangles;
   const int halfedges = static_cast<int>(F.size());
   std::vector<double> cotangent(halfedges);
   parallel_ranges(halfedges, [&](int begin, int end) {
     for (int h = begin; h < end; ++h)
-      cotangent[h] = half_cotangent(surface.V, origin(F, h), target(F, h), origin(F, previous_halfedge(h)));
+      cotangent[h] = half_cotangent(surface.V, halfedge_origin(F, h), halfedge_target(F, h),
+                                    halfedge_origin(F, previous_halfedge(h)));
   });
   result.w = summed_over_sides(surface.connectivity, cotangent);
   for (double& w : result.w) {
@@ -100,7 +101,7 @@ std::vector<double> half_mean_lengths(const Connectivity& connectivity, const st
 }
 
 EdgeWeights mean_value_weights(const Surface& surface) {
-  const Faces& F = surface.triangles;
+  const Triangles& F = surface.triangles;
   const Connectivity& connectivity = surface.connectivity;
   const std::vector<double> length = mollified_lengths(surface);
   const std::vector<double> scale = half_mean_lengths(connectivity, length, surface.vertex_count());
@@ -110,8 +111,8 @@ EdgeWeights mean_value_weights(const Surface& surface) {
   parallel_ranges(static_cast<int>(share.size()), [&](int begin, int end) {
     for (int h = begin; h < end; ++h) {
       const double a = side(h), b = side(next_halfedge(h)), c = side(previous_halfedge(h));
-      const double at_origin = scale[origin(F, h)] * half_angle_tangent(b, c, a),
-                   at_target = scale[target(F, h)] * half_angle_tangent(c, a, b);
+      const double at_origin = scale[halfedge_origin(F, h)] * half_angle_tangent(b, c, a),
+                   at_target = scale[halfedge_target(F, h)] * half_angle_tangent(c, a, b);
       share[h] = (at_origin + at_target) / (2 * a);
     }
   });
@@ -215,7 +216,7 @@ WeightKind weight_kind(const Surface& surface, WeightKind asked) {
     throw ArgumentError(fmt::format(
         "the mesh has faces of more than three corners, for which there are no {} weights; take cotan or "
         "uniform weights, or a file of weights",
-        name(asked)));
+        name_of(asked)));
   return asked;
 }
 
