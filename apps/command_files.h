@@ -11,16 +11,20 @@ namespace orbitutte::cli {
 
 /// A file that a command reads.
 struct InputFile {
-  std::string content;  ///< "the mesh", for messages
+  /// "the mesh", for messages.
+  std::string content;
   std::string path;
 };
 
 /// A file that a command writes.
 struct OutputFile {
-  std::string option;   ///< "-o" or "--report", for messages
-  std::string content;  ///< "the embedding", for messages
+  /// "-o" or "--report", for messages.
+  std::string option;
+  /// "the embedding", for messages.
+  std::string content;
   std::string path;
-  std::vector<std::string> endings;  ///< those that its name may have, in lower case with the dot
+  /// Those that its name may have, in lower case with the dot.
+  std::vector<std::string> endings;
 };
 
 /// Do both paths lead to one file? Links of both kinds are followed; neither file has to exist.

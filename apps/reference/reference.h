@@ -9,13 +9,16 @@
 namespace orbitutte::cli {
 
 struct OptionReference {
-  std::vector<std::string> names;  ///< with their dashes, short ones first; of a positional its bare name
-  std::string value;               ///< what kind of value it takes, e.g. TEXT; empty for a flag
-  std::string standard;            ///< the value unless it is given; empty where there is none to name
+  /// With their dashes, short ones first; of a positional its bare name.
+  std::vector<std::string> names;
+  /// What kind of value it takes, e.g. TEXT; empty for a flag.
+  std::string value;
+  /// The value unless it is given; empty where there is none to name.
+  std::string standard;
   std::string description;
   bool required = false;
-  std::vector<std::string>
-      choices;  ///< the words that can be completed; empty where any text or file will do
+  /// The words that can be completed; empty where any text or file will do.
+  std::vector<std::string> choices;
 };
 
 struct CommandReference {

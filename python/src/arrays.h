@@ -27,7 +27,8 @@ py::array view(const std::vector<int>& values, const py::handle& owner);
 
 /// Copies that cannot be written to.
 py::array copy(const Matrix3& matrix);
-py::array copy(const std::vector<Matrix3>& matrices);  ///< k x 3 x 3
+/// K x 3 x 3.
+py::array copy(const std::vector<Matrix3>& matrices);
 py::array copy(const std::vector<int>& values);
 py::array copy(const std::vector<double>& values);
 

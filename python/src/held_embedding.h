@@ -14,9 +14,12 @@ namespace orbitutte::python {
 
 struct HeldEmbedding {
   Embedding embedding;
-  std::string report;                      ///< JSON, as in the file
-  std::shared_ptr<const SourceMesh> mesh;  ///< null where an embedding was loaded without it
-  std::optional<EdgeWeights> weights;      ///< null where it was loaded: they can be computed again
+  /// JSON, as in the file.
+  std::string report;
+  /// Null where an embedding was loaded without it.
+  std::shared_ptr<const SourceMesh> mesh;
+  /// Null where it was loaded: they can be computed again.
+  std::optional<EdgeWeights> weights;
 
   /// Throws ArgumentError, saying what `purpose` it is missing for.
   const SourceMesh& source(const char* purpose) const;

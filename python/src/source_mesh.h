@@ -34,7 +34,8 @@ class SourceMesh {
   };
   Arrays arrays() const;
 
-  PolygonMesh polygons() const;  ///< a copy
+  /// A copy.
+  PolygonMesh polygons() const;
 
   /// Throws MeshError with the first defect.
   std::shared_ptr<const Surface> surface() const;

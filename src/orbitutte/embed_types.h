@@ -20,13 +20,19 @@ namespace orbitutte {
 /// How to embed.
 struct EmbedOptions {
   WeightOptions weights;
-  std::string weights_file;            ///< lines `i j w` (read_weights); when not empty, instead of `weights`
-  CutOptions cut;                      ///< which of all cuts; it changes no length (N* turns about its axis)
-  LaplacianOptions laplacian;          ///< the linear solver
-  Spread spread = Spread::arc_length;  ///< of boundary vertices along the sides of a fixed polygon
-  double tolerance = 1e-9;             ///< LbfgsOptions::tolerance
+  /// Lines `i j w` (read_weights); when not empty, instead of `weights`.
+  std::string weights_file;
+  /// Which of all cuts; it changes no length (N* turns about its axis).
+  CutOptions cut;
+  /// The linear solver.
+  LaplacianOptions laplacian;
+  /// Of boundary vertices along the sides of a fixed polygon.
+  Spread spread = Spread::arc_length;
+  /// LbfgsOptions::tolerance.
+  double tolerance = 1e-9;
   int max_iterations = 2000;
-  int threads = 0;  ///< 0: as many as the machine has; results do not depend on it
+  /// 0: as many as the machine has; results do not depend on it.
+  int threads = 0;
   ProgressCallback progress;
 };
 
@@ -34,8 +40,10 @@ struct EmbedOptions {
 struct EmbedResult {
   Embedding embedding;
   EdgeWeights weights;
-  Minimum minimum;          ///< how the optimiser fared; its positions are those of the input vertices
-  Certificate certificate;  ///< of the input's triangles
+  /// How the optimiser fared; its positions are those of the input vertices.
+  Minimum minimum;
+  /// Of the input's triangles.
+  Certificate certificate;
   /// Of the triangulation that has the weights, where it is not the input's and that is not bijective.
   std::optional<Certificate> intrinsic_certificate;
   Distortion distortion;
@@ -45,7 +53,8 @@ struct EmbedResult {
   Backend backend = Backend::eigen;
   int threads = 1;
   Timings timings;
-  std::vector<std::string> warnings;  ///< one sentence each
+  /// One sentence each.
+  std::vector<std::string> warnings;
 };
 
 }  // namespace orbitutte

@@ -15,7 +15,8 @@ namespace orbitutte {
 /// Where the computation is. `iteration`, `energy` and `gradient_norm` mean something in the stage "optimize"
 /// only.
 struct Progress {
-  std::string stage;  ///< "validate", "weights", "cut", "factorize", "initialize", "optimize", "certify"
+  /// "validate", "weights", "cut", "factorize", "initialize", "optimize", "certify"
+  std::string stage;
   int iteration = 0;
   double energy = 0;
   double gradient_norm = 0;

@@ -33,7 +33,8 @@ using Triangles = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;
 /// counterclockwise seen from outside.
 struct Polygons {
   std::vector<int> corners;
-  std::vector<int> start = {0};  ///< one more than there are faces
+  /// One more than there are faces.
+  std::vector<int> start = {0};
 
   int count() const { return static_cast<int>(start.size()) - 1; }
 };
@@ -67,8 +68,10 @@ class FaceView {
 
 /// A triangle mesh. Vertices that no face uses are allowed.
 struct Mesh {
-  Points V;     ///< n x 3
-  Triangles F;  ///< m x 3
+  /// n x 3.
+  Points V;
+  /// M x 3.
+  Triangles F;
 };
 
 /// A corner of a spherical polygon: a vertex on the boundary of a mesh, and the unit vector at which it is

@@ -15,11 +15,16 @@ using MirrorsOfVertices = std::vector<std::array<int, 2>>;
 
 /// What every copy of the tile consists of.
 struct TiledFaces {
-  Triangles triangles;           ///< on cut vertices
-  std::vector<int> face_of;      ///< of every triangle: the input face
-  Polygons polygons;             ///< on cut vertices; none where all faces are triangles
-  std::vector<int> input_faces;  ///< those that are here, ascending
-  std::vector<int> left_out;     ///< and those that are not
+  /// On cut vertices.
+  Triangles triangles;
+  /// Of every triangle: the input face.
+  std::vector<int> face_of;
+  /// On cut vertices; none where all faces are triangles.
+  Polygons polygons;
+  /// Those that are here, ascending.
+  std::vector<int> input_faces;
+  /// And those that are not.
+  std::vector<int> left_out;
 };
 
 /// The faces of the embedding but those all of whose vertices lie on one mirror: such a face is an arc, and

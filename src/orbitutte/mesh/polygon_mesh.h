@@ -12,10 +12,14 @@ namespace orbitutte {
 /// A mesh of polygons as it stands in a file. Nothing is promised about it: indices may be out of range and
 /// coordinates not finite until `inspect` has looked at it.
 struct PolygonMesh {
-  Points V;                           ///< n x 3 positions
-  std::vector<int> corners;           ///< the vertices of all faces, one face after the other
-  std::vector<int> face_start = {0};  ///< face f is corners[face_start[f]] .. corners[face_start[f + 1] - 1]
-  Points colours = Points(0, 3);      ///< n x 3, of the vertices: sRGB, 0 .. 1; or none
+  /// n x 3 positions.
+  Points V;
+  /// The vertices of all faces, one face after the other.
+  std::vector<int> corners;
+  /// Face f is corners[face_start[f]] .. corners[face_start[f + 1] - 1].
+  std::vector<int> face_start = {0};
+  /// n x 3, of the vertices: sRGB, 0 .. 1; or none.
+  Points colours = Points(0, 3);
   /// What the reader of the file passed over or took for something else, one sentence each.
   std::vector<std::string> warnings = {};
 

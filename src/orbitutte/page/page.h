@@ -12,15 +12,18 @@ namespace orbitutte {
 /// A picture that stands in for the interactive view.
 struct PagePicture {
   std::string caption;
-  std::string png;  ///< the bytes
+  /// The bytes.
+  std::string png;
 };
 
 /// What the page has besides figures.
 struct PageOptions {
   /// With the view that needs JavaScript and WebGL, if this build has it and the map is one onto the sphere.
   bool interactive = true;
-  std::vector<PagePicture> pictures;  ///< shown where the page has no interactive view, or it cannot run
-  DisplayLimits limits;               ///< how much of the mesh the interactive view draws
+  /// Shown where the page has no interactive view, or it cannot run.
+  std::vector<PagePicture> pictures;
+  /// How much of the mesh the interactive view draws.
+  DisplayLimits limits;
 };
 
 /// What the page is about. The surface is the one that was embedded; its colours are shown.

@@ -8,11 +8,15 @@
 namespace orbitutte {
 
 struct BallLabel {
-  Place at;           ///< the ball's middle
-  double radius = 0;  ///< in pixels
-  int order = 1;      ///< 0: no number
+  /// The ball's middle.
+  Place at;
+  /// In pixels.
+  double radius = 0;
+  /// 0: no number.
+  int order = 1;
   Rgb colour;
-  bool is_visible = true;  ///< where the ball is behind the figure, an open circle stands for it
+  /// Where the ball is behind the figure, an open circle stands for it.
+  bool is_visible = true;
 };
 
 /// Balls of this radius, in pixels, are large enough for their numbers to be read.

@@ -9,14 +9,19 @@ namespace orbitutte {
 
 /// From where a figure is seen.
 struct View {
-  Vector3 viewer = Vector3::UnitZ();  ///< from the figure towards the viewer
-  Vector3 up = Vector3::UnitY();      ///< what points up in the picture, as far as it can
+  /// From the figure towards the viewer.
+  Vector3 viewer = Vector3::UnitZ();
+  /// What points up in the picture, as far as it can.
+  Vector3 up = Vector3::UnitY();
 };
 
 struct Camera {
-  Matrix3 axes = Matrix3::Identity();  ///< rows, unit: right, up, towards the viewer
-  Vector3 centre = Vector3::Zero();    ///< what the middle of the picture shows
-  double pixel = 1;                    ///< the length of a pixel's side in the world
+  /// Rows, unit: right, up, towards the viewer.
+  Matrix3 axes = Matrix3::Identity();
+  /// What the middle of the picture shows.
+  Vector3 centre = Vector3::Zero();
+  /// The length of a pixel's side in the world.
+  double pixel = 1;
   PictureSize size;
 
   /// The ray into the picture at x, y (in pixels from the top left corner). It begins `distance` in front of

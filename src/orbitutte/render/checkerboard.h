@@ -27,7 +27,8 @@ class Checkerboard {
   Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> coordinates_;
   Triangles faces_;
   double side_;
-  std::vector<float> side_on_source_;  ///< m: of a square, by the face that it lies in
+  /// M: of a square, by the face that it lies in.
+  std::vector<float> side_on_source_;
 };
 
 /// The side of a square on the source at every face where a square in the plane has the side 1; infinite

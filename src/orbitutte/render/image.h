@@ -24,7 +24,8 @@ inline Rgba opaque(const Colour& colour) { return {colour[0], colour[1], colour[
 
 struct Image {
   PictureSize size;
-  std::vector<Rgba> pixels;  ///< row by row from the top left
+  /// Row by row from the top left.
+  std::vector<Rgba> pixels;
 
   const Rgba& at(int column, int row) const {
     return pixels[static_cast<std::size_t>(row) * size.width + column];
@@ -35,7 +36,8 @@ struct Image {
 struct Sample {
   float x = 0;
   float y = 0;
-  int number = 0;  ///< in the pixel, 0 .. samples_across^2 - 1
+  /// In the pixel, 0 .. samples_across^2 - 1.
+  int number = 0;
 };
 
 /// How many samples a pixel has along each side.

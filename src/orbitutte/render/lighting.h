@@ -18,8 +18,10 @@ CornerNormals corner_normals(const Points& V, const Triangles& F, double crease)
 
 /// How much light reaches a point, 0 .. 1 each.
 struct Exposure {
-  float openness = 1;  ///< of all that comes from around
-  float lit = 1;       ///< of the main light
+  /// Of all that comes from around.
+  float openness = 1;
+  /// Of the main light.
+  float lit = 1;
 };
 
 /// How bright a white, matt surface looks, about 0 .. 1, lit from above the viewer's left shoulder, filled in

@@ -27,8 +27,10 @@ class Ornaments {
 
  private:
   RayScene scene_;
-  std::vector<Colour> colours_;                 ///< by shape
-  std::vector<std::vector<Colour>> of_copies_;  ///< by shape: the colours inside, where it is a copy
+  /// By shape.
+  std::vector<Colour> colours_;
+  /// By shape: the colours inside, where it is a copy.
+  std::vector<std::vector<Colour>> of_copies_;
 };
 
 /// The rows of `positions` at these vertices.

@@ -31,11 +31,13 @@ struct NameTable<Panel> {
 /// What a picture shows, from where, and how large.
 struct RenderOptions {
   Panel panel = Panel::sheet;
-  int width = 0;  ///< pixels, 64 .. 10,000; 0: what suits the panel
+  /// Pixels, 64 .. 10,000; 0: what suits the panel.
+  int width = 0;
   int height = 0;
-  std::optional<Vector3>
-      view;  ///< of the source mesh, towards the viewer; of the sphere where it is the only panel
-  std::optional<Vector3> up;  ///< what points up; without: y or z, whichever the mesh stands on
+  /// Of the source mesh, towards the viewer; of the sphere where it is the only panel.
+  std::optional<Vector3> view;
+  /// What points up; without: y or z, whichever the mesh stands on.
+  std::optional<Vector3> up;
 };
 
 /// "1200x800", or "1200" for a square. Throws ArgumentError.
@@ -57,7 +59,8 @@ struct RenderSubject {
   const Surface& surface;
   const Embedding& embedding;
   const Report& report;
-  std::string title;  ///< of the sheet
+  /// Of the sheet.
+  std::string title;
 };
 
 /// The bytes of a PNG, or of an SVG (histogram and convergence only). The same input and options give the

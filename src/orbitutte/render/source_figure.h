@@ -19,7 +19,8 @@ class SourceFigure {
   /// V (n x 3, finite) is scaled into the unit ball about the origin. There must be a face.
   SourceFigure(const Points& V, const Triangles& F);
 
-  const Points& positions() const { return V_; }  ///< n x 3, in the unit ball
+  /// n x 3, in the unit ball.
+  const Points& positions() const { return V_; }
   const Triangles& faces() const { return F_; }
   const CornerNormals& normals() const { return normals_; }
 

@@ -14,7 +14,8 @@ namespace orbitutte {
 /// What the library cannot know of a run.
 struct RunRecord {
   std::string mesh_path;
-  std::string input_sha256;  ///< hexadecimal
+  /// Hexadecimal.
+  std::string input_sha256;
   double read_seconds = 0;
   /// If the surface was made before it was embedded.
   double validate_seconds = 0;
@@ -44,7 +45,8 @@ struct Report {
   bool converged = false;
   bool bijective = false;
   double expected_area = 0;
-  std::optional<bool> intrinsic_bijective;  ///< of the triangulation that has the weights, where that is told
+  /// Of the triangulation that has the weights, where that is told.
+  std::optional<bool> intrinsic_bijective;
   std::vector<int> nonpositive_faces;
 };
 

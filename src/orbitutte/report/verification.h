@@ -14,19 +14,26 @@ namespace orbitutte {
 
 /// What to look at besides the certificate.
 struct VerificationOptions {
-  std::string
-      weights_file;  ///< the weights that the embedding was computed with, where they came from a file
-  std::optional<EdgeWeights> weights;  ///< or these themselves
-  bool theorem2 = false;               ///< also theorem 2's conditions, which can take long
+  /// The weights that the embedding was computed with, where they came from a file.
+  std::string weights_file;
+  /// Or these themselves.
+  std::optional<EdgeWeights> weights;
+  /// Also theorem 2's conditions, which can take long.
+  bool theorem2 = false;
 };
 
 /// What holds, check by check.
 struct Verdict {
-  std::vector<Check> checks;  ///< of the certificate, then whether the report says the same, then the energy
-  bool sound = false;         ///< all of them passed
-  bool bijective = false;     ///< and the report says that the optimiser converged
-  bool converged = false;     ///< that the report says so
-  std::optional<Theorem2> theorem2;  ///< where it was asked for
+  /// Of the certificate, then whether the report says the same, then the energy.
+  std::vector<Check> checks;
+  /// All of them passed.
+  bool sound = false;
+  /// And the report says that the optimiser converged.
+  bool bijective = false;
+  /// That the report says so.
+  bool converged = false;
+  /// Where it was asked for.
+  std::optional<Theorem2> theorem2;
 };
 
 /// surface: the input. Throws as read_weights and weight_kind do; what does not hold of the embedding or its
