@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The man page and the shells' completions, from the definition of the command line: no option is written
-// down twice.
+// The man page and the shells' completions, made from the definition of the command line, so that no option
+// is written down twice.
 #pragma once
 
 #include <string>
@@ -9,15 +9,15 @@
 namespace orbitutte::cli {
 
 struct OptionReference {
-  /// With their dashes, short ones first; of a positional its bare name.
+  /// With their dashes, short ones first; for a positional, its bare name.
   std::vector<std::string> names;
   /// What kind of value it takes, e.g. TEXT; empty for a flag.
   std::string value;
-  /// The value unless it is given; empty where there is none to name.
+  /// The value if none is given; empty if there is none to name.
   std::string standard;
   std::string description;
   bool required = false;
-  /// The words that can be completed; empty where any text or file will do.
+  /// The words that can be completed; empty if any text or file will do.
   std::vector<std::string> choices;
 };
 
@@ -26,8 +26,8 @@ struct CommandReference {
   std::vector<OptionReference> positionals, options;
 };
 
-/// The program's commands, in their order. Throws std::logic_error where a word to be completed is not one
-/// that the option's description names.
+/// The program's commands, in their order. Throws std::logic_error if an option's description does not name
+/// a word that completes it.
 std::vector<CommandReference> command_line_reference();
 
 /// Replaces @COMMANDS@ (roff) and @VERSION@ in the text of the page.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What edges weigh in the discrete Dirichlet energy (equation (2)), whoever found the weights.
+// Weights of edges in the discrete Dirichlet energy (equation (2)), from whatever source.
 #pragma once
 
 #include <memory>
@@ -13,13 +13,14 @@ namespace orbitutte {
 enum class WeightKind {
   /// Delaunay, or cotan on meshes with faces of more than three corners.
   standard,
-  /// W_ij = (cot a + cot b)/2 over the angles opposite to the edge; those not positive become `clamp`.
+  /// w_ij = (cot a + cot b)/2 over the angles opposite to the edge; weights that are not positive become
+  /// `clamp`.
   cotan,
-  /// The same of the intrinsic Delaunay triangulation, whose weights are nonnegative; zeros become 1e-6, and
-  /// those of blocked edges that are negative `clamp`.
+  /// The same for the intrinsic Delaunay triangulation, whose weights are nonnegative. Zeros become 1e-6.
+  /// Negative weights of edges that could not be flipped become `clamp`.
   delaunay,
-  /// W_ij = (l_i m_ij + l_j m_ji)/2, m_ij the mean value weight (tan(a/2) + tan(b/2))/|ij| over the angles at
-  /// i beside the edge, l_i half the mean length of the edges at i.
+  /// w_ij = (l_i m_ij + l_j m_ji)/2, where m_ij is the mean value weight (tan(a/2) + tan(b/2))/|ij| over the
+  /// angles at i beside the edge, and l_i is half the mean length of the edges at i.
   mean_value,
   /// W_ij = 1.
   uniform,
@@ -42,11 +43,13 @@ struct EdgeWeights {
   double clamp = 0.01;
   /// One weight per undirected edge, in the order of Connectivity::edges.
   Eigen::VectorXd w;
-  /// Cotangent weights that became `clamp`.
+  /// The number of cotangent weights that became `clamp`.
   int clamped_edges = 0;
-  /// Of kind `delaunay`: the triangulation whose edges have the weights; null where they are the mesh's.
+  /// For kind `delaunay`, the triangulation whose edges have the weights; null if the mesh's own edges have
+  /// them.
   std::shared_ptr<const IntrinsicTriangulation> triangulation;
-  /// Weights of a file that are exactly zero: accepted, though the theory asks for w > 0.
+  /// The number of weights of a file that are exactly zero. They are accepted, although the theory requires
+  /// w > 0.
   int zero_edges = 0;
 };
 

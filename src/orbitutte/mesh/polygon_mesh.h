@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a mesh file holds: polygons, in the order of the file, not yet judged.
+// The content of a mesh file: polygons in the order of the file, not yet judged.
 #pragma once
 
 #include <string>
@@ -18,9 +18,9 @@ struct PolygonMesh {
   std::vector<int> corners;
   /// Face f is corners[face_start[f]] .. corners[face_start[f + 1] - 1].
   std::vector<int> face_start = {0};
-  /// n x 3, of the vertices: sRGB, 0 .. 1; or none.
+  /// n x 3, the colours of the vertices in sRGB, 0 .. 1; or empty.
   Points colours = Points(0, 3);
-  /// What the reader of the file passed over or took for something else, one sentence each.
+  /// What the reader of the file ignored or took for something else, one sentence each.
   std::vector<std::string> warnings = {};
 
   int vertex_count() const { return static_cast<int>(V.rows()); }

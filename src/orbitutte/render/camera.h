@@ -32,14 +32,14 @@ struct Camera {
   Vector3 project(const Vector3& point) const;
 };
 
-/// Rows: right, up, towards the viewer. Where `up` points at the viewer, another axis takes its place.
+/// Rows: right, up, towards the viewer. If `up` points at the viewer, another axis takes its place.
 Matrix3 view_axes(const View& view);
 
-/// The axes of the view from the front where `up` is up: the viewer is at +z, or at -y where up is along z.
+/// The axes of the view from the front if `up` points up: the viewer is at +z, or at -y if `up` is along z.
 Matrix3 front_axes(const Vector3& up);
 
 /// The camera for which the points (n x 3) fill the share `fill` of the picture's width or height, whichever
-/// is tighter.
+/// is reached first.
 Camera fit_camera(const View& view, const Points& points, const PictureSize& size, double fill);
 
 }  // namespace orbitutte

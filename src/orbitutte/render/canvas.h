@@ -47,7 +47,7 @@ struct LineStyle {
 
 class Canvas {
  public:
-  /// White paper. em: the size of normal text, in pixels. Throws Error where Cairo fails.
+  /// White paper. em: the size of normal text, in pixels. Throws Error if Cairo fails.
   Canvas(PictureFormat format, const PictureSize& size, double em);
 
   const PictureSize& size() const { return size_; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures as arrays of pixels, and how they come about from samples.
+// Pictures as arrays of pixels, and how samples make them.
 #pragma once
 
 #include <functional>
@@ -40,7 +40,7 @@ struct Sample {
   int number = 0;
 };
 
-/// How many samples a pixel has along each side.
+/// The number of samples along each side of a pixel.
 constexpr int samples_across = 3;
 
 /// Every pixel is the mean of shade(sample) over a grid of samples. Pixels are independent, rows run on all

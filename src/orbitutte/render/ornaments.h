@@ -12,7 +12,7 @@ namespace orbitutte {
 /// Coloured tubes and balls that rays can hit.
 class Ornaments {
  public:
-  /// points: n x 3; fewer than two are passed over.
+  /// points: n x 3; fewer than two are ignored.
   void add_tube(const Points& points, double radius, const Rgb& colour);
   void add_ball(const Vector3& centre, double radius, const Rgb& colour);
 
@@ -29,7 +29,7 @@ class Ornaments {
   RayScene scene_;
   /// By shape.
   std::vector<Colour> colours_;
-  /// By shape: the colours inside, where it is a copy.
+  /// By shape: the colours inside, if it is a copy.
   std::vector<std::vector<Colour>> of_copies_;
 };
 

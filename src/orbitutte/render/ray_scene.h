@@ -30,7 +30,7 @@ struct Hit {
   int shape = -1;
   /// Of triangles: the face.
   int primitive = -1;
-  /// As add_copy returned it; -1 where the shape is the scene's own.
+  /// As add_copy returned it; -1 if the shape is the scene's own.
   int copy = -1;
   /// Of triangles: the hit is (1 - u - v) a + u b + v c.
   float u = 0, v = 0;
@@ -39,7 +39,7 @@ struct Hit {
 };
 
 /// In single precision: coordinates should be of the order of one. Add shapes, commit, then cast rays from
-/// any thread. Throws std::bad_alloc where memory runs out.
+/// any thread. Throws std::bad_alloc if memory runs out.
 class RayScene {
  public:
   RayScene();

@@ -27,8 +27,8 @@ class SourceFigure {
   /// The ornaments throw shadows on the surface, too.
   Image draw(const Camera& camera, const SurfaceColour& colour, const Ornaments& ornaments) const;
 
-  /// Whether nothing of the surface lies between a point, moved by `clearance` towards the viewer (a
-  /// direction), and the viewer.
+  /// Is a point visible? Nothing of the surface may lie between the viewer and the point, moved by
+  /// `clearance` towards the viewer (a direction).
   bool is_visible(const Vector3& point, const Vector3& viewer, double clearance) const;
 
  private:

@@ -15,13 +15,13 @@ struct ComparedMap {
   std::string title;
   /// Of max(A, 1/A), as measure_distortion has it.
   Distortion::Area area;
-  /// M, as measure_triangles has them.
+  /// m, as measure_triangles has them.
   std::vector<FaceDistortion> faces;
 };
 
 struct Comparison {
   const Surface& surface;
-  /// The marked vertices: they should be seen.
+  /// The marked vertices, which should be visible.
   std::vector<int> cones;
   std::vector<ComparedMap> maps;
 };
