@@ -13,8 +13,9 @@ namespace orbitutte::cli {
 /// Vertices separated by commas. Throws ArgumentError.
 std::vector<int> parse_cones(const std::string& text);
 
-/// Reads the mesh of an embedding, whose faces are divided into the same triangles. Throws FileError, and
-/// MeshError naming the first defect; where the embedding is none of the mesh, what takes both tells.
+/// Reads the mesh of an embedding, and divides the embedding's faces into the same triangles. Throws
+/// FileError, and MeshError naming the first defect. Does not check that the embedding is one of the mesh;
+/// functions that take both do.
 Surface read_source(const std::string& path, Embedding& embedding);
 
 }  // namespace orbitutte::cli

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The files that a command reads and writes, and the rule that holds for all commands before anything is
-// read: what is written takes the place of nothing that is read and of nothing else that is written, and its
-// name says what it is.
+// The files that a command reads and writes. Before any command reads anything, one rule is checked: an
+// output replaces neither an input nor another output, and its name has the ending of its content.
 #pragma once
 
 #include <string>
@@ -11,19 +10,23 @@ namespace orbitutte::cli {
 
 /// A file that a command reads.
 struct InputFile {
-  std::string content;  ///< "the mesh", for messages
+  /// "the mesh", for messages.
+  std::string content;
   std::string path;
 };
 
 /// A file that a command writes.
 struct OutputFile {
-  std::string option;   ///< "-o" or "--report", for messages
-  std::string content;  ///< "the embedding", for messages
+  /// "-o" or "--report", for messages.
+  std::string option;
+  /// "the embedding", for messages.
+  std::string content;
   std::string path;
-  std::vector<std::string> endings;  ///< those that its name may have, in lower case with the dot
+  /// The endings that its name may have, in lower case with the dot.
+  std::vector<std::string> endings;
 };
 
-/// Do both paths lead to one file? Links of both kinds are followed; neither file has to exist.
+/// Do both paths lead to one file? Links of both kinds are followed, and neither file has to exist.
 bool is_same_file(const std::string& first, const std::string& second);
 
 /// Throws ArgumentError if an output is one of the inputs, if two outputs are one file, or if a name has an

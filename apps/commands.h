@@ -17,7 +17,7 @@
 
 namespace orbitutte::cli {
 
-/// 4 and 5: the embedding has been written all the same.
+/// With 4 and 5 the embedding has been written all the same.
 enum ExitCode {
   succeeded = 0,
   file_trouble = 1,

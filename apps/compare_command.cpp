@@ -22,7 +22,7 @@ struct Compared {
   EmbedResult result;
 };
 
-// The symbols that were given, or one of the sphere and one of the plane.
+// The symbols that were given; otherwise one of the sphere and one of the plane.
 std::vector<std::string> symbols_or_both_spaces(const std::vector<std::string>& given, Topology topology) {
   if (!given.empty()) return given;
   const std::string star = topology == Topology::disk ? "*" : "";

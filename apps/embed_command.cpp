@@ -62,7 +62,7 @@ class ProgressLine {
   bool shown_;
 };
 
-// What is asked for: an orbifold, or a polygon with its corners.
+// The target that is asked for: an orbifold, or a polygon with its corners.
 Target target_from(const EmbedArguments& arguments) {
   const bool polygon = arguments.orbifold == polygon_signature;
   if (!polygon && !arguments.polygon.empty())
@@ -98,7 +98,7 @@ struct Input {
   std::vector<std::string> warnings;  // of the reader
 };
 
-// Reads the mesh, and notes what the report says of its file.
+// Reads the mesh, and records what the report says about its file.
 Input read_input(const std::string& path, RunRecord& run) {
   const Stopwatch reading;
   const MeshFormat format = mesh_format(path);
@@ -141,14 +141,14 @@ void summarize(const EmbedArguments& arguments, const EmbedResult& result) {
   if (result.certificate.bijective) tell("certified: bijective\n");
 }
 
-// Other weights than these, which know less of lengths and angles; none if nothing is left to try.
+// Advice to take weights that depend less on lengths and angles than these do; empty if there are none.
 std::string other_weights(WeightKind kind) {
   if (kind == WeightKind::delaunay) return "take other weights (--weights cotan or uniform)";
   if (kind == WeightKind::uniform || kind == WeightKind::file) return "";
   return "take other weights (--weights uniform)";
 }
 
-// What may help where the result is not certified, in one sentence.
+// What may help if the result is not certified, in one sentence.
 std::string remedy(const EmbedArguments& arguments, const EmbedResult& result) {
   std::vector<std::string> ways;
   const Termination termination = result.minimum.termination;

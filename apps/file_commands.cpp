@@ -39,7 +39,7 @@ void print_text(const Verdict& verdict) {
   if (verdict.theorem2) print_theorem2(*verdict.theorem2);
 }
 
-// What the binary may be passed on under: docs/licences.md.
+// The licence under which the binary may be passed on: docs/licences.md.
 std::string licence_text(Backend backend, InertiaMethod inertia) {
   const bool gpl = backend == Backend::cholmod, mumps = inertia == InertiaMethod::mumps;
   std::string text = gpl ? "sources MIT; this binary GPL-3.0-or-later: CHOLMOD's supernodal module is "

@@ -24,8 +24,8 @@ int complain(const std::string& message, ExitCode code) {
   return code;
 }
 
-// Runs what prints and returns an exit code. Every kind of failure has one sentence on standard error and its
-// exit code.
+// Runs a function that prints and returns an exit code. Every kind of failure has its exit code and one
+// sentence on standard error.
 int run(const std::function<int()>& command) {
   try {
     const int code = command();
@@ -47,7 +47,7 @@ int run(const std::function<int()>& command) {
   }
 }
 
-// A command while it is being defined. Its input and output files are looked at before it runs.
+// A command while it is being defined. Its input and output files are checked before it runs.
 template <typename Arguments>
 class Command {
  public:

@@ -9,7 +9,7 @@
 
 namespace orbitutte::cli {
 
-/// None in builds without pictures.
+/// Empty in builds without pictures.
 std::vector<PagePicture> page_pictures(const Surface& surface, const Embedding& embedding,
                                        const Report& report);
 

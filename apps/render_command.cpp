@@ -11,7 +11,7 @@ namespace {
 
 constexpr int drawn = 0;
 
-// What can be said before the mesh is read.
+// The options that do not depend on the mesh.
 RenderOptions options_from(const RenderArguments& arguments) {
   RenderOptions options;
   options.panel = parse_choice<Panel>(arguments.panel, "--panel");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Stands in for render_command.cpp where the library was built without Embree and Cairo.
+// Stands in for render_command.cpp if the library is built without Embree and Cairo.
 #include "commands.h"
 #include "orbitutte/types.h"
 #include "page_pictures.h"

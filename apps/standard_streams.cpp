@@ -12,8 +12,8 @@
 namespace orbitutte::cli {
 
 void occupy_closed_streams() {
-  // In the wrong direction, so that reading from or writing to the stream fails as if it were closed. open()
-  // takes the lowest free number, and those below are taken already.
+  // Opens the stream in the wrong direction, so that reading from it or writing to it fails as if it were
+  // closed. open() takes the lowest free number, and the lower ones are taken already.
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF)
       ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Standard output carries results, which have to arrive; standard error carries messages, which need not.
+// Standard output carries results, which must arrive. Standard error carries messages, which need not.
 #pragma once
 
 #include <fmt/format.h>
@@ -10,8 +10,8 @@
 
 namespace orbitutte::cli {
 
-/// Keeps the numbers of streams that the caller has closed from files that the program opens. What is written
-/// to such a stream fails. For the beginning of main.
+/// Keeps files that the program opens from getting the numbers of streams that the caller has closed.
+/// Writing to such a stream fails. Call this at the beginning of main.
 void occupy_closed_streams();
 
 /// Throws FileError with the system's reason unless all that was printed to standard output has arrived.

@@ -68,13 +68,14 @@ std::string list_of_commands(const CLI::App& app) {
   return text + fmt::format("'{} COMMAND --help' shows the options of one.", app.get_name());
 }
 
-// The first of the words that nothing has taken, options first: a word behind an unknown option is its value.
+// The first of the words that nothing has taken. Options come first, since a word after an unknown option is
+// its value.
 std::string first_unknown(const std::vector<std::string>& words) {
   const auto option = std::find_if(words.begin(), words.end(), is_option);
   return option != words.end() ? *option : words.front();
 }
 
-// " has no option '--orbifld'; did you mean '--orbifold'?", to stand behind the owner's name.
+// " has no option '--orbifld'; did you mean '--orbifold'?", to follow the owner's name.
 std::string has_no_option(const std::string& word, const CLI::App& owner) {
   const std::string name = word.substr(0, word.find('='));
   return fmt::format(" has no option '{}'{}", name, did_you_mean(name, option_names(owner)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What to say of a command line that is wrong: which word it is, and what may be meant.
+// The message about a wrong command line: which word is wrong, and what may be meant.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@ namespace orbitutte::cli {
 
 /// The candidate that a misspelt word most likely means: one that begins with it, or else the one with the
 /// fewest letters that are wrong, missing, superfluous or exchanged with their neighbours, up to a third of
-/// the word's. Of equals the first; nothing if all are farther.
+/// the word's. If several are equal, the first; nothing if all differ more.
 std::optional<std::string> nearest(const std::string& word, const std::vector<std::string>& candidates);
 
 /// The message about a parse of `app` that failed with `error`, of one line or more.

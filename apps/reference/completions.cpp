@@ -18,7 +18,7 @@ std::string quoted(const std::string& text) {
   return result + "'";
 }
 
-// A star behind a backslash, so that zsh and fish do not look for files.
+// A star after a backslash, so that zsh and fish do not look for files.
 std::string without_patterns(const std::vector<std::string>& words) {
   std::string result;
   for (const char c : joined(words, " ")) result += c == '*' ? std::string("\\*") : std::string(1, c);

@@ -27,7 +27,7 @@ const std::map<std::string, std::vector<std::string>> words_of_options = {
     {"--up", {"x", "y", "z", "-x", "-y", "-z"}},
     {"--shape", choices_of<SampleShape>()}};
 
-// The symbols of the table of families; where a family has one for every order N, those of small orders.
+// The symbols of the table of families. If a family has a symbol for every order N, those of small orders.
 std::vector<std::string> symbols() {
   constexpr int largest_listed = 6;
   std::vector<std::string> result;

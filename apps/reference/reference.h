@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The man page and the shells' completions, from the definition of the command line: no option is written
-// down twice.
+// The man page and the shells' completions, made from the definition of the command line, so that no option
+// is written down twice.
 #pragma once
 
 #include <string>
@@ -9,13 +9,16 @@
 namespace orbitutte::cli {
 
 struct OptionReference {
-  std::vector<std::string> names;  ///< with their dashes, short ones first; of a positional its bare name
-  std::string value;               ///< what kind of value it takes, e.g. TEXT; empty for a flag
-  std::string standard;            ///< the value unless it is given; empty where there is none to name
+  /// With their dashes, short ones first; for a positional, its bare name.
+  std::vector<std::string> names;
+  /// What kind of value it takes, e.g. TEXT; empty for a flag.
+  std::string value;
+  /// The value if none is given; empty if there is none to name.
+  std::string standard;
   std::string description;
   bool required = false;
-  std::vector<std::string>
-      choices;  ///< the words that can be completed; empty where any text or file will do
+  /// The words that can be completed; empty if any text or file will do.
+  std::vector<std::string> choices;
 };
 
 struct CommandReference {
@@ -23,8 +26,8 @@ struct CommandReference {
   std::vector<OptionReference> positionals, options;
 };
 
-/// The program's commands, in their order. Throws std::logic_error where a word to be completed is not one
-/// that the option's description names.
+/// The program's commands, in their order. Throws std::logic_error if an option's description does not name
+/// a word that completes it.
 std::vector<CommandReference> command_line_reference();
 
 /// Replaces @COMMANDS@ (roff) and @VERSION@ in the text of the page.

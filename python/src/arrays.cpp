@@ -18,7 +18,7 @@ py::array rows(const Matrix& matrix, const py::handle& owner) {
   return py::array_t<typename Matrix::Scalar>({matrix.rows(), matrix.cols()}, matrix.data(), owner);
 }
 
-// What deletes the value when the last array over it goes.
+// Deletes the value when the last array over it is gone.
 template <typename Value>
 std::pair<Value*, py::capsule> owned(Value&& value) {
   auto held = std::make_unique<Value>(std::move(value));

@@ -20,14 +20,15 @@ Points to_points(const DoubleArray& array);
 Triangles to_faces(const IntArray& array);
 std::vector<int> to_vector(const IntArray& array);
 
-/// Views that cannot be written to, and that keep `owner`, of whose C++ object they are part, alive.
+/// Read-only views of a part of `owner`'s C++ object. They keep `owner` alive.
 py::array view(const Points& points, const py::handle& owner);
 py::array view(const Triangles& faces, const py::handle& owner);
 py::array view(const std::vector<int>& values, const py::handle& owner);
 
-/// Copies that cannot be written to.
+/// Read-only copies.
 py::array copy(const Matrix3& matrix);
-py::array copy(const std::vector<Matrix3>& matrices);  ///< k x 3 x 3
+/// k x 3 x 3.
+py::array copy(const std::vector<Matrix3>& matrices);
 py::array copy(const std::vector<int>& values);
 py::array copy(const std::vector<double>& values);
 

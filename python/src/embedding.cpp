@@ -101,8 +101,8 @@ VerificationOptions verification_options(const HeldEmbedding& held, const std::s
   return options;
 }
 
-// The judgement from the data alone. What is known of weights that the caller gave is used where no file is
-// named.
+// Judges the embedding from the data alone. If no file is named, the weights that the caller gave are used,
+// if they are known.
 std::string verify_again(const HeldEmbedding& held, const MaybeMesh& mesh, const std::string& weights_file,
                          const std::string& depth) {
   const SourceMesh& judge = mesh ? *mesh : held.source("verification");
@@ -131,7 +131,7 @@ Held loaded(Embedding embedding, std::string report, MaybeMesh mesh) {
       HeldEmbedding{std::move(embedding), std::move(report), std::move(mesh), std::nullopt});
 }
 
-// Messages begin with the path that they are about.
+// Messages begin with the path concerned.
 Held load(const std::string& ply, const std::string& json, MaybeMesh mesh) {
   Embedding embedding = read_embedding(ply, read_report(json));
   return loaded(std::move(embedding), read_file(json), std::move(mesh));

@@ -9,7 +9,7 @@
 namespace orbitutte::python {
 namespace {
 
-// A message may hold the bytes of a path that are no UTF-8.
+// A message may hold bytes of a path that are not UTF-8.
 void raise(const char* type, const std::exception& error) {
   const char* const what = error.what();
   const auto text = py::reinterpret_steal<py::object>(

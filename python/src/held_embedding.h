@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An embedding with everything that is known of it: what Python's Embedding holds.
+// What Python's Embedding holds: an embedding, and everything that is known of it.
 #pragma once
 
 #include <memory>
@@ -14,18 +14,21 @@ namespace orbitutte::python {
 
 struct HeldEmbedding {
   Embedding embedding;
-  std::string report;                      ///< JSON, as in the file
-  std::shared_ptr<const SourceMesh> mesh;  ///< null where an embedding was loaded without it
-  std::optional<EdgeWeights> weights;      ///< null where it was loaded: they can be computed again
+  /// JSON, as in the file.
+  std::string report;
+  /// Null if the embedding was loaded without its mesh.
+  std::shared_ptr<const SourceMesh> mesh;
+  /// Nothing if the embedding was loaded; the weights can be computed again.
+  std::optional<EdgeWeights> weights;
 
-  /// Throws ArgumentError, saying what `purpose` it is missing for.
+  /// The mesh. Throws ArgumentError saying that `purpose` needs it.
   const SourceMesh& source(const char* purpose) const;
 
   /// The weights that the embedding has, and the edges that they belong to. Throws ArgumentError.
   EdgeWeights edge_weights() const;
 };
 
-/// Everything that is to be kept of a result.
+/// Keeps everything of a result that Python may ask for.
 HeldEmbedding hold(EmbedResult result, std::shared_ptr<const SourceMesh> mesh, double total_seconds);
 
 }  // namespace orbitutte::python

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Stands in for render.cpp where the library was built without Embree and Cairo.
+// Stands in for render.cpp if the library is built without Embree and Cairo.
 #include "bindings.h"
 #include "orbitutte/types.h"
 

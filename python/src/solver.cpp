@@ -19,9 +19,9 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Tells Python of the progress, where somebody listens, and lets it handle signals in any case. What Python
-// raises ends the computation and is raised again by `rethrow`, so that nothing of Python's passes through
-// the library.
+// Tells Python about the progress if there is a listener, and always lets Python handle signals. If Python
+// raises something, the computation ends, and `rethrow` raises it again, so that no exception of Python's
+// passes through the library.
 class ProgressHook {
  public:
   explicit ProgressHook(py::object listener) : listener_(std::move(listener)) {}
@@ -41,14 +41,13 @@ class ProgressHook {
     }
   }
 
-  /// With the GIL: what Python raised, if it did.
+  /// Raises what Python raised, if it did. Called with the GIL.
   void rethrow() const {
     if (raised_) std::rethrow_exception(raised_);
   }
 
  private:
-  // Only False stops: a function without `return` goes on, and so it does with anything else that is not a
-  // bool.
+  // Only False stops. A function without `return` goes on, and so does any other answer that is not a bool.
   bool tell(const Progress& progress) const {
     const py::object answer =
         listener_(progress.stage, progress.iteration, progress.energy, progress.gradient_norm);

@@ -13,17 +13,16 @@
 
 namespace orbitutte::python {
 
-/// A surface, or what is no surface but can be inspected and written. Never changes, so that arrays of Python
-/// may refer to its memory.
+/// A mesh that may or may not be a surface. It never changes, so Python's arrays may refer to its memory.
 class SourceMesh {
  public:
   explicit SourceMesh(Mesh mesh);
   explicit SourceMesh(PolygonMesh mesh);
 
-  /// What the reader of the file passed over.
+  /// What the reader of the file ignored.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
-  /// The vertices and faces as they were given: either F, or corners and start, is null.
+  /// The vertices and faces as they were given. Either F or both corners and start are null.
   struct Arrays {
     const Points* V = nullptr;
     const Triangles* F = nullptr;
@@ -34,13 +33,14 @@ class SourceMesh {
   };
   Arrays arrays() const;
 
-  PolygonMesh polygons() const;  ///< a copy
+  /// A copy.
+  PolygonMesh polygons() const;
 
   /// Throws MeshError with the first defect.
   std::shared_ptr<const Surface> surface() const;
 
-  /// The embedding of this mesh, from a file, with its polygons divided as those of the mesh are. Throws
-  /// MeshError naming the first face that is not the mesh's.
+  /// An embedding of this mesh that was read from a file, with its polygons divided like those of the mesh.
+  /// Throws MeshError naming the first face that is not the mesh's.
   Embedding belonging(Embedding embedding) const;
 
  private:

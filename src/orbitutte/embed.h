@@ -11,42 +11,41 @@
 
 namespace orbitutte {
 
-/// Embeds a surface (make_surface) into an orbifold. `cones` are the marked vertices (0-based, in the order of
-/// Target::marks), which come to lie at its cones and corners. Minimises the energy (2) over the gluings of appendix A by
-/// algorithm 1, as corrected in docs/deviations.md, and judges the result. Not converging and not being
-/// bijective are results, not errors: see minimum.termination and certificate.bijective, which is true only
-/// for converged maps. Throws MeshError naming the vertex, edge or face; ArgumentError; Cancelled;
-/// std::bad_alloc.
+/// Embeds a surface (make_surface) into an orbifold. `cones` are the marked vertices (0-based, in the order
+/// of Target::marks), which come to lie at its cones and corners. Minimises the energy (2) over the gluings
+/// of appendix A by algorithm 1, as corrected in docs/deviations.md, and judges the result. Not converging
+/// and not being bijective are results, not errors: see minimum.termination and certificate.bijective, which
+/// is true only for converged maps. Throws MeshError naming the vertex, edge or face; ArgumentError;
+/// Cancelled; std::bad_alloc.
 ///
-/// Polygons with more than three corners are embedded with the edges that they have and none else, and become
-/// convex. Their cotangents are those of their triangles, which are also the faces of the result beside its
-/// polygons, and the distortion is theirs. ArgumentError for kinds of weights that they do not have
-/// (weight_kind).
+/// Polygons with more than three corners are embedded with their own edges only, and become convex.
+/// Cotangents and distortion are those of their triangles (Embedding::triangles). Throws ArgumentError for
+/// kinds of weights that polygons do not have (weight_kind).
 EmbedResult embed(const Surface& surface, const Target& target, const std::vector<int>& cones,
                   const EmbedOptions& options = {});
 
-/// The same of the surface that a mesh is; throws as make_surface does, too. It copies the mesh; a caller who
-/// has no further use for the mesh avoids that by make_surface(std::move(mesh)).
+/// The same for a mesh; also throws as make_surface does. The mesh is copied, which
+/// make_surface(std::move(mesh)) avoids.
 EmbedResult embed(const Mesh& mesh, const Target& target, const std::vector<int>& cones,
                   const EmbedOptions& options = {});
 EmbedResult embed(const PolygonMesh& mesh, const Target& target, const std::vector<int>& cones,
                   const EmbedOptions& options = {});
 
-/// For many embeddings of one surface: keeps what depends neither on the cones nor on their orders, and those
-/// factors of the last embedding that fit the next. Results are those of the functions above.
+/// For many embeddings of one surface: keeps what depends neither on the cones nor on their orders, and
+/// those factors of the last embedding that fit the next one. The results are those of the functions above.
 class EmbeddingSolver {
  public:
-  /// Shares the surface. Throws ArgumentError for weights that it does not have.
+  /// Shares the surface. Throws ArgumentError for kinds of weights that the surface cannot have.
   explicit EmbeddingSolver(std::shared_ptr<const Surface> surface, EmbedOptions options = {});
 
-  /// Keeps the surface, or that of the mesh. Throws as make_surface does, too.
+  /// Keeps the surface, or the surface of the mesh. Also throws as make_surface does.
   explicit EmbeddingSolver(Surface surface, EmbedOptions options = {});
   explicit EmbeddingSolver(Mesh mesh, const EmbedOptions& options = {});
   explicit EmbeddingSolver(PolygonMesh mesh, const EmbedOptions& options = {});
   ~EmbeddingSolver();
   EmbeddingSolver(EmbeddingSolver&&) noexcept;
 
-  /// As the functions above. Stages that find their work done take no time in the result's timings.
+  /// As the functions above. A stage whose work is already done takes no time in the result's timings.
   EmbedResult embed(const Target& target, const std::vector<int>& cones);
 
  private:
@@ -54,11 +53,12 @@ class EmbeddingSolver {
   std::unique_ptr<State> state_;
 };
 
-/// Well separated extremities for the marks of the orbifold, inside a disk or on its boundary as each has to
-/// be. Throws MeshError if the surface is not what the orbifold needs.
+/// Cones at well separated extremities, one for each mark of the target; on a disk, inside or on the
+/// boundary as the mark requires. Throws MeshError if the surface does not have the topology that the target
+/// needs.
 std::vector<int> choose_cones(const Surface& surface, const Target& target);
 
-/// The same of the surface that a mesh is; throws as make_surface does, too.
+/// The same for a mesh; also throws as make_surface does.
 std::vector<int> choose_cones(const Mesh& mesh, const Target& target);
 std::vector<int> choose_cones(const PolygonMesh& mesh, const Target& target);
 

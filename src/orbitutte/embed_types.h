@@ -20,25 +20,35 @@ namespace orbitutte {
 /// How to embed.
 struct EmbedOptions {
   WeightOptions weights;
-  std::string weights_file;            ///< lines `i j w` (read_weights); when not empty, instead of `weights`
-  CutOptions cut;                      ///< which of all cuts; it changes no length (N* turns about its axis)
-  LaplacianOptions laplacian;          ///< the linear solver
-  Spread spread = Spread::arc_length;  ///< of boundary vertices along the sides of a fixed polygon
-  double tolerance = 1e-9;             ///< LbfgsOptions::tolerance
+  /// A file of lines `i j w` (read_weights), which replaces `weights` if the path is not empty.
+  std::string weights_file;
+  /// Which of all cuts through the cones is taken. It changes no length (N* turns about its axis).
+  CutOptions cut;
+  /// The linear solver.
+  LaplacianOptions laplacian;
+  /// How boundary vertices are spread along the sides of a fixed polygon.
+  Spread spread = Spread::arc_length;
+  /// The optimiser stops if the gradient and the last step are smaller (LbfgsOptions::tolerance).
+  double tolerance = 1e-9;
   int max_iterations = 2000;
-  int threads = 0;  ///< 0: as many as the machine has; results do not depend on it
+  /// 0: as many as the machine has. Results do not depend on it.
+  int threads = 0;
   ProgressCallback progress;
 };
 
-/// The embedding, and all that is known of it.
+/// The embedding, and everything that is known of it.
 struct EmbedResult {
   Embedding embedding;
   EdgeWeights weights;
-  Minimum minimum;          ///< how the optimiser fared; its positions are those of the input vertices
-  /// Input vertices that were moved off the minimum, so that thin triangles are positively oriented; ascending.
+  /// Where the optimiser ended. Its positions are those of the input vertices.
+  Minimum minimum;
+  /// Input vertices that were moved off the minimum, so that thin triangles are positively oriented;
+  /// ascending.
   std::vector<int> moved_vertices;
-  Certificate certificate;  ///< of the input's triangles
-  /// Of the triangulation that has the weights, where it is not the input's and that is not bijective.
+  /// The certificate of the input's triangles.
+  Certificate certificate;
+  /// The certificate of the triangulation that has the weights. Only present if that triangulation is not
+  /// the input's, and the input's certificate says that the map is not bijective.
   std::optional<Certificate> intrinsic_certificate;
   Distortion distortion;
   Topology topology = Topology::sphere;
@@ -47,7 +57,8 @@ struct EmbedResult {
   Backend backend = Backend::eigen;
   int threads = 1;
   Timings timings;
-  std::vector<std::string> warnings;  ///< one sentence each
+  /// One sentence each.
+  std::vector<std::string> warnings;
 };
 
 }  // namespace orbitutte

@@ -18,7 +18,7 @@ class FileError : public Error {
   using Error::Error;
 };
 
-/// An argument has no meaning: a signature that is no spherical orbifold, an option out of its range.
+/// An argument makes no sense: a signature that names no orbifold, an option out of its range.
 class ArgumentError : public Error {
  public:
   using Error::Error;

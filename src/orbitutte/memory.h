@@ -4,10 +4,10 @@
 
 namespace orbitutte {
 
-/// Makes malloc keep what is freed for later use, where it is glibc's, instead of giving it back to the
-/// operating system and asking for it anew: large arrays come and go in every stage, and first touching their
-/// pages takes up to a third of an embedding's time (docs/benchmarks.md). It holds for the whole process
-/// until its end, so a program may call this in its main; the library never does.
+/// Makes glibc's malloc keep freed memory for later use instead of giving it back to the operating system;
+/// other allocators stay as they are. Large arrays come and go in every stage, and first touching their
+/// pages takes up to a third of an embedding's time (docs/benchmarks.md). The effect lasts until the process
+/// ends, so the library never calls this; a program may call it in its main.
 void keep_freed_memory();
 
 }  // namespace orbitutte

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How single stages of the method are done: options that programs set, and names of what there is to choose.
+// Options of single stages of the method.
 #pragma once
 
 #include <cstdint>
@@ -42,15 +42,14 @@ struct NameTable<Backend> {
 /// The backends in this binary; the first is the default (CMake option ORBITUTTE_SOLVER).
 std::vector<Backend> available_backends();
 
-/// The BLAS of this binary: OpenBLAS's own description if it can be asked for, else "unknown".
+/// The BLAS of this binary: OpenBLAS's own description if there is one, otherwise "unknown".
 std::string blas_description();
 
 /// How the linear systems are solved.
 struct LaplacianOptions {
   Backend backend = available_backends().front();
 
-  /// Parts of the mesh with at most so many vertices are factorised each on its own, at the same time as
-  /// others.
+  /// Parts of the mesh with at most so many vertices are factorised separately, at the same time as others.
   int block_size = 30000;
 };
 

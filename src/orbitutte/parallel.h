@@ -19,8 +19,8 @@ namespace orbitutte {
 /// How many threads the loops below use here.
 inline int thread_count() { return tbb::this_task_arena::max_concurrency(); }
 
-/// The calling thread's arena of so many threads (0: as many as the machine has). It is kept: oneTBB 2021
-/// gives most of an arena's memory, 7 kB, not back when the arena goes.
+/// The calling thread's arena of so many threads (0: as many as the machine has). It is kept, since oneTBB
+/// 2021 does not give back most of an arena's memory, 7 kB, when the arena is destroyed.
 inline tbb::task_arena& kept_arena(int threads) {
   thread_local std::map<int, tbb::task_arena> arenas;
   const int concurrency = threads == 0 ? int{tbb::task_arena::automatic} : threads;
@@ -37,9 +37,8 @@ auto with_threads(int threads, const Work& work) {
   return kept_arena(threads).execute(work);
 }
 
-/// Calls body(i) for i = 0 .. count - 1, in any order and on any thread; each call may write only what is its
-/// own. Of the exceptions that calls throw, the one of the lowest i is rethrown. Loops may stand within
-/// loops.
+/// Calls body(i) for i = 0 .. count - 1, in any order and on any thread; each call may write only its own
+/// data. If calls throw, the exception of the lowest i is rethrown. Loops may be nested.
 template <typename Body>
 void parallel_for(int count, const Body& body) {
   std::mutex mutex;
@@ -86,7 +85,7 @@ double parallel_sum(int count, const Term& term) {
   return total;
 }
 
-/// The largest term(i) over i = 0 .. count - 1, and 0 at least; a NaN counts for nothing.
+/// The largest term(i) over i = 0 .. count - 1, or 0 if all are negative; NaN is ignored.
 template <typename Term>
 double parallel_max(int count, const Term& term) {
   return tbb::parallel_reduce(

@@ -36,7 +36,8 @@ Pairs opposite_vertices(const EmbedRequest& request) {
   return {{request.cones[0], request.cones[1]}};
 }
 
-// Every arc between opposite points is as short as any other, so that an edge between them has no place.
+// Every arc between opposite points is as short as any other, so the place of an edge between them is not
+// determined.
 void require_no_edge(const Connectivity& connectivity, const Pairs& opposite, const Target& target) {
   for (const auto& [v, w] : opposite) {
     const std::array<int, 2> edge = {std::min(v, w), std::max(v, w)};

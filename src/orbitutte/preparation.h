@@ -15,14 +15,14 @@
 
 namespace orbitutte {
 
-/// A surface, and what is known of it before its cones are.
+/// A surface, and what is known of it before its cones are chosen.
 struct PreparedSurface {
   const Surface& surface;
   /// About its polygons, one sentence each.
   std::vector<std::string> warnings;
 };
 
-/// What embed is asked for.
+/// The arguments of embed.
 struct EmbedRequest {
   const PreparedSurface& prepared;
   const Target& target;
@@ -39,13 +39,13 @@ struct KnownWeights {
 
 /// The last cut.
 struct KnownCut {
-  /// The marked vertices of `cut`, and how many lie inside; none if no cut was completed.
+  /// The marked vertices of `cut`, and how many of them lie inside; empty if no cut was completed.
   std::optional<std::pair<std::vector<int>, int>> through;
   CutMesh cut;
 };
 
-/// What one embedding of a surface leaves behind for the next; each stage knows its own part alone. Results
-/// do not depend on it.
+/// What one embedding of a surface leaves behind for the next one. Each stage knows only its own part, and
+/// results do not depend on it.
 struct EmbeddingCache {
   explicit EmbeddingCache(Kept kept) : laplacians(reusable_laplacians(kept)) {}
 
@@ -54,23 +54,24 @@ struct EmbeddingCache {
   std::shared_ptr<LaplacianReuse> laplacians;
 };
 
-/// Looks for what the user of the surface should be warned of. Throws ArgumentError if the options ask
-/// for weights that its polygons do not have. The surface must outlive the result.
+/// Looks for what users of the surface should be warned about. Throws ArgumentError if the options ask for
+/// weights that its polygons do not have. The surface must outlive the result.
 PreparedSurface prepare(const Surface& surface, const EmbedOptions& options);
 
-/// Throws MeshError if the surface has not the topology that the orbifold needs, if there are not as many
-/// marked vertices as it has marks, or if an edge joins two that have to lie at opposite points.
+/// Throws MeshError if the surface does not have the topology that the target needs, if the number of marked
+/// vertices is not the number of the target's marks, or if an edge joins two vertices that must lie at
+/// opposite points.
 void require_fit(const EmbedRequest& request);
 
-/// Throws MeshError unless the surface has the topology that the orbifold needs. The message about a hole
+/// Throws MeshError unless the surface has the topology that the target needs. The message about a hole
 /// names it and both remedies.
 void require_topology(const Surface& surface, const Target& target);
 
 /// The weights (section 4), those of a metric that is flat at the cones.
 EdgeWeights find_weights(const EmbedRequest& request, KnownWeights& known);
 
-/// Cuts the surface through its marked vertices (section 4.1), and finds the elimination order of its
-/// Laplacian, whose edges have the weights, at the same time.
+/// Cuts the surface through its marked vertices (section 4.1). At the same time finds the elimination order
+/// of the Laplacian, whose edges have the weights.
 void find_cut(const EmbedRequest& request, const EdgeWeights& weights, EmbeddingCache& cache);
 
 }  // namespace orbitutte

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a long computation tells while it runs, and how long each of its stages took.
+// What a long computation reports while it runs, and how long each of its stages took.
 #pragma once
 
 #include <chrono>
@@ -12,10 +12,11 @@
 
 namespace orbitutte {
 
-/// Where the computation is. `iteration`, `energy` and `gradient_norm` mean something in the stage "optimize"
-/// only.
+/// Where the computation is. `iteration`, `energy` and `gradient_norm` are only meaningful in the stage
+/// "optimize".
 struct Progress {
-  std::string stage;  ///< "validate", "weights", "cut", "factorize", "initialize", "optimize", "certify"
+  /// "validate", "weights", "cut", "factorize", "initialize", "optimize", "certify"
+  std::string stage;
   int iteration = 0;
   double energy = 0;
   double gradient_norm = 0;
@@ -27,7 +28,7 @@ using ProgressCallback = std::function<bool(const Progress&)>;
 /// Wall-clock seconds per stage, in the order in which they ran; a stage that ran again has further entries.
 using Timings = std::vector<std::pair<std::string, double>>;
 
-/// Runs the stages, tells of each and times it.
+/// Runs the stages, reports each and times it.
 class Stages {
  public:
   Stages(const ProgressCallback& progress, Timings& timings) : progress_(progress), timings_(timings) {}

@@ -33,12 +33,13 @@ using Triangles = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;
 /// counterclockwise seen from outside.
 struct Polygons {
   std::vector<int> corners;
-  std::vector<int> start = {0};  ///< one more than there are faces
+  /// One entry more than there are faces.
+  std::vector<int> start = {0};
 
   int count() const { return static_cast<int>(start.size()) - 1; }
 };
 
-/// Faces as they are given, be they triangles or polygons: a reference to either.
+/// Faces as they are given: a reference to triangles or to polygons.
 class FaceView {
  public:
   explicit FaceView(const Triangles& triangles)
@@ -49,7 +50,7 @@ class FaceView {
 
   int count() const { return count_; }
 
-  /// How many corners the faces before f have.
+  /// The number of corners of all faces before f.
   int start(int f) const { return start_ ? start_[f] : 3 * f; }
 
   int degree(int f) const { return start(f + 1) - start(f); }
@@ -67,8 +68,10 @@ class FaceView {
 
 /// A triangle mesh. Vertices that no face uses are allowed.
 struct Mesh {
-  Points V;     ///< n x 3
-  Triangles F;  ///< m x 3
+  /// n x 3.
+  Points V;
+  /// m x 3.
+  Triangles F;
 };
 
 /// A corner of a spherical polygon: a vertex on the boundary of a mesh, and the unit vector at which it is
@@ -78,7 +81,7 @@ struct PolygonCorner {
   Vector3 position = Vector3::Zero();
 };
 
-/// What a surface is, as far as spherical orbifolds ask.
+/// What a surface is, as far as orbifolds need to know.
 enum class Topology { sphere, disk, projective_plane, other };
 
 /// Its names.

@@ -13,7 +13,7 @@
 namespace orbitutte {
 namespace {
 
-// How many of the faces are among the collapsing ones, or share an edge with one of them at the least.
+// How many of the faces are among the collapsing ones, or share at least an edge with one of them.
 long count_in_or_beside(const std::vector<int>& collapsing, const FaceView& faces,
                         const std::vector<int>& among) {
   std::unordered_set<int> vertices;

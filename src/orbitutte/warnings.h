@@ -11,19 +11,19 @@
 
 namespace orbitutte {
 
-/// About weights that are zero, and faces that a side flattens.
+/// Warnings about weights that are zero, and about faces that a side of the tile flattens.
 std::vector<std::string> warnings_about(const EdgeWeights& weights, const std::vector<Ear>& ears);
 
-/// About a sphere that is inside out: its volume is negative. None, or one warning.
+/// At most one warning: about a sphere that is inside out, so that its volume is negative.
 std::vector<std::string> warnings_of_orientation(const Surface& surface);
 
-/// The input vertices of each mirror and held side, along the boundary: those that collapsing_faces asks for.
-/// source_vertex: of the cut mesh.
+/// The input vertices of each mirror and held side, along the boundary, as collapsing_faces needs them.
+/// source_vertex: that of the cut mesh.
 std::vector<std::vector<int>> mirrors_of(const Tile& tile, const BoundaryConditions& boundary,
                                          const std::vector<int>& source_vertex);
 
-/// About faces that are not positively oriented, those of them that no solver could have done better: they
-/// are among the collapsing ones, or beside them. None, or one warning.
+/// At most one warning: about those faces that are not positively oriented and that no solver could have
+/// made positive, because they are among the collapsing faces or beside them.
 std::vector<std::string> warnings_of_collapse(const FaceView& faces, const std::vector<int>& collapsing,
                                               const std::vector<int>& nonpositive);
 

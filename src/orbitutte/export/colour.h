@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Colours as files have them, and in linear light, where they are added and averaged.
+// Colours as files have them, and in linear light, in which they can be added and averaged.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +35,7 @@ double lightness(const Colour& colour);
 /// equal.
 Colour between(const Colour& from, const Colour& to, double t);
 
-/// The same colour at another lightness of Oklab. What no screen can show is cut off.
+/// The same colour at another lightness of Oklab. Channels that no screen can show are clamped.
 Colour at_lightness(const Rgb& colour, double lightness);
 
 /// "#0b5fbd".

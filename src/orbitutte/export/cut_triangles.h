@@ -7,11 +7,11 @@
 
 namespace orbitutte {
 
-/// Does the cut mesh have face f of the input turned over, from the same corner on? Some faces of a
+/// Is face f of the input turned over in the cut mesh, beginning with the same corner? Some faces of a
 /// projective plane are. The embedding must be one of the surface.
 bool is_turned_face(const Surface& surface, const Embedding& embedding, int f);
 
-/// The corner of the cut mesh's face f that is the input's k-th.
+/// The corner of face f of the cut mesh that is the k-th corner in the input.
 int cut_corner(const Surface& surface, const Embedding& embedding, int f, int k);
 
 /// The embedding's faces divided in the same way as the surface's, T x 3. The embedding must be one of the

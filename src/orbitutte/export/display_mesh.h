@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The part of a large embedding that is drawn: a selection of its vertices, with fewer triangles between
-// them.
+// The part of a large embedding that is drawn: some of its vertices, with fewer triangles between them.
 #pragma once
 
 #include <array>
@@ -21,13 +20,13 @@ struct DisplayLevel {
 struct DisplayMesh {
   /// The cut vertex of every display vertex, ascending; both have exactly the same position.
   std::vector<int> cut_vertex;
-  /// For the source and the tile.
+  /// For the source and for the tile.
   DisplayLevel fine;
   /// For the copies of the tile, which are small.
   DisplayLevel coarse;
 };
 
-/// How many faces are drawn.
+/// The largest numbers of triangles that are drawn.
 struct DisplayLimits {
   /// Of the fine level.
   int faces = 400000;
@@ -35,9 +34,9 @@ struct DisplayLimits {
   int tiling_faces = 600000;
 };
 
-/// A level is the whole cut mesh if that is within the limit; otherwise edge collapses make it (quadric
-/// error, meshoptimizer). The outline is never coarsened, so that copies still meet; therefore a level may
-/// exceed its limit. Vertices that no face uses are left out.
+/// A level is the whole cut mesh if that is within the limit. Otherwise edge collapses make it (quadric
+/// error, meshoptimizer). The outline is never coarsened, so that copies still meet; for this reason a level
+/// may exceed its limit. Vertices that no face uses are left out.
 DisplayMesh display_mesh(const Surface& surface, const Embedding& embedding,
                          const DisplayLimits& limits = {});
 

@@ -11,7 +11,7 @@
 
 namespace orbitutte {
 
-/// A surface and everything about its embedding that is written.
+/// A surface, and everything about its embedding that is written.
 struct ExportedModel {
   /// The input.
   Surface surface;
@@ -36,8 +36,8 @@ ExportedModel exported_model(Surface surface, const Embedding& embedding, Textur
 /// - VTP (XML, base64): the cut mesh in space, with its sphere positions, texture coordinates and source
 ///   vertices as point arrays, and area and angle distortion as cell arrays.
 ///
-/// The file appears whole or not at all. Throws ArgumentError for another ending or a model too large for the
-/// format, and FileError.
+/// The file appears whole or not at all. Throws ArgumentError for another ending or if the model is too
+/// large for the format, and FileError.
 void write_model(const std::string& path, const ExportedModel& model);
 
 }  // namespace orbitutte

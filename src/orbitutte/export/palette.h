@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What each colour stands for: the one table for files, pictures and the page.
+// What each colour means: the one table for files, pictures and the page.
 #pragma once
 
 #include <vector>
@@ -10,12 +10,12 @@
 
 namespace orbitutte {
 
-/// How many colours of tiles there are: enough for a tile with seven neighbours, three pairs of sides and a
+/// The number of colours of copies: enough for a tile with seven neighbours, three pairs of sides and a
 /// mirror.
 constexpr int palette_size = 8;
 
-/// The tile's copy with this number (modulo palette_size), a shade darker where it is mirrored. All sixteen
-/// are distinct, even with 5 bits a channel.
+/// The copy with this colour number (modulo palette_size), a shade darker if it is mirrored. All sixteen are
+/// distinct, even with 5 bits a channel.
 Rgb tile_colour(int colour, bool mirrored);
 
 /// The source, and the tile itself among its copies.
@@ -35,7 +35,7 @@ Colour sequential_colour(double t);
 /// The colour at the share t, 0 .. 1, of the scale of a measure.
 Colour scale_colour(Measure measure, double t);
 
-/// The colour of a face on the scale; grey where it is not measured.
+/// The colour of a face on the scale; grey if it is not measured.
 Colour face_colour(const ColourScale& scale, const FaceDistortion& face);
 
 /// The colours of the scale of a measure, `count` of them in equal steps.
@@ -48,7 +48,7 @@ Rgb bar_colour(double shade);
 /// A line of a chart on white paper.
 Rgb tone_colour(ChartTone tone);
 
-/// The same colour as light as a dark ground needs it.
+/// The same colour, light enough for a dark ground.
 Rgb on_dark(const Rgb& colour);
 
 namespace ink {

@@ -12,7 +12,8 @@ namespace orbitutte {
 
 /// Maps from the sphere into the unit square, centred at the middle of the tile.
 enum class TextureChart {
-  /// From the point opposite to the middle of the tile; conformal, and in the plane the plane itself.
+  /// The projection from the point opposite to the middle of the tile. It is conformal; in the plane it is
+  /// the plane itself.
   stereographic,
   /// Longitude and latitude. The poles lie beside the tile, in the direction in which it is narrower.
   equirectangular,
@@ -37,13 +38,13 @@ struct TextureCoordinates {
   /// The largest max(A, 1/A), where A is a face's share of the area in the square over its share on the
   /// sphere.
   double max_area_distortion = 1;
-  /// Faces across the outer edge of the octahedral chart; their images there are wrong.
+  /// The number of faces across the outer edge of the octahedral chart, whose images are wrong there.
   int torn_faces = 0;
 };
 
 /// Texture coordinates in the unit square. In the equirectangular chart, faces across the date line reach
-/// beyond its right edge, where textures repeat. Throws ArgumentError for the charts of the sphere if the
-/// embedding lies in the plane.
+/// beyond its right edge, where textures repeat. Throws ArgumentError if the embedding lies in the plane and
+/// the chart is one of the sphere only.
 TextureCoordinates texture_coordinates(const Embedding& embedding, TextureChart chart);
 
 }  // namespace orbitutte

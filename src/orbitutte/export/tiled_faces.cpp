@@ -36,8 +36,8 @@ int mirror_count(const MirrorsOfVertices& mirrors, int v) {
   return static_cast<int>(std::count_if(mirrors[v].begin(), mirrors[v].end(), [](int m) { return m >= 0; }));
 }
 
-// The corner whose removal leaves a side that lies on no mirror; of several the one on the most mirrors, so
-// that corners inside the tile last until the end. -1 if there is none.
+// The corner whose removal leaves a side that lies on no mirror. Of several, the one on the most mirrors, so
+// that corners inside the tile remain until the end. -1 if there is none.
 int corner_to_cut(const MirrorsOfVertices& mirrors, const std::vector<int>& ring) {
   const int n = static_cast<int>(ring.size());
   int best = -1;
@@ -104,7 +104,7 @@ class Selection {
     return false;
   }
 
-  // Polygons are convex, so that any corner may be cut off.
+  // Polygons are convex, so any corner may be cut off.
   void divide(int f, const Corners& face) {
     std::vector<int> ring(face.begin(), face.end());
     while (ring.size() > 3) {

@@ -9,23 +9,29 @@
 
 namespace orbitutte {
 
-/// The mirrors on which each cut vertex lies, at most two of them, by any number that tells one mirror from
-/// the other; -1 for none.
+/// The mirrors on which each cut vertex lies, at most two. Each mirror has some number that tells it from
+/// the others; -1 stands for none.
 using MirrorsOfVertices = std::vector<std::array<int, 2>>;
 
 /// What every copy of the tile consists of.
 struct TiledFaces {
-  Triangles triangles;           ///< on cut vertices
-  std::vector<int> face_of;      ///< of every triangle: the input face
-  Polygons polygons;             ///< on cut vertices; none where all faces are triangles
-  std::vector<int> input_faces;  ///< those that are here, ascending
-  std::vector<int> left_out;     ///< and those that are not
+  /// On cut vertices.
+  Triangles triangles;
+  /// Of every triangle: the input face.
+  std::vector<int> face_of;
+  /// On cut vertices; empty if all faces are triangles.
+  Polygons polygons;
+  /// The input faces that are here, ascending.
+  std::vector<int> input_faces;
+  /// The input faces that are not.
+  std::vector<int> left_out;
 };
 
-/// The faces of the embedding but those all of whose vertices lie on one mirror: such a face is an arc, and
-/// its mirror image has the same vertices. A polygon whose triangles have a side between two vertices of one
-/// mirror is divided anew, since that side would coincide with its mirror image. Throws MeshError naming
-/// an edge of the input that does so, or a face that cannot be divided, and what to do about it.
+/// The faces of the embedding without those whose vertices all lie on one mirror: such a face is an arc, and
+/// its mirror image has the same vertices. If a triangle of a polygon has a side between two vertices of one
+/// mirror, the polygon is divided anew, since that side would coincide with its mirror image. Throws
+/// MeshError if an edge of the input coincides with its mirror image or if a face cannot be divided; names
+/// it, and says what to do.
 TiledFaces tiled_faces(const Embedding& embedding, const MirrorsOfVertices& mirrors);
 
 }  // namespace orbitutte

@@ -22,7 +22,7 @@ void check_vertices(const std::vector<int>& vertices, int count) {
       throw ArgumentError(fmt::format("a seam names the cut vertex {}, but there are {}", v, count));
 }
 
-/// Checks for errors that an embedding read from files may have.
+/// Checks for errors that an embedding may have if it was read from files.
 void check_embedding(const Embedding& embedding, int copies) {
   const int vertices = static_cast<int>(embedding.positions.rows());
   if (!embedding.positions.allFinite())
@@ -50,7 +50,7 @@ void check_embedding(const Embedding& embedding, int copies) {
                     embedding.triangles.rows()));
 }
 
-/// The copies that are asked for: all, or of infinitely many so many.
+/// The group of the copies that are asked for: all, or `copies` of infinitely many.
 SymmetryGroup checked_group(const Embedding& embedding, int copies) {
   if (copies < 1) throw ArgumentError(fmt::format("{} copies make no tiling; ask for one or more", copies));
   const int order = embedding.target.group_order;
@@ -116,8 +116,8 @@ struct Welding {
   int vertices = 0;
 };
 
-/// Mirrors are told apart by their reflections, whose indices in the group are across[s][0]; those that are
-/// in no patch, by their seams.
+/// A mirror's number is the index of its reflection in the group, across[s][0]; if the patch does not
+/// contain the reflection, the number is that of the seam.
 MirrorsOfVertices mirrors_of_vertices(const Embedding& embedding,
                                       const std::vector<std::vector<int>>& across) {
   MirrorsOfVertices mirrors(embedding.positions.rows(), {-1, -1});

@@ -22,9 +22,8 @@ struct TileCopy {
 /// So many copies of the tile are welded in the plane, unless another number is asked for.
 constexpr int default_plane_copies = 25;
 
-/// The copies without a mesh, the identity first: all |G|, or of infinitely many as many as
-/// `copies` says, nearest to the tile first. Throws as weld_copies does if the seams do not generate the
-/// group.
+/// The copies without a mesh, the identity first: all |G|; of infinitely many, the `copies` nearest to the
+/// tile. Throws as weld_copies does if the seams do not generate the group.
 std::vector<TileCopy> tile_copies(const Embedding& embedding, int copies = default_plane_copies);
 
 /// The welded copies.
@@ -38,7 +37,7 @@ struct Tiling {
   std::vector<int> source_face;
   /// The input vertex of every vertex.
   std::vector<int> source_vertex;
-  /// All |G|, or those in the patch; the identity first.
+  /// All |G| copies, or those in the patch; the identity first.
   std::vector<TileCopy> copies;
   /// The faces that the triangles make up, copy by copy; empty if all are triangles.
   Polygons polygons;
@@ -57,10 +56,10 @@ struct Tiling {
 /// Welds by the combinatorics alone: copy g of left[i] is copy g*transform of right[i]. Positions are never
 /// compared. Vertices that no face uses are left out; faces and vertices come copy by copy. Polygons are
 /// divided so that no diagonal coincides with its mirror image. Time and memory O(m |G|). On the sphere the
-/// result is one closed mesh (require_closed_sphere); in the plane so many `copies` are welded, those nearest
-/// to the tile, and its border is open. Throws ArgumentError if the seams do not generate a group of order
-/// embedding.group_order, if the copies do not close up into a sphere (for instance without seams), if the
-/// result has more corners than an int can count, if positions are not finite, or if indices are out of
+/// result is one closed mesh (require_closed_sphere). In the plane the `copies` nearest to the tile are
+/// welded, and the border of the mesh is open. Throws ArgumentError if the seams do not generate a group of
+/// order embedding.group_order, if the copies do not close up into a sphere (for instance without seams), if
+/// the result has more corners than an int can count, if positions are not finite, or if indices are out of
 /// range; MeshError if the mesh is not closed, naming the edge or face of the input, as tiled_faces does.
 Tiling weld_copies(const Embedding& embedding, int copies = default_plane_copies);
 
@@ -68,14 +67,14 @@ Tiling weld_copies(const Embedding& embedding, int copies = default_plane_copies
 /// - PLY, binary: double x y z, int source_vertex; vertex_indices, uchar red green blue, int tile, int
 ///   source_face;
 /// - OBJ: a group `tile_g` per copy g, a material per colour in an .mtl file beside it, which is written
-/// first;
+///   first;
 /// - STL, binary: the colour in the attribute word: bit 15 set, then 5 bits each of red, green and blue;
 /// - GLB: a material and a primitive per colour, all on the same vertices, in single precision.
 ///
-/// PLY and OBJ have polygons if the input has them; STL and GLB have triangles. Neighbouring copies differ in
-/// colour; mirrored copies are a shade darker. The file appears whole or not at all. Throws ArgumentError for
-/// another ending or a tiling too large for the format (GLB: 4 GiB); MeshError if the triangles of polygons,
-/// in the formats that have no others, are no closed mesh; and FileError.
+/// PLY and OBJ have polygons if the input has them; STL and GLB have triangles. Neighbouring copies differ
+/// in colour; mirrored copies are a shade darker. The file appears whole or not at all. Throws ArgumentError
+/// for another ending or a tiling too large for the format (GLB: 4 GiB); MeshError if the format has
+/// triangles only and the triangles of polygons are not a closed mesh; and FileError.
 void write_tiling(const std::string& path, const Tiling& tiling);
 
 }  // namespace orbitutte

@@ -33,7 +33,7 @@ void append_stl_vector(std::string& bytes, const Vector3& vector) {
 
 int faces_in_copy(const Tiling& tiling) { return std::max(1, static_cast<int>(tiling.input_faces.size())); }
 
-/// Of polygons the diagonals may coincide where two polygons share two vertices that no edge joins.
+/// If two polygons share two vertices that no edge joins, diagonals of both may coincide.
 void require_closed_triangles(const Tiling& tiling) {
   if (tiling.polygons.count() > 0) require_closed_sphere(tiling.mesh);
 }

@@ -31,7 +31,7 @@ std::string stl_bytes(const Tiling& tiling);
 std::string glb_bytes(const Tiling& tiling);
 std::string mtl_text(const Tiling& tiling);
 
-/// `library` is the name of the .mtl file beside it.
+/// `library` is the name of the .mtl file beside the OBJ file.
 std::string obj_text(const Tiling& tiling, const std::string& library);
 
 }  // namespace orbitutte

@@ -12,7 +12,7 @@ namespace orbitutte {
 namespace {
 
 constexpr double near = 1e-6;  // of the boundary's size
-// In one cell, more vertices than one has neighbours on the boundary: one of them is no neighbour.
+// More vertices in one cell than a vertex has neighbours on the boundary: one of them is not a neighbour.
 constexpr std::size_t enough_of_a_cell = 3;
 
 using Cell = std::array<std::int64_t, 3>;
@@ -33,8 +33,8 @@ std::vector<int> finite_vertices(const Points& V, const std::vector<std::array<i
   return vertices;
 }
 
-// The boundary's vertices in cells as wide as what counts as near: those that are near each other lie in the
-// same cell or in cells that touch.
+// The boundary's vertices in cells as wide as the distance that counts as near. Vertices that are near each
+// other lie in the same cell or in cells that touch.
 class Cells {
  public:
   Cells(const Points& V, const std::vector<int>& vertices) : V_(V) {

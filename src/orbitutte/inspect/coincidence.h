@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Vertices of the boundary at the same point: they tell that a surface was never welded together, as along
-// the seams of a texture.
+// Vertices of the boundary at the same point. They show that a surface was not welded together, for instance
+// along the seams of a texture.
 #pragma once
 
 #include <array>
@@ -14,12 +14,15 @@ namespace orbitutte {
 
 /// Two vertices of the boundary that no edge of the boundary joins.
 struct Coincidence {
-  int vertex = -1, other = -1;  ///< vertex < other
-  double distance = 0;          ///< 0: at the same point
+  /// Vertex < other.
+  int vertex = -1, other = -1;
+  /// 0: at the same point.
+  double distance = 0;
 };
 
 /// The first two vertices at the same point, or, if there are none, nearly so: a millionth of the boundary's
-/// size apart. `boundary`: its edges, in any order; positions that are not finite are left out. O(n log n).
+/// size apart. `boundary` has its edges, in any order. Positions that are not finite are left out. O(n log
+/// n).
 std::optional<Coincidence> find_coincidence(const Points& V, const std::vector<std::array<int, 2>>& boundary);
 
 /// "vertices 2 and 14 are at the same point: weld such vertices first"; empty if there are none.

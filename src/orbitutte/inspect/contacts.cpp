@@ -80,7 +80,7 @@ class ContactSearch {
     }
   }
 
-  // From the side that has fewer corners to look at.
+  // Begins on the side with fewer corners to look at.
   int corner(int face, int vertex) const {
     if (surface_.degree(face) <= degree(vertex)) {
       int c = surface_.face_start[face];
@@ -92,7 +92,7 @@ class ContactSearch {
     return *c;
   }
 
-  // Do edges that both faces have lead from one vertex to the other?
+  // Do edges of both faces lead from one vertex to the other?
   bool is_one_contact(const DoubleContact& contact) const {
     const int c = corner(contact.face, contact.vertex);
     const auto is_common = [&](int h) {

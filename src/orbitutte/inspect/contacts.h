@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where two faces of a mesh touch more than once: at the two vertices of such a place the mesh falls apart.
+// Places where two faces of a mesh touch more than once. Without the two vertices of such a place the mesh
+// falls apart.
 #pragma once
 
 #include <vector>
@@ -8,7 +9,8 @@
 
 namespace orbitutte {
 
-/// Two faces that share two vertices which no edges that both have join: the two vertices separate the mesh.
+/// Two faces that share two vertices, which are not joined by edges of both faces. The two vertices separate
+/// the mesh.
 struct DoubleContact {
   int face = -1, other = -1;
   int vertex = -1, second = -1;

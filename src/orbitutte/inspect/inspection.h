@@ -12,21 +12,35 @@ namespace orbitutte {
 
 /// In the order in which defects are reported and should be mended.
 enum class DefectKind {
-  empty_mesh,           ///< no vertices or no faces
-  index_out_of_range,   ///< a face names a vertex that the mesh does not have
-  non_finite_position,  ///< a coordinate is infinite or no number
-  size_out_of_range,    ///< coordinates so large, or a mesh so small, that squared lengths are no doubles
-  too_few_corners,      ///< a face with fewer than three corners
-  repeated_vertex,      ///< a face that names a vertex twice
-  duplicate_face,       ///< a face with the same vertices as an earlier one
-  non_manifold_edge,    ///< more than two faces on an edge
-  non_manifold_vertex,  ///< the faces of a vertex are not one fan
-  inconsistent_orientation,  ///< two faces run through an edge in the same direction; turning faces mends it
+  /// No vertices or no faces.
+  empty_mesh,
+  /// A face names a vertex that the mesh does not have.
+  index_out_of_range,
+  /// A coordinate is infinite or not a number.
+  non_finite_position,
+  /// Coordinates are so large, or the mesh is so small, that doubles cannot hold squared lengths.
+  size_out_of_range,
+  /// A face with fewer than three corners.
+  too_few_corners,
+  /// A face that names a vertex twice.
+  repeated_vertex,
+  /// A face with the same vertices as an earlier one.
+  duplicate_face,
+  /// More than two faces on an edge.
+  non_manifold_edge,
+  /// The faces of a vertex are not one fan.
+  non_manifold_vertex,
+  /// Two faces run along an edge in the same direction; turning faces over mends it.
+  inconsistent_orientation,
   several_components,
-  holes,           ///< more than one boundary curve
-  genus,           ///< handles
-  not_orientable,  ///< and no projective plane: no turning of faces makes them agree
-  no_area          ///< no face has any: all vertices at one point, say
+  /// More than one boundary curve.
+  holes,
+  /// Handles.
+  genus,
+  /// The faces cannot be turned so that all agree, and the surface is not a projective plane.
+  not_orientable,
+  /// No face has any area; for instance, all vertices are at one point.
+  no_area
 };
 
 /// Its names.
@@ -54,56 +68,65 @@ struct NameTable<DefectKind> {
 struct Defect {
   DefectKind kind;
   std::string message;
-  long long count =
-      1;  ///< how many vertices, edges, faces, components, boundary curves or handles are concerned
+  /// The number of vertices, edges, faces, components, boundary curves or handles concerned.
+  long long count = 1;
 };
 
-/// What was found out about a mesh.
+/// What is known of a mesh.
 struct Inspection {
   int vertices = 0;
-  int unreferenced_vertices = 0;  ///< allowed: they keep their index
+  /// They are allowed, and keep their index.
+  int unreferenced_vertices = 0;
   int faces = 0;
   int triangles = 0;
   int max_face_degree = 0;
 
-  // The surface of the well-formed faces: three corners or more, all different and in range; a face given
-  // twice counts once. Vertices are connected through the corners of all faces.
+  // The surface of the well-formed faces: three corners or more, all different and in range; a face that is
+  // given twice counts once. Vertices are connected through the corners of all faces.
   int edges = 0;
-  int components =
-      0;  ///< in one piece as a set of points: parts that share no more than a vertex are one component
-  int euler_characteristic =
-      0;  ///< of the referenced vertices, edges and faces; 0 where a face is not well-formed
+  /// Pieces of the set of points; parts that share only a vertex are one component.
+  int components = 0;
+  /// Of the referenced vertices, edges and faces; 0 if a face is not well-formed.
+  int euler_characteristic = 0;
 
-  // What is known of surfaces only: left as here where an edge or a vertex is not manifold or a face not
-  // well-formed.
-  int genus = 0;  ///< of an orientable surface in one piece, its holes closed; otherwise 0
+  /// Of an orientable surface in one piece after its holes are closed; otherwise 0.
+  // What is known of surfaces only. If an edge or a vertex is not manifold or a face is not well-formed, the
+  // values stay as they are here.
+  int genus = 0;
   bool orientable = true;
-  std::vector<std::vector<int>> boundary;  ///< boundary curves as vertex loops along the faces' half-edges,
-                                           ///< each from its smallest vertex, longest first
-  Topology topology = Topology::other;     ///< other, wherever a defect stands in the way
-  /// Of a disk: that vertices of its boundary are at the same point, or nearly, as along a texture's seam,
-  /// and what to do if a sphere is meant; empty if there are none.
+  /// Boundary curves as loops of vertices along the faces' half-edges. Each begins at its smallest vertex;
+  /// the longest comes first.
+  std::vector<std::vector<int>> boundary;
+  /// `other` if there is a defect.
+  Topology topology = Topology::other;
+  /// If vertices of a disk's boundary are at the same point, or nearly, as along a texture's seam: a
+  /// sentence that says so, and what to do if a sphere is meant. Otherwise empty.
   std::string welding_advice;
 
-  // Quality of the faces, those without area left out; all zero if a coordinate is not finite or out of
+  /// Faces with no area but rounding errors. They are allowed unless all are like that.
+  // Quality of the faces; faces without area are left out. All zero if a coordinate is not finite or out of
   // range. The area of a polygon is that of its vector, half the sum of its corners' cross products.
-  int zero_area_faces = 0;  ///< with no area but rounding errors; allowed, if not all are
+  int zero_area_faces = 0;
   double area = 0;
-  double min_angle = 0;  ///< of a face at a corner: radians
-  double max_angle = 0;  ///< radians; above pi where a polygon bends inwards
+  /// Of a face at a corner: radians.
+  double min_angle = 0;
+  /// Radians; above pi if a polygon bends inwards.
+  double max_angle = 0;
   double min_edge_length = 0;
   double max_edge_length = 0;
-  int negative_cotangent_edges = 0;  ///< between triangles: cotangent weight (cot a + cot b)/2 below zero,
-                                     ///< clamped by the weights `cotan`
-  int zero_cotangent_edges = 0;      ///< between triangles: cotangent weight zero up to rounding errors
+  /// Edges between triangles whose cotangent weight (cot a + cot b)/2 is below zero; the weights `cotan`
+  /// clamp them.
+  int negative_cotangent_edges = 0;
+  /// Edges between triangles whose cotangent weight is zero up to rounding errors.
+  int zero_cotangent_edges = 0;
 
-  std::vector<Defect>
-      defects;  ///< all of them, in the order in which they should be mended; one of each kind
+  /// All of them, in the order in which they should be mended; one of each kind.
+  std::vector<Defect> defects;
 };
 
-/// Looks at everything, in time O(n log n), and never throws on account of the mesh. What a defect makes
-/// meaningless is neither claimed nor counted: a surface with an edge of three faces has no genus. Throws
-/// ArgumentError only where the face_start of `mesh` are not ascending offsets into its corners.
+/// Looks at everything, in time O(n log n), and never throws because of the mesh. If a defect makes a
+/// quantity meaningless, the quantity is left out: a surface with an edge of three faces has no genus.
+/// Throws ArgumentError only if mesh.face_start are not ascending offsets into its corners.
 Inspection inspect(const PolygonMesh& mesh);
 
 /// The same for triangles.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Defects of single vertices and faces, and faces that are there twice.
+// Defects of single vertices and faces, and faces that are given twice.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -40,7 +40,7 @@ void report_positions(const PolygonMesh& mesh, Inspection& result) {
                   such(vertices, "vertices")));
 }
 
-// Squared lengths have to be doubles.
+// Doubles must be able to hold squared lengths.
 void report_size(const PolygonMesh& mesh, Inspection& result) {
   if (has(result, DefectKind::non_finite_position)) return;
   int vertices = 0, first = -1;

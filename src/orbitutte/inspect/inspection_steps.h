@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the steps of `inspect` share: polygons with their edges, and how defects are put down.
+// What the steps of `inspect` share: polygons with their edges, and how defects are recorded.
 #pragma once
 
 #include <algorithm>
@@ -56,8 +56,8 @@ inline bool in_range(const PolygonMesh& mesh, int vertex) {
   return vertex >= 0 && vertex < mesh.vertex_count();
 }
 
-// The steps, in their order. Each reports one kind of defect, or a few that hang together, and leaves out
-// what earlier defects have made meaningless.
+// The steps, in their order. Each reports one kind of defect, or a few related ones, and leaves out what
+// earlier defects have made meaningless.
 void inspect_faces(InspectedMesh& inspected, Inspection& result);
 void inspect_topology(InspectedMesh& inspected, Inspection& result);
 void inspect_quality(const InspectedMesh& inspected, Inspection& result);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Edges, fans, components, orientation, boundary and genus. Orders come from counting sorts and sorts of
-// short ranges, connections from disjoint sets, so that no mesh is too large or too broken.
+// Edges, fans, components, orientation, boundary and genus. Counting sorts and sorts of short ranges give
+// orders, and disjoint sets give connections, so no mesh is too large or too broken.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -60,8 +60,8 @@ DisjointSets corner_fans(const InspectedMesh& s) {
   return fans;
 }
 
-// Vertices of malformed faces and of faces on an edge of too many: once those are mended, they may have one
-// fan.
+// Vertices of malformed faces, and of faces on an edge with too many faces. They may have one fan once those
+// are mended.
 std::vector<char> excused_vertices(const InspectedMesh& s) {
   std::vector<char> face_excused(s.mesh.face_count(), 0), excused(s.mesh.vertex_count(), 0);
   for (int e = 0; e < s.edge_count(); ++e) {
@@ -101,7 +101,7 @@ void report_vertices(const InspectedMesh& s, Inspection& result) {
                   first, faces.size(), listed(faces), such(vertices, "vertices")));
 }
 
-// What belongs together through the corners of faces.
+// A component: what is connected through the corners of faces.
 struct Component {
   int vertex = -1;  // its smallest one
   int vertices = 0;
@@ -157,7 +157,7 @@ Components find_components(const InspectedMesh& s) {
   return result;
 }
 
-// "the surface", or the component by its smallest vertex where there are several.
+// "the surface"; or the component by its smallest vertex if there are several.
 std::string subject(const Components& components, const Component& component) {
   return components.list.size() == 1 ? "the surface"
                                      : fmt::format("the component of vertex {}", component.vertex);
@@ -173,7 +173,7 @@ std::string welding_advice(const InspectedMesh& s) {
 void report_components(const InspectedMesh& s, Components components, Inspection& result) {
   auto& list = components.list;
   result.components = static_cast<int>(list.size());
-  // A face with an index out of range may be what connects them.
+  // A face with an index out of range may connect them.
   if (result.components < 2 || has(result, DefectKind::index_out_of_range)) return;
   std::stable_sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.faces > b.faces; });
   std::vector<int> sizes;
@@ -213,7 +213,7 @@ void find_orientability(const InspectedMesh& s, Components& components) {
 }
 
 // The first edge of a component that two faces run through in the same direction, and how many there are.
-// What a face that is there twice does tells nothing: which of the two goes is open.
+// Faces that are given twice are not counted, since either of the two may have to go.
 struct Clash {
   int edge = -1;
   int count = 0;
@@ -248,7 +248,7 @@ void report_orientation(const InspectedMesh& s, Components& components, Inspecti
 }
 
 // The two neighbours of every boundary vertex along the boundary, its successor along the faces' half-edges
-// first where the faces agree; -1 in the interior. Manifold vertices have no third.
+// first if the faces agree; -1 in the interior. Manifold vertices have no third.
 std::vector<std::array<int, 2>> boundary_neighbors(const InspectedMesh& s) {
   std::vector<std::array<int, 2>> result(s.mesh.vertex_count(), {-1, -1});
   const auto put = [&](int v, int slot, int neighbor) {
@@ -347,7 +347,7 @@ Topology topology_of(const Component& component) {
                                         : Topology::other;
 }
 
-// What only a surface has: every face well-formed, every edge of one or two faces, every vertex of one fan.
+// Is the mesh a surface: every face well-formed, every edge of one or two faces, every vertex of one fan?
 bool is_surface(const Inspection& result) {
   using enum DefectKind;
   const std::array<DefectKind, 5> broken = {index_out_of_range, too_few_corners, repeated_vertex,

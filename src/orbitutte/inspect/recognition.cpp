@@ -63,7 +63,7 @@ Fans fans_of(const Triangles& F, const std::vector<int>& opposite, int vertex_co
   return fans;
 }
 
-// Do the faces at v make up one fan? It is walked clockwise from the boundary, or once around.
+// Do the faces at v make up one fan? Walks clockwise from the boundary, or once around.
 bool is_one_fan(const Fans& fans, const std::vector<int>& opposite, int v) {
   const int first = fans.outgoing[v];
   if (first < 0) return true;
@@ -103,7 +103,7 @@ int count_boundary_curves(const Triangles& F, const std::vector<int>& opposite) 
   return curves;
 }
 
-// What an inspection without defects tells of a surface that has no vertices and faces yet.
+// What an inspection without defects tells about a surface. Vertices and faces are still missing.
 Surface judged(const Inspection& inspection) {
   Surface surface;
   surface.topology = inspection.topology;
@@ -125,8 +125,8 @@ bool is_degenerate_triangle(const Vector3& a, const Vector3& b, const Vector3& c
 
 namespace {
 
-// What a few linear sweeps tell of a sphere or disk without a defect, all but vertices and faces; nothing of
-// others.
+// What a few linear sweeps tell about a sphere or disk without a defect: everything but vertices and faces.
+// Nothing if the mesh is something else.
 std::optional<Surface> judge_quickly(const Mesh& mesh) {
   const int n = static_cast<int>(mesh.V.rows()), m = static_cast<int>(mesh.F.rows());
   if (m == 0) return std::nullopt;
@@ -143,7 +143,7 @@ std::optional<Surface> judge_quickly(const Mesh& mesh) {
   if (!is_connected(result.connectivity, fans.corners)) return std::nullopt;
 
   result.unreferenced_vertices = static_cast<int>(std::count(fans.corners.begin(), fans.corners.end(), 0));
-  // Two faces of a connected manifold have the same vertices only where they are all of it.
+  // Two faces of a connected manifold have the same vertices only if there are no other faces.
   if (m == 2 && n - result.unreferenced_vertices == 3) return std::nullopt;
   const long euler =
       n - result.unreferenced_vertices - static_cast<long>(result.connectivity.edges.size()) + m;

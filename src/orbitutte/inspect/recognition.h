@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The surface that a mesh is, where it can be embedded.
+// The surface that a mesh is, if it can be embedded.
 #pragma once
 
 #include <optional>
@@ -24,14 +24,14 @@ Surface make_surface(const Mesh& mesh);
 Surface make_surface(PolygonMesh&& mesh);
 Surface make_surface(const PolygonMesh& mesh);
 
-/// The mesh as a sphere or disk, in a few linear sweeps. Nothing if it is another surface, or has a defect of
-/// any kind; then the mesh stays as it was.
+/// The mesh as a sphere or disk, found in a few linear sweeps. Nothing if it is another surface or has a
+/// defect of any kind; then the mesh stays as it was.
 std::optional<Surface> recognize_sphere_or_disk(Mesh&& mesh);
 
-/// Is the mesh a sphere without a defect, and every vertex in some face? In a few linear sweeps.
+/// Is the mesh a sphere without a defect, every vertex of which is in some face? Takes a few linear sweeps.
 bool is_sound_sphere(const Mesh& mesh);
 
-/// Has the triangle no area but rounding errors, for the largest coordinate of its edges as the unit?
+/// Does the triangle have no area but rounding errors, measured by the largest coordinate of its edges?
 bool is_degenerate_triangle(const Vector3& a, const Vector3& b, const Vector3& c);
 
 }  // namespace orbitutte

@@ -44,7 +44,7 @@ bool is_ear(const PolygonTopology& surface, int f) {
   return boundary_edges(surface, f) + 1 >= surface.degree(f);
 }
 
-// Its edge inside; any other where there is none.
+// Its edge inside; any other if there is none.
 int inner_halfedge(const PolygonTopology& surface, int f) {
   int c = surface.face_start[f];
   while (surface.twin[c] < 0 && c + 1 < surface.face_start[f + 1]) ++c;
@@ -108,7 +108,7 @@ Places faces_on_the_boundary(const PolygonTopology& surface, const std::vector<c
   return places;
 }
 
-// Is the surface a projective plane? There, vertices that two faces share need not separate anything.
+// Is the surface a projective plane? On it, vertices that two faces share need not separate anything.
 bool is_projective_plane(const PolygonTopology& surface) {
   if (std::find(surface.twin.begin(), surface.twin.end(), -1) != surface.twin.end()) return false;
   const std::set<int> vertices(surface.origin.begin(), surface.origin.end());
@@ -129,7 +129,7 @@ class Parts {
   explicit Parts(const FaceView& faces) : surface(topology_of(faces)), seen_(surface.face_count(), -1) {}
 
   // The faces that can be reached from a half-edge's without passing through the two given ones; the search
-  // ends where there are more than `most`.
+  // ends if there are more than `most`.
   std::vector<int> reached(int halfedge, const std::array<int, 2>& walls, std::size_t most) {
     ++flood_;
     std::vector<int> part;
@@ -184,7 +184,7 @@ class Collapse {
     for (const int v : mirror) place_[v] = -1;
   }
 
-  // The smaller of the parts on both sides of a double contact, or both where they are small.
+  // The smaller of the two parts beside a double contact, or both if both are small.
   void between(const DoubleContact& contact) {
     int c = surface().face_start[contact.face];
     while (surface().origin[c] != contact.vertex) ++c;
@@ -213,7 +213,7 @@ class Collapse {
   }
 
  private:
-  // Unless a mark holds the part in its place; at the two ends marks hold nothing.
+  // Does no mark hold the part in its place? At its two ends marks hold nothing.
   void collapse(const std::vector<int>& part, const std::array<int, 2>& ends) {
     const auto holds = [&](int v) {
       return v != ends[0] && v != ends[1] && std::find(marks_.begin(), marks_.end(), v) != marks_.end();
@@ -234,7 +234,7 @@ class Collapse {
                        [&](int v) { return place_[v] >= 0; });
   }
 
-  // Of every place but the last: the half-edge to the next one.
+  // For every place but the last, the half-edge to the next one.
   std::vector<int> boundary_halfedges(const std::vector<int>& mirror) const {
     std::vector<int> result(mirror.size(), -1);
     for (int c = 0; c < surface().corner_count(); ++c)
@@ -262,7 +262,8 @@ class Collapse {
     return result;
   }
 
-  // Between two corners of one face that follow each other on the mirror, but for an edge of the boundary.
+  // Between two corners of one face that follow each other on the mirror, unless an edge of the boundary
+  // joins them.
   void add_stretch(int c, int d, std::vector<CutOff>& stretches) const {
     const int from = place_[surface().origin[c]], to = place_[surface().origin[d]];
     const bool is_boundary_edge = surface().next(c) == d && surface().twin[c] < 0;

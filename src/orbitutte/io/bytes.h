@@ -9,7 +9,7 @@
 
 namespace orbitutte {
 
-/// The number whose bytes begin at `bytes`, which need not be aligned.
+/// The number whose bytes begin at `bytes`, aligned or not.
 template <class T>
 T load(const char* bytes, std::endian order) {
   std::array<char, sizeof(T)> value;
@@ -26,7 +26,7 @@ std::array<char, sizeof(T)> little_endian_bytes(T number) {
   return value;
 }
 
-/// Appends numbers one after the other without gaps, of each the lowest byte first.
+/// Appends numbers one after the other without gaps, each with its lowest byte first.
 template <class... T>
 void append_little_endian(std::string& bytes, T... numbers) {
   std::array<char, (sizeof(T) + ...)>

@@ -9,9 +9,10 @@
 
 namespace orbitutte {
 
-/// The corners of a polygon: a line `vertex x y z` for each; empty lines and what follows a `#` are passed
-/// over. A position may be off the unit sphere by 1e-3, as rounded decimals are, and is put there. Throws
-/// FileError, and MeshError naming the line and the vertex where it is further off or no such line.
+/// The corners of a polygon: a line `vertex x y z` for each. Empty lines and what follows a `#` are ignored.
+/// A position may be off the unit sphere by up to 1e-3, as rounded decimals are; it is moved onto the
+/// sphere. Throws FileError; MeshError naming the line, and the vertex if there is one, if a position is
+/// further off or a line is not of this form.
 std::vector<PolygonCorner> read_corners(const std::string& path);
 
 }  // namespace orbitutte

@@ -55,7 +55,7 @@ class OpenFile {
   int descriptor_;
 };
 
-/// None where nothing stands at the path.
+/// Nothing if nothing is at the path.
 std::optional<struct stat> status(const std::string& path) {
   struct stat result;
   if (::stat(path.c_str(), &result) == 0) return result;
@@ -81,8 +81,8 @@ bool write_all(const OpenFile& file, std::string_view bytes) {
   return true;
 }
 
-/// The path that a chain of symbolic links leads to, whether or not something stands there. The chain has an
-/// end: `status` has followed it.
+/// The path that a chain of symbolic links leads to, whether or not something is there. The chain has an
+/// end, since `status` has followed it.
 std::string link_target(const std::string& path) {
   fs::path target = path;
   std::error_code error;
@@ -102,11 +102,11 @@ std::string temporary_beside(const std::string& path) {
   return (fs::path(path).parent_path() / fmt::format(".orbitutte-{}-{}.tmp", ::getpid(), counter++)).string();
 }
 
-/// A new file beside `target`, removed at the end of its scope unless it has been renamed.
+/// A new file beside `target`, which is removed at the end of its scope unless it has been renamed.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::string& target) : path_(temporary_beside(target)), file_(create()) {
-    // What a killed process of the same number has left behind stays: the next name is tried.
+    // A killed process of the same number may have left a file behind; it stays, and the next name is tried.
     while (!file_.is_open() && errno == EEXIST) {
       path_ = temporary_beside(target);
       file_ = create();

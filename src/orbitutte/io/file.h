@@ -11,8 +11,8 @@ namespace orbitutte {
 std::string read_file(const std::string& path);
 
 /// Writes the bytes to a temporary file beside `path` and renames it, so that the file appears whole or not
-/// at all. What exists and is no regular file (a pipe, /dev/stdout) is written to directly, never replaced.
-/// Throws FileError with the path and the system's reason.
+/// at all. If something exists there that is not a regular file (a pipe, /dev/stdout), it is written to
+/// directly, never replaced. Throws FileError with the path and the system's reason.
 void write_file(const std::string& path, std::string_view bytes);
 
 }  // namespace orbitutte

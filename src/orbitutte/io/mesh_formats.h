@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One reader and one writer per mesh format; what they accept is told in mesh_io.h.
+// One reader and one writer per mesh format. mesh_io.h says what they accept.
 #pragma once
 
 #include <string>
@@ -18,19 +18,20 @@ PolygonMesh read_stl(std::string_view bytes);
 std::string write_obj(const Mesh& mesh);
 std::string write_off(const Mesh& mesh);
 std::string write_ply(const Mesh& mesh);
-std::string write_stl(const Mesh& mesh);  ///< throws MeshError where a face names a vertex that is not there
+/// Throws MeshError if a face names a vertex that does not exist.
+std::string write_stl(const Mesh& mesh);
 
-/// An empty text with room for a line of each vertex and face. What is not needed is never touched, so that
+/// An empty text with room for a line of each vertex and face. Room that is not needed is never touched, so
 /// it takes no memory.
 std::string room_for_text(const Mesh& mesh);
 
-/// The count as an int. Throws MeshError naming the things where it does not fit.
+/// The count as an int. Throws MeshError naming the things if it does not fit.
 int checked_count(std::size_t count, std::string_view things);
 
-/// Ends the face whose corners have been appended. Throws MeshError where an int cannot count the corners.
+/// Ends the face whose corners have been appended. Throws MeshError if an int cannot count the corners.
 void end_face(PolygonMesh& mesh);
 
-/// The points of the coordinates x y z x y z ... Throws MeshError where an int cannot count them.
+/// The points of the coordinates x y z x y z ... Throws MeshError if an int cannot count them.
 Points to_points(const std::vector<double>& coordinates);
 
 }  // namespace orbitutte

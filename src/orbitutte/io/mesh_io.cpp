@@ -26,8 +26,8 @@ constexpr FormatRow formats[] = {{MeshFormat::obj, ".obj", read_obj, write_obj},
 
 const FormatRow& row(MeshFormat format) { return formats[static_cast<int>(format)]; }
 
-/// Has the text two bytes a character, one of them zero in all that the formats know? Tells it by the byte
-/// order mark, or by the first two characters.
+/// Does the text have two bytes per character, one of which is zero in all characters that the formats use?
+/// The byte order mark or the first two characters tell.
 bool is_utf16(std::string_view bytes) {
   if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF")) return true;
   if (bytes.size() < 4) return false;

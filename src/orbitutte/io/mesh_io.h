@@ -16,40 +16,41 @@ MeshFormat mesh_format(const std::string& path);
 
 /// The polygons in the text or bytes of a mesh file.
 ///
-/// - OBJ: `v`, `f` with v, v/vt, v//vn, v/vt/vn, negative indices; three numbers behind the coordinates are
-///   the vertex's colour; `l`, `p` and all else are passed over.
-/// - OFF: the keyword (OFF, behind any of ST, C, N) may be missing, and behind it the count of edges, or the
-///   blank before the counts; with C, vertices may have colours; other columns and comments are passed over;
-///   where there are no other columns, the numbers may stand in any lines; binary files and other dimensions
-///   than three are refused.
-/// - PLY: ASCII, binary of both byte orders, `face` (vertex_indices or vertex_index) and `tristrips`; colours
-///   are `red`, `green` and `blue` of the vertices; other elements and properties are passed over.
+/// - OBJ: `v`, `f` with v, v/vt, v//vn, v/vt/vn, negative indices; three numbers after the coordinates are
+///   the vertex's colour; `l`, `p` and everything else are ignored.
+/// - OFF: the keyword (OFF after any of ST, C, N) may be missing; after a keyword, the count of edges may be
+///   missing, and so may the blank before the counts. With C, vertices may have colours. Other columns and
+///   comments are ignored. If there are no other columns, the numbers may stand in any lines. Binary files
+///   and dimensions other than three are refused.
+/// - PLY: ASCII, binary of both byte orders, `face` (vertex_indices or vertex_index) and `tristrips`;
+///   colours are `red`, `green` and `blue` of the vertices; other elements and properties are ignored.
 /// - STL: ASCII with any number of solids, and binary; corners with the same three coordinates are one
 ///   vertex, numbered in order of first use. Facets with two corners at the same point are left out, with a
-///   warning, as are bytes behind the last facet, unless they may be facets.
+///   warning. So are bytes after the last facet, unless they may be facets.
 ///
-/// Colours are numbers of 0 .. 1 or 0 .. 255: the latter if they are integers of a PLY or one is above 1. The
-/// mesh has none if some vertices have none, and none, with a warning, if one makes no sense.
+/// Colours are numbers of 0 .. 1 or 0 .. 255: the latter if they are integers of a PLY or one of them is
+/// above 1. If some vertices have no colour, the mesh has none. If a colour makes no sense, the mesh has
+/// none either, and there is a warning.
 ///
 /// Indices are not compared with the number of vertices, nor coordinates with infinity: `inspect` does both.
-/// What was passed over that may matter is in PolygonMesh::warnings.
-/// Throws MeshError naming the line, element or byte where the data are empty, cut short or make no sense.
+/// PolygonMesh::warnings says what was ignored that may matter. Throws MeshError naming the line, element or
+/// byte if the data are empty, cut short or make no sense.
 PolygonMesh parse_mesh(std::string_view bytes, MeshFormat format);
 
-/// parse_mesh of a file in the format that the path's ending names; messages of errors begin with the path.
-/// Throws FileError when it cannot be read, ArgumentError and MeshError.
+/// Reads a file in the format that the path's ending names, as parse_mesh does. Error messages begin with
+/// the path. Throws FileError if the file cannot be read; ArgumentError and MeshError.
 PolygonMesh read_mesh(const std::string& path);
 
 /// The text or bytes of a mesh file. Positions read back as the same doubles (STL: rounded to single
-/// precision). Throws MeshError where the format is STL and a face names a vertex that is not there.
+/// precision). Throws MeshError if the format is STL and a face names a vertex that does not exist.
 std::string serialize_mesh(const Mesh& mesh, MeshFormat format);
 
-/// The same with faces of any number of corners. Throws MeshError where the format is STL and a face is no
+/// The same with faces of any number of corners. Throws MeshError if the format is STL and a face is not a
 /// triangle.
 std::string serialize_mesh(const PolygonMesh& mesh, MeshFormat format);
 
-/// serialize_mesh to a file in the format that the path's ending names. The file appears whole or not at all.
-/// Throws FileError, ArgumentError and MeshError.
+/// Writes a file in the format that the path's ending names, as serialize_mesh does. The file appears whole
+/// or not at all. Throws FileError, ArgumentError and MeshError.
 void write_mesh(const std::string& path, const Mesh& mesh);
 void write_mesh(const std::string& path, const PolygonMesh& mesh);
 

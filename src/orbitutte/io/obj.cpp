@@ -17,8 +17,8 @@ namespace {
 
 constexpr TextScanner::Syntax obj_syntax = {.comment = '#', .backslash_continues = true};
 
-/// Behind the coordinates three numbers are a colour. One is a weight; of more than three nobody agrees what
-/// they are.
+/// Three numbers after the coordinates are a colour, and one is a weight. Programs do not agree on what more
+/// than three are.
 bool are_colour(const NextWords& words) { return !words[1].empty() && words[3].empty(); }
 
 void read_vertex(TextScanner& in, std::vector<double>& coordinates, TextColours& colours) {
@@ -78,8 +78,8 @@ void read_face(TextScanner& in, std::size_t vertices, PolygonMesh& mesh) {
   end_face(mesh);
 }
 
-/// Makes room for a vertex in every line that begins with `v`, and for a triangle where it is an `f`: arrays
-/// that grow are copied, and take twice the memory while they are.
+/// Makes room for a vertex for every line that begins with `v`, and for a triangle for every line that
+/// begins with `f`. Arrays that grow are copied, and take twice the memory meanwhile.
 void make_room(std::string_view text, std::vector<double>& coordinates, PolygonMesh& mesh) {
   std::size_t vertices = 0, faces = 0;
   for (std::string_view rest = text; !rest.empty();

@@ -16,10 +16,11 @@ namespace {
 
 constexpr TextScanner::Syntax off_syntax = {.comment = '#'};
 
-/// What the keyword says of the columns behind a vertex's coordinates.
+/// What the keyword says about the columns after a vertex's coordinates.
 struct Columns {
   bool has_normals = false;
-  bool has_colours = false;  ///< behind the normals
+  /// After the normals.
+  bool has_colours = false;
 };
 
 struct Header {
@@ -37,13 +38,14 @@ bool take_prefix(std::string_view& word, std::string_view prefix) {
 /// What the first word says.
 struct Keyword {
   Columns columns;
-  std::string_view count;  ///< of vertices, if no blank stands before it, as in ModelNet's "OFF6 8 0"
+  /// Of vertices, if there is no blank before it, as in ModelNet's "OFF6 8 0"
+  std::string_view count;
 };
 
 bool is_digits(std::string_view word) { return word.find_first_not_of("0123456789") == word.npos; }
 
-/// The keyword is OFF behind any of the prefixes ST (texture), C (colour) and N (normal), in this order; none
-/// if the word is something else.
+/// The keyword is OFF after any of the prefixes ST (texture), C (colour) and N (normal), in this order.
+/// Nothing if the word is something else.
 std::optional<Keyword> parse_keyword(std::string_view word) {
   take_prefix(word, "ST");
   Keyword keyword;
@@ -66,7 +68,7 @@ int to_count(const TextScanner& in, std::string_view word, std::string_view thin
   in.refuse(fmt::format("the header has {} where the number of {} belongs", in_quotes(word), things));
 }
 
-/// Throws MeshError where the rest of the text cannot hold as much, before memory is taken for it.
+/// Throws MeshError if the rest of the text cannot hold so much, before memory is taken for it.
 void check_promise(const TextScanner& in, const Header& counts) {
   constexpr std::size_t least_vertex = std::string_view("0 0 0\n").size();
   constexpr std::size_t least_face = std::string_view("0\n").size();
@@ -77,7 +79,7 @@ void check_promise(const TextScanner& in, const Header& counts) {
 }
 
 /// The keyword, which may be missing, and the counts of vertices, faces and edges on its line or the next.
-/// Behind a keyword the count of edges may be missing.
+/// After a keyword the count of edges may be missing.
 Header read_header(TextScanner& in) {
   in.find_word();
   std::string_view word = in.word();
@@ -110,18 +112,20 @@ void find_item(TextScanner& in, const TextItem& item, int count) {
 
 /// Where one item ends and the next begins.
 enum class Layout {
-  lines,  ///< every item has a line: what stands behind it are columns, which may be passed over
-  stream  ///< numbers without any such columns, in lines as it happens
+  /// Every item has a line; what follows it there are columns, which may be ignored.
+  lines,
+  /// Numbers without such columns, in any lines.
+  stream
 };
 
-/// Takes a number of the item, in a stream from wherever the next one stands.
+/// Takes a number of the item; in a stream, from whichever line has the next one.
 template <class T>
 T next_number(TextScanner& in, Layout layout, const TextItem& item, std::string_view what) {
   if (layout == Layout::stream) in.find_word();
   return in.number<T>(item, what);
 }
 
-/// What stands behind the coordinates. Texture coordinates are passed over, as is all that the keyword does
+/// What follows the coordinates. Texture coordinates are ignored, and so is everything that the keyword does
 /// not name.
 void read_columns(TextScanner& in, const TextItem& vertex, const Columns& columns, TextColours& colours) {
   if (columns.has_normals)
@@ -158,7 +162,7 @@ void read_faces(TextScanner& in, int count, Layout layout, PolygonMesh& mesh) {
   }
 }
 
-/// What follows behind the header, to the end of the text.
+/// Everything after the header, to the end of the text.
 PolygonMesh read_items(TextScanner in, const Header& header, Layout layout) {
   PolygonMesh mesh;
   read_vertices(in, header, layout, mesh);
@@ -170,7 +174,7 @@ PolygonMesh read_items(TextScanner in, const Header& header, Layout layout) {
   return mesh;
 }
 
-/// None if the text is no such stream, to its last number.
+/// Nothing if the text is not such a stream to its last number.
 std::optional<PolygonMesh> read_stream(const TextScanner& in, const Header& header) {
   if (header.columns.has_normals || header.columns.has_colours) return std::nullopt;
   try {

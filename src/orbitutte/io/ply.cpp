@@ -18,8 +18,8 @@ namespace orbitutte {
 
 namespace {
 
-/// The values of ASCII data, one after the other. An element begins on a line of its own and may go on over
-/// several.
+/// The values of ASCII data, one after the other. An element begins on a line of its own and may run over
+/// several lines.
 class AsciiValues {
  public:
   AsciiValues(std::string_view data, int first_line) : in_(data, {}, first_line) {}
@@ -131,7 +131,7 @@ void read_element(Values& in, PlyElement& element) {
       property.values.reserve(element.count);
     }
   }
-  // Elements without properties take no bytes, so that nothing has limited their count.
+  // Elements without properties take no bytes, so nothing has limited their count.
   const std::size_t count = element.properties.empty() ? 0 : element.count;
   for (std::size_t i = 0; i < count; ++i) {
     const TextItem item = {element.name, i};
@@ -169,7 +169,7 @@ void check_size(const PlyElement& element, const PlyProperty& property) {
 template <class T>
 bool holds(double value) {
   if (!std::is_integral_v<T>) return true;
-  // The largest integer of 64 bits is no double, but one more than it is, as of all others.
+  // For each type, the largest value plus one is a double; the largest value of 64 bits itself is not.
   const double one_too_many = std::ldexp(1.0, std::numeric_limits<T>::digits);
   return value == std::trunc(value) && value < one_too_many &&
          value >= static_cast<double>(std::numeric_limits<T>::min());

@@ -11,15 +11,18 @@ namespace orbitutte {
 
 enum class PlyType { int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
 
-/// One property of an element: `count` numbers, or `count` lists of numbers, as doubles. Those of the types
-/// of 64 bits, which Turk's format does not have but programs write, are rounded if they are beyond 2^53.
+/// One property of an element: `count` numbers, or `count` lists of numbers, as doubles. Some programs write
+/// types of 64 bits, which Turk's format does not have; their numbers are rounded beyond 2^53.
 struct PlyProperty {
   std::string name;
   PlyType type = PlyType::float64;
   bool is_list = false;
-  PlyType count_type = PlyType::uint8;  ///< of lists
-  std::vector<double> values;           ///< all values, one element after the other
-  std::vector<std::size_t> list_start;  ///< of lists: count + 1 offsets into values
+  /// Of lists.
+  PlyType count_type = PlyType::uint8;
+  /// All values, one element after the other.
+  std::vector<double> values;
+  /// Of lists: count + 1 offsets into values.
+  std::vector<std::size_t> list_start;
 };
 
 struct PlyElement {
@@ -27,18 +30,20 @@ struct PlyElement {
   std::size_t count = 0;
   std::vector<PlyProperty> properties;
 
-  const PlyProperty* find(std::string_view property) const;  ///< null where there is none
+  /// Null if there is none.
+  const PlyProperty* find(std::string_view property) const;
 };
 
 struct PlyFile {
   std::vector<std::string> comments;
   std::vector<PlyElement> elements;
 
-  const PlyElement* find(std::string_view element) const;  ///< null where there is none
+  /// Null if there is none.
+  const PlyElement* find(std::string_view element) const;
 };
 
-/// Throws MeshError naming the header line, or the element, where the data are cut short or make no sense.
-/// A header that promises more than the bytes can hold is refused before memory is taken for it.
+/// Throws MeshError naming the header line or the element if the data are cut short or make no sense. A
+/// header that promises more than the bytes can hold is refused before memory is taken for it.
 PlyFile parse_ply(std::string_view bytes);
 
 /// The bytes of a binary little-endian PLY file.

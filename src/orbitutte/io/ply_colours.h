@@ -9,10 +9,11 @@
 
 namespace orbitutte {
 
-/// Red, green and blue of an element. They are all there, or none is.
+/// Red, green and blue of an element. Either all three are there or none.
 struct PlyChannels {
   std::array<const PlyProperty*, 3> channel = {};
-  std::string problem;  ///< why none is, if the element has one of them; otherwise empty
+  /// Why none is there although the element has one of them; otherwise empty.
+  std::string problem;
 
   bool are_there() const { return channel[0] != nullptr; }
 };

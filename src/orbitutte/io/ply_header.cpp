@@ -28,8 +28,8 @@ std::string_view trimmed(std::string_view text) {
   return begin == text.npos ? "" : text.substr(begin, text.find_last_not_of(blanks) + 1 - begin);
 }
 
-/// The size of the header up to and including the line break behind `end_header`. Lines end with what ends
-/// the first one, so that data beginning with the byte of a line break stay whole.
+/// The size of the header up to and including the line break after `end_header`. All lines end like the
+/// first one, so data that begin with the byte of a line break stay whole.
 std::size_t size_of_header(std::string_view bytes) {
   const std::size_t first_end = bytes.find_first_of("\r\n");
   if (first_end == bytes.npos || trimmed(bytes.substr(0, first_end)) != "ply") {

@@ -10,17 +10,20 @@
 namespace orbitutte {
 
 struct PlyHeader {
-  std::optional<std::endian> byte_order;  ///< none: the data are ASCII
-  PlyFile file;                           ///< the elements, still without values
-  std::size_t size = 0;                   ///< in bytes: the data begin behind it
+  /// None: the data are ASCII.
+  std::optional<std::endian> byte_order;
+  /// The elements, still without values.
+  PlyFile file;
+  /// In bytes; the data begin after it.
+  std::size_t size = 0;
   int lines = 0;
 };
 
-/// Throws MeshError naming the line at fault, or the element of which the header promises more than the bytes
-/// hold.
+/// Throws MeshError naming the line at fault, or the element if the header promises more of it than the
+/// bytes hold.
 PlyHeader parse_ply_header(std::string_view bytes);
 
-/// The header of a binary little-endian file of these elements, up to and including the line break behind
+/// The header of a binary little-endian file of these elements, up to and including the line break after
 /// `end_header`.
 std::string serialize_ply_header(const PlyFile& file);
 

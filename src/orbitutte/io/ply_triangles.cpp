@@ -16,9 +16,12 @@ namespace orbitutte {
 namespace {
 
 struct VertexLayout {
-  std::size_t size = 0;                ///< of a vertex, in bytes
-  std::array<std::size_t, 3> axis_at;  ///< x, y, z: bytes from the beginning of a vertex
-  PlyType type;                        ///< of x, y and z: float32 or float64
+  /// Of a vertex, in bytes.
+  std::size_t size = 0;
+  /// X, y, z: bytes from the beginning of a vertex.
+  std::array<std::size_t, 3> axis_at;
+  /// Of x, y and z: float32 or float64.
+  PlyType type;
 };
 
 /// A file of the layout.
@@ -28,12 +31,13 @@ struct TriangleFile {
   std::size_t vertex_count;
   std::size_t face_count;
   bool has_unsigned_corners;
-  const char* vertices;  ///< the faces follow
+  /// The faces follow.
+  const char* vertices;
 };
 
 constexpr std::size_t triangle_size = sizeof(std::uint8_t) + 3 * sizeof(std::int32_t);
 
-/// The bytes of an element's scalars before the property, or of all of them where it is null.
+/// The bytes of an element's scalars before the property, or of all of them if it is null.
 std::size_t size_before(const PlyElement& element, const PlyProperty* wanted) {
   std::size_t size = 0;
   for (const PlyProperty& property : element.properties) {
@@ -43,7 +47,7 @@ std::size_t size_before(const PlyElement& element, const PlyProperty* wanted) {
   return size;
 }
 
-/// None where the vertices have lists, or x, y, z are not of one floating-point type.
+/// Nothing if the vertices have lists, or if x, y, z are not of one floating-point type.
 std::optional<VertexLayout> vertex_layout(const PlyElement& element) {
   for (const PlyProperty& property : element.properties) {
     if (property.is_list) return std::nullopt;
@@ -59,7 +63,7 @@ std::optional<VertexLayout> vertex_layout(const PlyElement& element) {
   return layout;
 }
 
-/// The list of vertices; null where faces have other properties or the list has other types.
+/// The list of vertices; null if faces have other properties or the list has other types.
 const PlyProperty* triangle_list(const PlyElement& element) {
   if (element.properties.size() != 1) return nullptr;
   const PlyProperty& list = element.properties.front();
@@ -69,7 +73,7 @@ const PlyProperty* triangle_list(const PlyElement& element) {
   return is_named && is_typed ? &list : nullptr;
 }
 
-/// None where the file has another layout.
+/// Nothing if the file has another layout.
 std::optional<TriangleFile> triangle_file(std::string_view bytes, const PlyHeader& header) {
   const std::vector<PlyElement>& elements = header.file.elements;
   if (!header.byte_order || elements.size() != 2) return std::nullopt;
@@ -95,7 +99,7 @@ Points load_points(const TriangleFile& file) {
   return V;
 }
 
-/// The colours of the vertices; none where they have none.
+/// The colours of the vertices; none if they have none.
 VertexColours load_colours(const TriangleFile& file, const PlyElement& vertex) {
   const PlyChannels channels = find_channels(vertex);
   if (!channels.problem.empty()) return no_colours(channels.problem);
@@ -111,7 +115,7 @@ VertexColours load_colours(const TriangleFile& file, const PlyElement& vertex) {
   return colours_of_channels(channels, values);
 }
 
-/// None where a face is no triangle or an index does not fit into an int.
+/// Nothing if a face is not a triangle or an index does not fit into an int.
 template <std::endian order>
 std::optional<std::vector<int>> load_corners(const TriangleFile& file) {
   std::vector<int> corners(3 * file.face_count);
@@ -158,7 +162,7 @@ PlyFile layout_of(std::size_t vertices, const FaceView& faces, const std::vector
   return {{}, {std::move(vertex), {"face", static_cast<std::size_t>(faces.count()), {std::move(list)}}}};
 }
 
-/// The corners behind their number, which is a Count.
+/// The corners after their number, which is a Count.
 template <class Count>
 void append_faces(std::string& bytes, const FaceView& faces) {
   for (int f = 0; f < faces.count(); ++f) {

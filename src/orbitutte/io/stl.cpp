@@ -25,9 +25,9 @@ constexpr std::size_t facet_size = 4 * vector_size + sizeof(no_attribute);  // n
 
 using Position = std::array<double, 3>;
 
-/// Numbers positions in the order of their first use. A hash table with open addressing over the positions:
-/// for a million triangles it takes 0.13 s, boost::unordered_map (1.74) with the same hash 0.42 s, and
-/// sorting (std::sort, tbb::parallel_sort) 0.8 s of processor time or more.
+/// Numbers positions in the order of their first use, by a hash table with open addressing over the
+/// positions. For a million triangles it takes 0.13 s; boost::unordered_map (1.74) with the same hash takes
+/// 0.42 s, and sorting (std::sort, tbb::parallel_sort) 0.8 s of processor time or more.
 class Welder {
  public:
   explicit Welder(std::size_t expected_vertices = 0) : slots_(slots_for(expected_vertices), empty) {
@@ -51,7 +51,7 @@ class Welder {
  private:
   static constexpr int empty = -1;
 
-  /// A power of two, of which the vertices take half at most.
+  /// A power of two, at least twice the number of vertices.
   static std::size_t slots_for(std::size_t vertices) {
     return std::bit_ceil(std::max<std::size_t>(32, vertices) * 2);
   }
@@ -118,7 +118,8 @@ class Facets {
     ++count_;
   }
 
-  std::size_t count() const { return count_; }  ///< those left out included
+  /// Those left out included.
+  std::size_t count() const { return count_; }
 
   PolygonMesh mesh() && {
     mesh_.V = to_points(welder_.coordinates());
@@ -141,7 +142,7 @@ bool equal_in_any_case(std::string_view word, std::string_view lower_case) {
   return std::equal(word.begin(), word.end(), lower_case.begin(), lower_case.end(), equal);
 }
 
-/// Goes on to the next word, which has to be the keyword.
+/// Goes on to the next word, which must be the keyword.
 void expect(TextScanner& in, std::string_view keyword, const TextItem& facet) {
   if (!in.find_word()) {
     in.refuse(fmt::format("the text ends within facet {}, where '{}' belongs", facet.number, keyword));
@@ -151,7 +152,7 @@ void expect(TextScanner& in, std::string_view keyword, const TextItem& facet) {
   in.refuse(fmt::format("facet {} has {} where '{}' belongs", facet.number, in_quotes(word), keyword));
 }
 
-/// What follows behind the word `facet`.
+/// What follows the word `facet`.
 void read_facet(TextScanner& in, Facets& facets) {
   const TextItem facet = {"facet", facets.count()};
   expect(in, "normal", facet);
@@ -168,7 +169,7 @@ void read_facet(TextScanner& in, Facets& facets) {
   facets.add(corners);
 }
 
-/// What follows behind the word `solid`, up to and including `endsolid`.
+/// What follows the word `solid`, up to and including `endsolid`.
 void read_solid(TextScanner& in, Facets& facets) {
   in.rest_of_line();  // its name
   for (;;) {
@@ -204,7 +205,7 @@ std::uint64_t promised_size(std::string_view bytes) {
   return header_size + facet_size * std::uint64_t{promised_facets(bytes)};
 }
 
-/// Binary files may begin with the word `solid` too: then their size or a zero byte tells them from text.
+/// Binary files may begin with the word `solid`, too. Then their size or a zero byte tells them from text.
 bool is_ascii(std::string_view bytes) {
   if (bytes.size() >= header_size && bytes.size() == promised_size(bytes)) return false;
   TextScanner in(bytes, {});
@@ -212,10 +213,11 @@ bool is_ascii(std::string_view bytes) {
   return equal_in_any_case(in.word(), "solid") && bytes.find('\0') == bytes.npos;
 }
 
-/// The bytes behind the last facet, which is there.
+/// The bytes after the last facet, which must be there.
 std::size_t bytes_behind(std::string_view bytes) { return bytes.size() - promised_size(bytes); }
 
-/// What follows behind the last facet may be anything but further facets: then the header's count is wrong.
+/// Anything but further facets may follow the last one. Further facets mean that the header's count is
+/// wrong.
 bool may_be_facets(std::size_t size) { return size > 0 && size % facet_size == 0; }
 
 void check_size(std::string_view bytes) {

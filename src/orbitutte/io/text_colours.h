@@ -11,18 +11,18 @@
 
 namespace orbitutte {
 
-/// The next words of a line, of which further ones are passed over; those that the line lacks are empty.
+/// The next words of a line; further words are skipped. Words that the line lacks are empty.
 using NextWords = std::array<std::string_view, 4>;
 NextWords take_next_words(TextScanner& in);
 
-/// Gathers the colours of vertices, which come in their order.
+/// Gathers the colours of vertices, which arrive in the order of the vertices.
 class TextColours {
  public:
   /// The first three words as red, green and blue of the next vertex.
   void add(const TextScanner& in, const TextItem& vertex, const NextWords& words);
 
-  /// As colours_of_numbers has them. None if not every one of the n vertices has a colour; none, with a
-  /// warning that names the line, if a word was missing or no number.
+  /// As colours_of_numbers gives them. There are none if not every one of the n vertices has a colour. If a
+  /// word was missing or not a number, there are none either, and a warning names the line.
   VertexColours colours(Eigen::Index vertices) const;
 
  private:

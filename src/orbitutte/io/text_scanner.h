@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The words and numbers of a text, read in place: nothing is copied, no locale is asked, and every complaint
-// names the line.
+// The words and numbers of a text, read in place. Nothing is copied, the locale does not matter, and every
+// complaint names the line.
 #pragma once
 
 #include <array>
@@ -17,7 +17,8 @@ enum class NumberError { none, malformed, out_of_range };
 /// A number too small for a double, such as 1e-400, rounded to the nearest double.
 NumberError parse_tiny_number(std::string_view word, double& value);
 
-/// The number that is the whole of `word`. A leading '+' is accepted, as are nan and inf where T is a double.
+/// The number that is the whole of `word`. A leading '+' is accepted, and so are nan and inf if T is a
+/// double.
 template <class T>
 NumberError parse_number(std::string_view word, T& value) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
@@ -48,19 +49,21 @@ std::string shown(const TextItem& item);
 class TextScanner {
  public:
   struct Syntax {
-    char comment = '\n';  ///< begins a comment, which lasts until the line ends; '\n': there are none
-    bool backslash_continues = false;  ///< a backslash before a line break joins two lines
+    /// Begins a comment, which lasts until the line ends; '\n': there are no comments.
+    char comment = '\n';
+    /// A backslash before a line break joins two lines.
+    bool backslash_continues = false;
   };
 
   TextScanner(std::string_view text, Syntax syntax, int first_line = 1);
 
-  /// Goes to the next word, in this line or a later one; false where the text ends.
+  /// Goes to the next word, in this line or a later one; false at the end of the text.
   bool find_word();
 
-  /// Goes to the next word of this line; false where the line ends.
+  /// Goes to the next word of this line; false at the end of the line.
   bool find_word_in_line();
 
-  /// Takes the next word of this line; empty where the line ends.
+  /// Takes the next word of this line; empty at the end of the line.
   std::string_view word();
 
   /// Takes the remaining words of this line, across continuations.
@@ -69,7 +72,7 @@ class TextScanner {
   /// Takes everything up to the next line break, comments and backslashes included.
   std::string_view rest_of_line();
 
-  /// Takes the next word of this line if it is a number as std::from_chars reads it, as nearly all are;
+  /// Takes the next word of this line if std::from_chars reads it as a number, as it does nearly always;
   /// otherwise takes nothing.
   template <class T>
   bool take_plain_number(T& value) {
@@ -82,7 +85,7 @@ class TextScanner {
     return false;
   }
 
-  /// Takes the next word of this line, which has to be a number: the `what` of `item`. Throws MeshError.
+  /// Takes the next word of this line, which must be a number: the `what` of `item`. Throws MeshError.
   template <class T>
   T number(const TextItem& item, std::string_view what) {
     T value{};
@@ -116,8 +119,8 @@ class TextScanner {
   const char* at_;
   const char* end_;
   Syntax syntax_;
-  std::array<bool, 256>
-      may_end_word_;  ///< by character: blanks, ends of lines, the comment, a backslash that continues
+  /// By character: blanks, ends of lines, the comment, a backslash that continues.
+  std::array<bool, 256> may_end_word_;
   int line_;
 };
 

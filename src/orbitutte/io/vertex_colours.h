@@ -10,22 +10,25 @@ namespace orbitutte {
 
 /// The colours of a mesh, and what a user should know of them.
 struct VertexColours {
-  Points values = Points(0, 3);  ///< n x 3, 0 .. 1; or none
-  std::string warning;           ///< one sentence; empty if there is nothing to say
+  /// n x 3, 0 .. 1; or none.
+  Points values = Points(0, 3);
+  /// One sentence; empty if there is nothing to say.
+  std::string warning;
 };
 
-/// Colours from bytes, n x 3, of which 255 is full: none, with a warning, if one is not within 0 .. 255.
+/// Colours from bytes, n x 3, of which 255 is full. If one is not within 0 .. 255, there are none, and there
+/// is a warning.
 VertexColours colours_of_bytes(const Points& channels);
 
-/// Colours from numbers of any kind, n x 3. They are of 0 .. 1, or, if one is above 1, of 0 .. 255. What
-/// exceeds 1 by no more than rounding is 1. A warning says so unless the numbers are within 0 .. 1 or all
-/// whole. None, with a warning, if one is not within 0 .. 255 or no number.
+/// Colours from numbers of any kind, n x 3. They are numbers of 0 .. 1 or, if one is above 1, of 0 .. 255; a
+/// number that exceeds 1 only by rounding counts as 1. Numbers of 0 .. 255 that are not all whole bring a
+/// warning. If one is not within 0 .. 255 or not a number, there are no colours, and there is a warning.
 VertexColours colours_of_numbers(const Points& channels);
 
 /// No colours: `reason` begins with what is wrong.
 VertexColours no_colours(const std::string& reason);
 
-/// Makes them the colours of the mesh, their warning one of its warnings.
+/// Gives the colours to the mesh, and their warning to its warnings.
 void give_colours(VertexColours colours, PolygonMesh& mesh);
 
 }  // namespace orbitutte

@@ -31,8 +31,8 @@ AxisSymmetry axis_symmetry(const SymmetryGroup& group) {
   return result;
 }
 
-// Distance from the axis times e^(i longitude) of the point or of its image above, with the height as a
-// factor where the group has such images: which of them lies above is uncertain on the equator.
+// Distance from the axis times e^(i longitude) of the point or of its image above. If the group has such
+// images, the height is a further factor, since on the equator it is uncertain which of them lies above.
 Complex seen_from_above(const AxisSymmetry& symmetry, const Vector3& point) {
   const Vector3 p = symmetry.flips && point.z() < 0 ? symmetry.to_other_side * point : point;
   return Complex(p.x(), p.y()) * (symmetry.flips ? std::abs(p.z()) : 1.0);

@@ -98,8 +98,8 @@ struct PointLocator::State {
     return bg::covered_by(TreePoint(point.x(), point.y(), point.z()), bounds);
   }
 
-  // visit(f, g, here): the triangles f near `here`, which is where copy g has the point. Returning true ends
-  // it.
+  // visit(f, g, here) for the triangles f near `here`, the point seen from copy g. Returning true ends the
+  // search.
   template <typename Visit>
   void visit_near(const Vector3& point, std::vector<int>& near, const Visit& visit) const {
     for (std::size_t g = 0; g < elements.size(); ++g) {

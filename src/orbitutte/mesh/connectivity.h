@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Half-edges, undirected edges and neighbours of a manifold triangle mesh. Where triangles make up polygons
-// (triangulation.h), their diagonals have half-edges, but are no edges.
+// Half-edges, undirected edges and neighbours of a manifold triangle mesh. If triangles make up polygons
+// (triangulation.h), the diagonals have half-edges but are not edges.
 #pragma once
 
 #include <array>
@@ -25,9 +25,12 @@ struct Neighbors {
 
 /// Which half-edges lie opposite to each other, and the undirected edges.
 struct Connectivity {
-  std::vector<std::array<int, 2>> edges;  ///< undirected edges (i, j) with i < j, in lexicographic order
-  std::vector<int> edge_of;               ///< 3 m: the undirected edge of every half-edge; -1 for a diagonal
-  std::vector<int> opposite;              ///< 3 m: the half-edge on the other side, or -1 on the boundary
+  /// The undirected edges (i, j) with i < j, in lexicographic order.
+  std::vector<std::array<int, 2>> edges;
+  /// 3 m: the undirected edge of every half-edge; -1 for a diagonal.
+  std::vector<int> edge_of;
+  /// 3 m: the half-edge on the other side, or -1 on the boundary.
+  std::vector<int> opposite;
 };
 
 /// The edges of an edge-manifold mesh of n vertices, in O(n + m). The mesh is expected to have passed

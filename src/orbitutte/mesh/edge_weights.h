@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What edges weigh in the discrete Dirichlet energy (equation (2)), whoever found the weights.
+// Weights of edges in the discrete Dirichlet energy (equation (2)), from whatever source.
 #pragma once
 
 #include <memory>
@@ -11,15 +11,21 @@
 namespace orbitutte {
 
 enum class WeightKind {
-  standard,    ///< delaunay, or cotan on meshes with faces of more than three corners
-  cotan,       ///< w_ij = (cot a + cot b)/2 over the angles opposite to the edge; those not positive become
-               ///< `clamp`
-  delaunay,    ///< the same of the intrinsic Delaunay triangulation, whose weights are nonnegative; zeros
-               ///< become 1e-6, and those of blocked edges that are negative `clamp`
-  mean_value,  ///< w_ij = (l_i m_ij + l_j m_ji)/2, m_ij the mean value weight (tan(a/2) + tan(b/2))/|ij| over
-               ///< the angles at i beside the edge, l_i half the mean length of the edges at i
-  uniform,     ///< w_ij = 1
-  file         ///< given by the caller
+  /// Delaunay, or cotan on meshes with faces of more than three corners.
+  standard,
+  /// w_ij = (cot a + cot b)/2 over the angles opposite to the edge; weights that are not positive become
+  /// `clamp`.
+  cotan,
+  /// The same for the intrinsic Delaunay triangulation, whose weights are nonnegative. Zeros become 1e-6.
+  /// Negative weights of edges that could not be flipped become `clamp`.
+  delaunay,
+  /// w_ij = (l_i m_ij + l_j m_ji)/2, where m_ij is the mean value weight (tan(a/2) + tan(b/2))/|ij| over the
+  /// angles at i beside the edge, and l_i is half the mean length of the edges at i.
+  mean_value,
+  /// W_ij = 1.
+  uniform,
+  /// Given by the caller.
+  file
 };
 
 /// Its names.
@@ -35,12 +41,16 @@ struct NameTable<WeightKind> {
 struct EdgeWeights {
   WeightKind kind = WeightKind::cotan;
   double clamp = 0.01;
-  Eigen::VectorXd w;      ///< one weight per undirected edge, in the order of Connectivity::edges
-  int clamped_edges = 0;  ///< cotangent weights that became `clamp`
-  /// Of kind `delaunay`: the triangulation whose edges have the weights; null where they are the mesh's.
+  /// One weight per undirected edge, in the order of Connectivity::edges.
+  Eigen::VectorXd w;
+  /// The number of cotangent weights that became `clamp`.
+  int clamped_edges = 0;
+  /// For kind `delaunay`, the triangulation whose edges have the weights; null if the mesh's own edges have
+  /// them.
   std::shared_ptr<const IntrinsicTriangulation> triangulation;
-  int zero_edges =
-      0;  ///< weights of a file that are exactly zero: accepted, though the theory asks for w > 0
+  /// The number of weights of a file that are exactly zero. They are accepted, although the theory requires
+  /// w > 0.
+  int zero_edges = 0;
 };
 
 }  // namespace orbitutte

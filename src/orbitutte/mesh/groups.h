@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What of n things belongs to which group.
+// Which of n things belongs to which group.
 #pragma once
 
 #include <numeric>

@@ -13,24 +13,35 @@ namespace orbitutte {
 /// may run along the edge in the same direction. Afterwards h, next(h), previous(h) are lk, ka, al, and g,
 /// next(g), previous(g) are kl, lb, bk.
 struct Flip {
-  int h = -1;                          ///< ab, in the face of k: next(h) is bk, previous(h) is ka
-  int g = -1;                          ///< ab or ba, in the face of l: previous(g) begins at l
-  int al = -1, lb = -1;                ///< the other half-edges of that face, in either direction,
-  int beyond_al = -1, beyond_lb = -1;  ///< and those opposite to them, -1 on the boundary
+  /// The half-edge ab in the face of k: next(h) is bk, previous(h) is ka.
+  int h = -1;
+  /// The half-edge ab or ba in the face of l: previous(g) begins at l.
+  int g = -1;
+  /// The other half-edges of the face of l, in either direction.
+  int al = -1, lb = -1;
+  /// The half-edges opposite to them; -1 on the boundary.
+  int beyond_al = -1, beyond_lb = -1;
 };
 
 /// Faces on the vertices of a mesh whose edges are geodesics of its surface. Connectivity::edges keeps the
-/// numbers of the mesh's edges, each flipped edge the one that it had before; its ends are in no order. Each
-/// face has its own unit of length: two faces beside an edge need not agree on its length, only on what is
-/// similar, and angles, flips and cotangents know no more.
+/// numbers of the mesh's edges: a flipped edge keeps its number, and its ends are in no order. Each face has
+/// its own unit of length, so two faces beside an edge need not agree on its length. Angles, flips and
+/// cotangents do not depend on the unit.
 struct IntrinsicTriangulation {
-  Triangles F;                                      ///< m x 3
-  Connectivity connectivity;                        ///< of F
-  std::vector<double> length;                       ///< 3 m: of every half-edge, in its face's unit
-  std::vector<double> half_cotangent;               ///< 3 m: of the angle opposite to every half-edge
-  std::vector<Flip> flips;                          ///< that lead here from the mesh, in this order
-  std::vector<int> kept_faces;                      ///< of the mesh: none of their edges is flipped
-  std::vector<std::array<int, 2>> kept_apart = {};  ///< vertices that no flip joins by an edge
+  /// m x 3.
+  Triangles F;
+  /// Of F.
+  Connectivity connectivity;
+  /// 3 m: of every half-edge, in its face's unit.
+  std::vector<double> length;
+  /// 3 m: of the angle opposite to every half-edge.
+  std::vector<double> half_cotangent;
+  /// The flips that lead here from the mesh, in this order.
+  std::vector<Flip> flips;
+  /// Faces of the mesh none of whose edges is flipped.
+  std::vector<int> kept_faces;
+  /// Pairs of vertices that no flip joins by an edge.
+  std::vector<std::array<int, 2>> kept_apart = {};
 };
 
 }  // namespace orbitutte

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a mesh file holds: polygons, in the order of the file, not yet judged.
+// The content of a mesh file: polygons in the order of the file, not yet judged.
 #pragma once
 
 #include <string>
@@ -12,11 +12,15 @@ namespace orbitutte {
 /// A mesh of polygons as it stands in a file. Nothing is promised about it: indices may be out of range and
 /// coordinates not finite until `inspect` has looked at it.
 struct PolygonMesh {
-  Points V;                           ///< n x 3 positions
-  std::vector<int> corners;           ///< the vertices of all faces, one face after the other
-  std::vector<int> face_start = {0};  ///< face f is corners[face_start[f]] .. corners[face_start[f + 1] - 1]
-  Points colours = Points(0, 3);      ///< n x 3, of the vertices: sRGB, 0 .. 1; or none
-  /// What the reader of the file passed over or took for something else, one sentence each.
+  /// n x 3 positions.
+  Points V;
+  /// The vertices of all faces, one face after the other.
+  std::vector<int> corners;
+  /// Face f is corners[face_start[f]] .. corners[face_start[f + 1] - 1].
+  std::vector<int> face_start = {0};
+  /// n x 3, the colours of the vertices in sRGB, 0 .. 1; or empty.
+  Points colours = Points(0, 3);
+  /// What the reader of the file ignored or took for something else, one sentence each.
   std::vector<std::string> warnings = {};
 
   int vertex_count() const { return static_cast<int>(V.rows()); }

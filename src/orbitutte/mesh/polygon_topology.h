@@ -10,10 +10,14 @@ namespace orbitutte {
 
 /// Half-edge c runs from corner c to the next corner of the same face; corners are numbered face after face.
 struct PolygonTopology {
-  std::vector<int> origin;      ///< of every half-edge: a vertex
-  std::vector<int> face_of;     ///< of every half-edge
-  std::vector<int> face_start;  ///< the first corner of every face, and the number of corners
-  std::vector<int> twin;        ///< the half-edge on the other side, or -1 on the boundary
+  /// Of every half-edge: a vertex.
+  std::vector<int> origin;
+  /// Of every half-edge.
+  std::vector<int> face_of;
+  /// The first corner of every face, and the number of corners.
+  std::vector<int> face_start;
+  /// The half-edge on the other side, or -1 on the boundary.
+  std::vector<int> twin;
 
   int corner_count() const { return static_cast<int>(origin.size()); }
   int face_count() const { return static_cast<int>(face_start.size()) - 1; }

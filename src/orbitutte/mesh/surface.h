@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A surface as one value, whatever its faces were in the file: what everything behind the readers takes.
+// A surface as one value, whatever its faces were in the file. Everything after the readers takes it.
 #pragma once
 
 #include <vector>
@@ -8,12 +8,12 @@
 
 namespace orbitutte {
 
-/// Vertices, faces of any size, their triangles and how these hang together. make_surface
+/// Vertices, faces of any size, their triangles and how these are connected. make_surface
 /// (inspect/recognition.h) makes it once and judges the mesh; it is const from then on.
 struct Surface {
   /// n x 3 positions.
   Points V;
-  /// T x 3: the faces in their order, larger ones divided into triangles.
+  /// T x 3: the faces in their order, with larger faces divided into triangles.
   Triangles triangles;
   /// The half-edges of the triangles, and the edges of the faces alone.
   Connectivity connectivity;
@@ -25,7 +25,7 @@ struct Surface {
   int unreferenced_vertices = 0;
   /// As Inspection counts them.
   int zero_area_faces = 0;
-  /// n x 3, of the vertices: sRGB, 0 .. 1; none if the mesh has no colours.
+  /// n x 3, the colours of the vertices in sRGB, 0 .. 1; empty if the mesh has no colours.
   Points colours = Points(0, 3);
 
   bool has_polygons() const { return polygons.count() > 0; }

@@ -46,8 +46,8 @@ class Clipping {
  private:
   Vector3 position(int k) const { return mesh_.V.row(mesh_.corners[first_ + k]); }
 
-  // Area over the sum of the squared sides, but for a factor common to the polygon's triangles; negative
-  // where the triangle runs against the polygon.
+  // Area over the sum of the squared sides, but for a factor common to the polygon's triangles; negative if
+  // the triangle runs against the polygon.
   double quality(int i, int j, int k) const {
     const Vector3 a = position(j) - position(i), b = position(k) - position(j);
     const double quality =
@@ -90,7 +90,7 @@ class Clipping {
   std::priority_queue<std::pair<double, int>> best_;  // quality, minus the corner: the first of equal ones
 };
 
-// A half-edge by what it shares with the opposite one; those of diagonals belong to a face.
+// A half-edge by what it shares with the opposite one; the half-edges of diagonals belong to a face.
 struct Side {
   int lower, upper, face;
   int halfedge;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Polygons divided into triangles, with which everything computes that asks for triangles. Their edges are
-// those of the polygons alone: a diagonal has no weight, no path runs along it, and no file lists it. A
-// division is T x 3, counterclockwise: indices into the polygons' corners. Face f of d corners becomes d - 2
-// triangles, which follow those of face f - 1.
+// Polygons divided into triangles, for all computations that need triangles. Their edges are those of the
+// polygons alone: a diagonal has no weight, no path runs along it, and no file lists it. A division is T x
+// 3, counterclockwise: indices into the polygons' corners. Face f of d corners becomes d - 2 triangles,
+// which follow those of face f - 1.
 #pragma once
 
 #include "orbitutte/mesh/connectivity.h"
@@ -10,19 +10,19 @@
 
 namespace orbitutte {
 
-/// Has every face three corners?
+/// Does every face have three corners?
 bool is_triangle_mesh(const PolygonMesh& mesh);
 
 /// Cuts off a polygon's corners one after the other, always the one whose triangle is nearest to an
 /// equilateral one (the largest area over the sum of its squared sides, negative where the polygon bends
-/// inwards), until four corners are left, and these by the diagonal whose worse triangle is the better. O(c
-/// log c) for c corners. The mesh is expected to have passed `inspect`.
+/// inwards). The last four corners are divided by the diagonal whose worse triangle is the better. O(c log
+/// c) for c corners. The mesh is expected to have passed `inspect`.
 Triangles triangulate(const PolygonMesh& mesh);
 
-/// Every polygon in triangles from its first corner: what convex ones need.
+/// Divides every polygon into triangles from its first corner, which is enough for convex polygons.
 Triangles fan_triangles(const Polygons& polygons);
 
-/// The triangles (T x 3) on vertices: those of `corners` (Polygons::corners).
+/// The triangles (T x 3) on vertices instead of corners. corners: Polygons::corners.
 Triangles triangles_on_vertices(const Triangles& division, const std::vector<int>& corners);
 
 /// The half-edges of the triangles and the edges of the polygons, in O(c log c). Half-edges of diagonals have

@@ -20,7 +20,7 @@ struct NameTable<SeamKind> {
                                                   {SeamKind::rotoreflection, "rotoreflection"}};
 };
 
-/// Two banks of the cut mesh's boundary and the symmetry that takes the right one to the left one:
+/// Two banks of the cut mesh's boundary, and the symmetry that takes the right bank to the left one:
 /// position(left[i]) = transform * position(right[i]), for the interior vertices of the seam and its two end
 /// points. A mirror is a seam whose banks are the same vertices.
 struct Seam {

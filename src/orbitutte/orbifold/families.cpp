@@ -14,7 +14,7 @@ using std::numbers::pi;
 
 using Arrangement = std::vector<int>;  // of the marks, as the boundary meets them
 
-// The order of every mark, and of the end of a cut, behind them.
+// The orders of all marks, followed by that of the end of a cut.
 std::vector<int> orders_of(const Target& target) {
   std::vector<int> orders;
   for (const Mark& mark : target.marks) orders.push_back(mark.order());
@@ -57,8 +57,8 @@ Tile polygon(Space space, const std::vector<Vector3>& corners, const std::vector
   return tile;
 }
 
-// *n1 n2 n3: the triangle with three mirrors; its mirror image where the boundary meets the marks the other
-// way around.
+// *n1 n2 n3: the triangle with three mirrors; its mirror image if the boundary meets the marks the other way
+// around.
 Tile mirrored_triangle(const Target& target, const Arrangement& marks) {
   const std::vector<int> n = orders_of(target);
   std::array<Vector3, 3> corners = canonical_triangle(target.space, {n[0], n[1], n[2]});
@@ -89,8 +89,9 @@ Tile doubled_triangle(const Target& target, const Arrangement& marks) {
   return tile;
 }
 
-// *2222: the unit square with four mirrors, to the left of the x axis or, where the boundary meets the marks
-// the other way around, to its right. Its sides' ratio is a choice: harmonic maps onto it are not conformal.
+// *2222: the unit square with four mirrors, to the left of the x axis; to its right if the boundary meets
+// the marks the other way around. The ratio of its sides is a choice, so harmonic maps onto it are not
+// conformal.
 Tile mirrored_square(const Target& target, const Arrangement& marks) {
   const auto first = static_cast<std::size_t>(std::find(marks.begin(), marks.end(), 0) - marks.begin());
   const bool goes_left = marks[(first + 1) % 4] < marks[(first + 3) % 4];
@@ -149,7 +150,7 @@ TileSide arc(const Vector3& from, const Vector3& direction, double length, int m
   return side;
 }
 
-// N*: a sector of the hemisphere, cut open from the pole to any point of the equator, the mirror. To hold
+// N*: a sector of the hemisphere, cut open from the pole to any point of the equator, the mirror. Holding
 // that point only chooses one of all rotations about the axis, which change nothing.
 Tile sector(const Target& target, const Arrangement& marks) {
   const double angle = target.marks[0].angle;
@@ -166,8 +167,8 @@ Tile sector(const Target& target, const Arrangement& marks) {
 // The side of a lune that leads down, from the north pole: the first, unless the boundary meets mark 1 first.
 int down_side(const Arrangement& marks) { return marks[0] == 0 ? 0 : 1; }
 
-// The lune of the given angle, mark 0 at the north pole: down the meridian of longitude 0, up that of
-// longitude `angle`, from the mark on that the boundary meets first.
+// The lune of the given angle with mark 0 at the north pole. It leads down the meridian of longitude 0 and
+// up that of longitude `angle`, and begins at the mark that the boundary meets first.
 Tile lune(double angle, const Arrangement& marks) {
   const auto meridian = [](const Vector3& from, double longitude, int mark) {
     return arc(from, {std::cos(longitude), std::sin(longitude), 0}, pi, mark);

@@ -25,17 +25,17 @@ struct Family {
   ConwaySymbol pattern;
   Topology topology;
 
-  /// The tile of a target of this family in its canonical frame, as basic_tile wants it.
+  /// Makes the tile of a target of this family in its canonical frame, as basic_tile describes it.
   Tile (*tile)(const Target& target, const std::vector<int>& arrangement);
 
   /// The group belongs to that of the reflections in the sides of a polygon whose corner k has the angle pi/n
   /// with the k-th of these orders: of canonical_triangle, or of the unit square where there are four.
   std::vector<int> (*chamber)(const Target& target);
 
-  /// The second corner of the tile is the end of the cut on the mirror.
+  /// Is the second corner of the tile the end of the cut on the mirror?
   bool cut_to_mirror = false;
 
-  /// The least that N may be.
+  /// The smallest N.
   int smallest_order = 2;
 };
 

@@ -33,7 +33,7 @@ std::vector<Vector3> poles(const Corners& corners) {
   return result;
 }
 
-// By how much the boundary turns left at every corner, in (-pi, pi]: pi less the interior angle.
+// The angle by which the boundary turns left at every corner, in (-pi, pi]: pi less the interior angle.
 std::vector<double> turns(const Corners& corners) {
   const std::vector<Vector3> pole = poles(corners);
   std::vector<double> result;
@@ -80,8 +80,9 @@ void require_sides(const Corners& corners) {
   }
 }
 
-// By how much the corners' neighbours lie left of the sides through them, to first order: the turn times the
-// shorter one of both sides. What rounded positions are off, this is off, however short the sides are.
+// The distances by which the corners' neighbours lie left of the sides through them, to first order: the
+// turn times the shorter of both sides. Rounding of positions changes this by as much as the positions,
+// however short the sides are.
 std::vector<double> bends(const Corners& corners) {
   std::vector<double> result = turns(corners);
   for (std::size_t k = 0; k < corners.size(); ++k) {
@@ -123,7 +124,7 @@ void require_hemisphere(const Corners& corners) {
                       corner.vertex));
 }
 
-// A polygon that turns left all the way is convex where it turns by 2 pi in all. Great arcs of an open
+// A polygon that turns left everywhere is convex if it turns by 2 pi in all. Great arcs of an open
 // hemisphere are straight in its central projection p/<p, up> onto a plane, where turns add up.
 void require_one_round(const Corners& corners) {
   const Vector3 up = middle(corners);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Fixed boundaries (theorem 1): a disk onto a convex spherical polygon, its boundary held on the polygon's
-// sides. No symmetry is left, so the polygon takes the place of an orbifold whose group is the identity.
+// Fixed boundaries (theorem 1): a disk is mapped onto a convex spherical polygon, with its boundary held on
+// the polygon's sides. No symmetry is left, so the polygon acts as an orbifold whose group is the identity.
 #pragma once
 
 #include <vector>
@@ -10,26 +10,27 @@
 
 namespace orbitutte {
 
-/// The polygon with these corners, counterclockwise seen from outside, as the vertices follow each other
-/// along the mesh's boundary; its marks are the corners, fixed. Throws MeshError, naming the vertex, unless
-/// they are three or more different vertices at unit vectors (to 1e-12), neighbours neither equal nor
-/// opposite, and the polygon is convex (straight corners are allowed), lies in an open hemisphere and goes
-/// around once.
+/// The polygon with these corners, in the order of the vertices along the mesh's boundary, counterclockwise
+/// as seen from outside. Its marks are the corners, which are fixed. There must be three or more different
+/// vertices at unit vectors (to 1e-12), and neighbours must be neither equal nor opposite. The polygon must
+/// be convex (straight corners are allowed), lie in an open hemisphere and go around once. Throws MeshError
+/// naming the vertex otherwise.
 Target polygon_target(const std::vector<PolygonCorner>& corners);
 
 /// The vertices of a polygon's corners, to be marked.
 std::vector<int> corner_vertices(const Target& polygon);
 
-/// The polygon as a tile whose sides are held. Throws MeshError naming a vertex where the boundary meets the
-/// corners in another order (`arrangement`, as in basic_tile) than the polygon has them.
+/// The polygon as a tile whose sides are held. Throws MeshError naming a vertex if the boundary meets the
+/// corners in another order (`arrangement`, as in basic_tile) than that of the polygon.
 Tile polygon_tile(const std::vector<PolygonCorner>& corners, const std::vector<int>& arrangement);
 
-/// What cones and positions say that the target is: that of the signature, or for a polygon the one of its
-/// fixed cones and where they are. Throws ArgumentError and MeshError if that is nothing.
+/// The target of an embedding that was read: the one that the signature names, or the polygon with the fixed
+/// cones at their positions. Throws ArgumentError and MeshError if there is no such target.
 Target read_target(const std::string& signature, const std::vector<ConeCopies>& cones,
                    const Points& positions);
 
-/// 4 pi/|G|; in the plane the tile's; of a polygon the sum of its interior angles less (n - 2) pi.
+/// The area of the target: 4 pi/|G|; in the plane, the tile's; for a polygon, the sum of its interior angles
+/// less (n - 2) pi.
 double target_area(const Target& target);
 
 }  // namespace orbitutte

@@ -38,7 +38,7 @@ Fraction euler_characteristic(const ConwaySymbol& symbol) {
   return chi;
 }
 
-// A single order of several digits ends with a comma where each of them could be an order.
+// A single order of several digits ends with a comma if each digit could be an order.
 std::string join(const Orders& orders) {
   const bool digits = std::all_of(orders.begin(), orders.end(), [](int n) { return n < 10; });
   const std::string text = fmt::format("{}", fmt::join(orders, digits ? "" : ","));
@@ -50,7 +50,7 @@ bool any_below_two(const Orders& orders) {
   return std::any_of(orders.begin(), orders.end(), [](int n) { return n < 2; });
 }
 
-// An order of one marks nothing; only alone before the cross is it part of a name (1x).
+// An order of one marks nothing. It is part of a name only if it is alone before the cross (1x).
 bool trivial_order(const ConwaySymbol& symbol) {
   const bool alone_before_cross = symbol.cross && symbol.rotations.size() == 1;
   return (!alone_before_cross && any_below_two(symbol.rotations)) || any_below_two(symbol.corners);
@@ -172,7 +172,7 @@ std::string commas(const ConwaySymbol& symbol) {
   return list(symbol.rotations) + (symbol.star ? "*" : "") + list(symbol.corners) + (symbol.cross ? "x" : "");
 }
 
-// Why a reading cannot be embedded; empty where it can.
+// Why a reading cannot be embedded; empty if it can.
 std::string objection(const ConwaySymbol& symbol) {
   if (any_above_largest(symbol.rotations) || any_above_largest(symbol.corners)) return above_largest();
   if (find_family(symbol)) return {};

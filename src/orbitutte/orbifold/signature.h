@@ -10,19 +10,19 @@
 namespace orbitutte {
 
 /// Reads a symbol and finds its family; the sign of the orbifold's Euler characteristic decides the space.
-/// Orders may come in any arrangement. Throws ArgumentError, in one sentence: what is no symbol; what could
-/// be read in two ways (both are named); orders that make a hyperbolic orbifold or none at all (teardrops,
-/// spindles, order one), and Euclidean ones that have no tile here.
+/// Orders may come in any arrangement. Throws ArgumentError if the text is not a symbol; if it could be read
+/// in two ways (both are named); if the orders make a hyperbolic orbifold or none at all (teardrops,
+/// spindles, order one); and for Euclidean orbifolds that have no tile here.
 Target parse_orbifold(const std::string& signature);
 
-/// Do the marks lie at opposite points of the sphere? Two alike do, if they are all there are.
+/// Do the marks lie at opposite points of the sphere? They do if there are two and both are alike.
 bool are_opposite(const std::vector<Mark>& marks);
 
-/// The angle of each mark in the metric that weights take at cones (sharpened_at_cones), radians; 0 where the
-/// mark is no cone. It is the mark's own, but twice that where two alike are all there are: these lie
-/// opposite to each other, and the map may slide along their axis at no cost but the error of the elements
-/// there. With their own angles nothing would be left of that, and arcs, shorter than the plane's, would draw
-/// the whole mesh towards one of them.
+/// The angle of each mark in the metric that weights take at cones (sharpened_at_cones), radians; 0 where
+/// the mark is no cone. It is the mark's own angle, or twice that if the marks are opposite (are_opposite).
+/// Then the map may slide along their axis, and only the error of the linear elements at the cones keeps it
+/// in its place. With the marks' own angles nothing would be left of that error, and arcs, which are shorter
+/// on the sphere than in the plane, would draw the whole mesh towards one of the cones.
 std::vector<double> metric_angles(const std::vector<Mark>& marks);
 
 /// A row of `orbitutte types`.

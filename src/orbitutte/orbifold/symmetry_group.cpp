@@ -23,8 +23,9 @@ void check_isometry(Space space, const Matrix3& matrix) {
                     space.name(), defect));
 }
 
-/// A linear function of the entries that changes by no more than the matrix does (in the Frobenius norm): its
-/// coefficients have norm below 1, and no relation that would give many elements of a group the same value.
+/// A linear function of the entries that changes by no more than the matrix does (in the Frobenius norm),
+/// since its coefficients have norm below 1. They have no relation that would give many elements of a group
+/// the same value.
 double index_key(const Matrix3& matrix) {
   static const Matrix3 coefficients =
       (Matrix3() << 0.3141, -0.2236, 0.4358, 0.1732, 0.3605, -0.2828, -0.4123, 0.1414, 0.2645).finished();

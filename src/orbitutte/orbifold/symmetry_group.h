@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Groups of isometries: whole ones where they are finite, otherwise the elements near the tile.
+// Groups of isometries: all elements if the group is finite, otherwise the elements near the tile.
 #pragma once
 
 #include <map>
@@ -9,15 +9,16 @@
 
 namespace orbitutte {
 
-/// Elements of a discrete group of isometries. Element 0 is the identity; the sequence depends on the
-/// generators alone.
+/// Elements of a discrete group of isometries. Element 0 is the identity. The sequence depends only on the
+/// generators.
 class SymmetryGroup {
  public:
-  /// All products of the generators. Throws ArgumentError if one is no isometry of the space (to 1e-9), or if
-  /// more than `max_order` elements come out: no finite group of that size.
+  /// All products of the generators. Throws ArgumentError if one is not an isometry of the space (to 1e-9),
+  /// or if there are more than `max_order` products.
   SymmetryGroup(Space space, const std::vector<Isometry>& generators, int max_order);
 
-  /// So many elements, or all there are: those whose images of `centre` lie nearest to it, in that order.
+  /// The `count` elements whose images of `centre` lie nearest to it, in that order; all elements if there
+  /// are no more.
   static SymmetryGroup nearest_elements(Space space, const std::vector<Isometry>& generators,
                                         const Vector3& centre, int count);
 
@@ -28,8 +29,8 @@ class SymmetryGroup {
   /// O(log order).
   int find(const Isometry& element) const;
 
-  /// For every element g the index of g * element, -1 if that is none of the elements. Of a whole group and
-  /// one of its elements a permutation of 0 .. order - 1.
+  /// For every element g, the index of g * element; -1 if that is not among the elements. For a whole group
+  /// and one of its elements this is a permutation of 0 .. order - 1.
   std::vector<int> right_products(const Isometry& element) const;
 
   /// The elements isometry * g * isometry^-1, in the same order.
@@ -45,14 +46,15 @@ class SymmetryGroup {
   std::multimap<double, int> index_;
 };
 
-/// The group of a target in its canonical frame, whatever cut an embedding has. Throws ArgumentError if it is
-/// infinite, or has not the order that the target says.
+/// The group of a target in its canonical frame, whatever cut an embedding has. Throws ArgumentError if the
+/// group is infinite or does not have the order that the target states.
 SymmetryGroup group_of(const Target& target);
 
-/// The same, of an infinite group so many elements, nearest to the middle of the tile first.
+/// The same; of an infinite group, the `count` elements nearest to the middle of the tile, the nearest
+/// first.
 SymmetryGroup group_of(const Target& target, int count);
 
-/// The same in the frame where an embedding lies.
+/// The same in the frame in which an embedding lies.
 SymmetryGroup group_of(const Embedding& embedding);
 SymmetryGroup group_of(const Embedding& embedding, int count);
 

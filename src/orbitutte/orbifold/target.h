@@ -11,18 +11,19 @@
 
 namespace orbitutte {
 
-/// A Conway symbol, read: rotation orders before the first star or cross, corner orders after the star.
+/// A Conway symbol that has been read: rotation orders before the first star or cross, corner orders after
+/// the star.
 struct ConwaySymbol {
   std::vector<int> rotations;
   std::vector<int> corners;
   bool star = false;
   bool cross = false;
 
-  /// One character per order while each is a single digit, commas otherwise; `x` for the cross.
+  /// One character per order if all are single digits, otherwise commas; `x` for the cross.
   std::string text() const;
 };
 
-/// The signature of fixed boundaries, which no symbol of Conway's is: theorem 1, see polygon.h.
+/// The signature of fixed boundaries, which have no symbol of Conway's: theorem 1, see polygon.h.
 inline const std::string polygon_signature = "polygon";
 
 enum class ConeKind { rotation, corner, fixed };
@@ -44,33 +45,34 @@ struct Mark {
   /// The mark of an order; a fixed one has none.
   static Mark of_order(int order, ConeKind kind);
 
-  /// n where the angle is 2 pi/n (rotation) or pi/n (corner), 1 where the mark is fixed, 0 otherwise.
+  /// n if the angle is 2 pi/n (rotation) or pi/n (corner), 1 if the mark is fixed, otherwise 0.
   int order() const;
 };
 
 /// What an embedding aims at. parse_orbifold and polygon_target make targets.
 struct Target {
-  /// Canonical text, the orders in the arrangement that was given.
+  /// The canonical text, with the orders in the arrangement that was given.
   std::string signature;
   ConwaySymbol symbol;
   Space space;
 
-  /// What the mesh has to be.
+  /// What the mesh must be.
   Topology topology = Topology::sphere;
 
   /// In the order in which vertices are marked.
   std::vector<Mark> marks;
 
-  /// So many marks, the first, lie inside the surface, the others on its boundary.
+  /// The first `inner_marks` marks lie inside the surface, the others on its boundary.
   int inner_marks = 0;
 
   /// |G|; 0 if it is infinite.
   int group_order = 1;
 
-  /// Of a fixed polygon: one a mark; otherwise none (polygon.h).
+  /// The corners of a fixed polygon, one for each mark; otherwise empty (polygon.h).
   std::vector<PolygonCorner> corners;
 
-  /// Rotations about (0, 0, 1) change nothing about the target: NN, N* and Nx fix a map up to one of them.
+  /// Do rotations about (0, 0, 1) change nothing about the target? NN, N* and Nx fix a map only up to such a
+  /// rotation.
   bool is_free_to_rotate = false;
 };
 

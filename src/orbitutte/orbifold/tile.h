@@ -10,9 +10,9 @@ namespace orbitutte {
 
 /// A side of a tile: the geodesic p(s) = cs(s) start + sn(s) direction, 0 <= s <= length, the tile on its
 /// left. A point of this side at arc length s is transform * (the point of side `partner` at length - s), or
-/// at s where the transform is a rotary reflection: tiles lie on opposite sides of a glued side in both
-/// cases. A side that is its own partner is a mirror, and stays as it is under the transform. A side without
-/// a partner (-1) is held: its vertices stay where they are put.
+/// at s if the transform is a rotary reflection. In both cases tiles lie on opposite sides of a glued side.
+/// A side that is its own partner is a mirror, and stays as it is under the transform. A side without a
+/// partner (-1) is held: its vertices stay where they are put.
 struct TileSide {
   Space space;
 
@@ -25,10 +25,10 @@ struct TileSide {
   /// On the sphere at most pi.
   double length = 0;
 
-  /// The marked point at the start, an index into Target::marks or one behind.
+  /// The marked point at the start: an index into Target::marks, or marks.size() for the end of a cut.
   int mark = -1;
 
-  /// The start is no corner but any point of the mirror: its vertex is not held there.
+  /// Is the start any point of the mirror instead of a corner? Then its vertex is not held there.
   bool slides = false;
   int partner = -1;
   Isometry transform;
@@ -55,20 +55,21 @@ struct Tile {
 
   Space space() const { return sides.front().space; }
 
-  /// A point in the middle. On the sphere the direction of the integral of the position over the tile, half
-  /// the sum of length * pole over the sides: that holds for lunes and hemispheres too, where the mean of the
-  /// corners vanishes.
+  /// A point in the middle. On the sphere it is the direction of the integral of the position over the tile,
+  /// which is half the sum of length * pole over the sides. This also works for lunes and hemispheres, where
+  /// the mean of the corners vanishes.
   Vector3 centroid() const;
 };
 
 /// The tile whose boundary meets the target's marks in the order `arrangement` (a permutation of their
-/// indices; every other corner is a further image of one of them). A disk with a cone inside is cut from it
-/// to the mirror: there, index marks.size() stands for the end of the cut, and comes second, after the cone.
+/// indices; every other corner is a further image of one of them). A disk with a cone inside is cut from the
+/// cone to the mirror. Then index marks.size() stands for the end of the cut, and comes second, after the
+/// cone.
 ///
 /// The tile lies in the target's canonical frame, which does not depend on the arrangement: mark 0 has an
-/// image at (0, 0, 1), and mark 1, or a mirror, one from there in the direction of x, so that the marks of a
-/// closed surface are met counterclockwise. Tiles of the same target for different cuts are made of the same
-/// points of the quotient. Throws ArgumentError if the arrangement is no such permutation.
+/// image at (0, 0, 1). From there, mark 1 or a mirror has an image in the direction of x, so that the marks
+/// of a closed surface are met counterclockwise. Tiles of the same target for different cuts are made of the
+/// same points of the quotient. Throws ArgumentError if the arrangement is not such a permutation.
 Tile basic_tile(const Target& target, const std::vector<int>& arrangement);
 
 /// An arrangement that basic_tile takes: the marks in their order.
@@ -77,10 +78,11 @@ std::vector<int> first_arrangement(const Target& target);
 /// The same tile moved by an isometry that keeps orientations.
 Tile moved_tile(const Tile& tile, const Isometry& isometry);
 
-/// True where a side is held, so that the tile lies where it was asked for and may not be turned.
+/// Is a side of the tile held? Then the tile lies where it was asked for, and may not be turned.
 bool has_held_side(const Tile& tile);
 
-/// Does a rotation about (0, 0, 1) change no side's gluing, so that the embedding is fixed only up to it?
+/// Do rotations about (0, 0, 1) leave the gluing of all sides as it is, so that the embedding is fixed only
+/// up to them?
 bool is_free_to_rotate(const Tile& tile);
 
 }  // namespace orbitutte

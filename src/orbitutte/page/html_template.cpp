@@ -29,7 +29,7 @@ data to_data(const Content& content) {
   return object;
 }
 
-/// How long the content's texts are together.
+/// The total length of the content's texts.
 std::size_t length_of(const Content& content) {
   if (content.is_string()) return content.get_ref<const std::string&>().size();
   std::size_t length = 0;
@@ -48,7 +48,7 @@ struct Sink {
   }
 };
 
-/// The library shows nothing for names without content; here they are an error.
+/// The library shows nothing for names without content; here such names are an error.
 class Names : public kainjow::mustache::context<std::string> {
  public:
   Names(const data& content, const Template& what) : context(&content), what_(what) {

@@ -30,7 +30,7 @@ using Pointer = Json::json_pointer;
 
 constexpr const char* missing = "–";
 
-// Figures of the report: a dash where one is missing or of another type.
+// Figures of the report; a dash if one is missing or of another type.
 
 const Json& at(const Json& report, const std::string& path) {
   static const Json nothing;
@@ -56,14 +56,14 @@ std::string measure_text(double value, const char* unit = "") {
   return std::isfinite(value) ? fmt::format("{:.4g}{}", value, unit) : missing;
 }
 
-/// The report's figure that a name of the template means, `report.mesh.faces`; none for other names.
+/// The report's figure for a name of the template such as `report.mesh.faces`; nothing for other names.
 std::optional<std::string> named_figure(const Json& report, std::string name) {
   if (!name.starts_with("report.")) return std::nullopt;
   std::replace(name.begin(), name.end(), '.', '/');
   return figure_text(at(report, name.substr(name.find('/'))));
 }
 
-/// Sections of the template are left out where there is no text.
+/// Sections of the template are left out if there is no text.
 Content unless_empty(const std::string& text) { return text.empty() ? Content(false) : Content(text); }
 
 // Words
@@ -115,7 +115,7 @@ std::string group_text(const Target& target) {
   return target.group_order > 0 ? plural(target.group_order, "element") : "infinitely many elements";
 }
 
-// What the copies of the tile do.
+// What the copies of the tile cover.
 std::string covering(const Target& target) {
   if (target.group_order == 1) return "the tile covers the sphere";
   if (target.group_order == 0) return "its symmetric copies cover the plane";

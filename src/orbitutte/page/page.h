@@ -12,18 +12,22 @@ namespace orbitutte {
 /// A picture that stands in for the interactive view.
 struct PagePicture {
   std::string caption;
-  std::string png;  ///< the bytes
+  /// The bytes.
+  std::string png;
 };
 
-/// What the page has besides figures.
+/// What the page shows besides figures.
 struct PageOptions {
-  /// With the view that needs JavaScript and WebGL, if this build has it and the map is one onto the sphere.
+  /// Whether the page has the interactive view, which needs JavaScript and WebGL. It has none if this build
+  /// has none or the map is not onto the sphere.
   bool interactive = true;
-  std::vector<PagePicture> pictures;  ///< shown where the page has no interactive view, or it cannot run
-  DisplayLimits limits;               ///< how much of the mesh the interactive view draws
+  /// The pictures that are shown if the page has no interactive view or the view cannot run.
+  std::vector<PagePicture> pictures;
+  /// How much of the mesh the interactive view draws.
+  DisplayLimits limits;
 };
 
-/// What the page is about. The surface is the one that was embedded; its colours are shown.
+/// The subject of the page. The surface is the one that was embedded; its colours are shown.
 struct PageSubject {
   const Surface& surface;
   const Embedding& embedding;
@@ -31,14 +35,14 @@ struct PageSubject {
   const std::string& report;
 };
 
-/// Whether this build of the library holds the script of the interactive view (Node.js made it).
+/// Does this build of the library contain the script of the interactive view (made by Node.js)?
 bool has_interactive_view();
 
-/// The page. The certificate is computed again from mesh and embedding, and the page says where the report
-/// claims otherwise; other figures are the report's, those that it lacks a dash. Everything the page shows is
-/// in it, and a content security policy keeps it from loading anything. Throws MeshError where mesh and
-/// embedding do not belong together, there are colours of other vertices, or the report is no JSON,
-/// ArgumentError as weld_copies does.
+/// The page. The certificate is computed again from mesh and embedding, and the page says so if the report
+/// claims something else. The other figures are the report's; if the report lacks one, the page has a dash.
+/// The file contains everything that the page shows, and a content security policy keeps it from loading
+/// anything. Throws MeshError if mesh and embedding do not belong together, if the colours are those of
+/// other vertices, or if the report is not JSON; ArgumentError as weld_copies does.
 std::string report_page(const PageSubject& subject, const PageOptions& options = {});
 
 }  // namespace orbitutte

@@ -49,8 +49,7 @@ Range range_of(const std::vector<double>& values) {
 
 Json to_json(const Range& range) { return {range.low, range.high}; }
 
-/// The means of a measure of the faces over the faces around every cut vertex, as log2; 0 where there are
-/// none.
+/// The mean of a measure, as log2, over the faces around every cut vertex; 0 if there are no faces.
 template <typename Measure>
 std::vector<double> vertex_means(const Embedding& embedding, const Measure& measure) {
   std::vector<double> sum(embedding.source_vertex.size(), 0.0);
@@ -81,7 +80,7 @@ Points normals_along_banks(const Surface& surface, const Embedding& embedding) {
 }
 
 /// The same, with the copies of every vertex taken together. The banks of a projective plane's cut face
-/// opposite ways: there every copy takes the sum with its own sign.
+/// opposite ways, so every copy takes the sum with its own sign.
 Points source_normals(const Surface& surface, const Embedding& embedding) {
   Points normals = normals_along_banks(surface, embedding);
   Points sum = Points::Zero(surface.V.rows(), 3);
@@ -136,7 +135,7 @@ Json cones_json(const Embedding& embedding, const std::vector<int>& cut_vertex) 
   return rows;
 }
 
-/// The drawn vertices' values of all those at cut vertices.
+/// The values of the drawn vertices, out of those of all cut vertices.
 std::vector<double> drawn(const std::vector<double>& values, const std::vector<int>& cut_vertex) {
   std::vector<double> result;
   result.reserve(cut_vertex.size());

@@ -7,8 +7,8 @@
 
 namespace orbitutte {
 
-/// What fills viewer/chart.html: where texts, bars and lines are, in units of the picture. `false`, so that a
-/// section is left out, where the chart is empty.
+/// What fills viewer/chart.html: where texts, bars and lines are, in units of the picture. If the chart is
+/// empty, `false`, so that the section is left out.
 Content svg_chart(const Chart& chart);
 
 }  // namespace orbitutte

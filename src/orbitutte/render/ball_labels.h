@@ -8,20 +8,24 @@
 namespace orbitutte {
 
 struct BallLabel {
-  Place at;           ///< the ball's middle
-  double radius = 0;  ///< in pixels
-  int order = 1;      ///< 0: no number
+  /// The ball's middle.
+  Place at;
+  /// In pixels.
+  double radius = 0;
+  /// 0: no number.
+  int order = 1;
   Rgb colour;
-  bool is_visible = true;  ///< where the ball is behind the figure, an open circle stands for it
+  /// If the ball is behind the figure, an open circle stands for it.
+  bool is_visible = true;
 };
 
 /// Balls of this radius, in pixels, are large enough for their numbers to be read.
 constexpr double readable_radius = 7;
 
-/// The order of a marked vertex; 0 for the corners of a polygon, which have none.
+/// The order of a marked vertex; 0 for the corners of a polygon, which have no order.
 int order_to_show(const Embedding& embedding, std::size_t cone);
 
-/// No number where the ball is so small that it could not be told from a speck.
+/// A ball that is too small for its number to be read gets none.
 void draw_label(Canvas& canvas, const BallLabel& label);
 
 }  // namespace orbitutte

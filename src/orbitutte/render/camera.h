@@ -9,14 +9,19 @@ namespace orbitutte {
 
 /// From where a figure is seen.
 struct View {
-  Vector3 viewer = Vector3::UnitZ();  ///< from the figure towards the viewer
-  Vector3 up = Vector3::UnitY();      ///< what points up in the picture, as far as it can
+  /// From the figure towards the viewer.
+  Vector3 viewer = Vector3::UnitZ();
+  /// What points up in the picture, as far as it can.
+  Vector3 up = Vector3::UnitY();
 };
 
 struct Camera {
-  Matrix3 axes = Matrix3::Identity();  ///< rows, unit: right, up, towards the viewer
-  Vector3 centre = Vector3::Zero();    ///< what the middle of the picture shows
-  double pixel = 1;                    ///< the length of a pixel's side in the world
+  /// Rows, unit: right, up, towards the viewer.
+  Matrix3 axes = Matrix3::Identity();
+  /// What the middle of the picture shows.
+  Vector3 centre = Vector3::Zero();
+  /// The length of a pixel's side in the world.
+  double pixel = 1;
   PictureSize size;
 
   /// The ray into the picture at x, y (in pixels from the top left corner). It begins `distance` in front of
@@ -27,14 +32,14 @@ struct Camera {
   Vector3 project(const Vector3& point) const;
 };
 
-/// Rows: right, up, towards the viewer. Where `up` points at the viewer, another axis takes its place.
+/// Rows: right, up, towards the viewer. If `up` points at the viewer, another axis takes its place.
 Matrix3 view_axes(const View& view);
 
-/// The axes of the view from the front where `up` is up: the viewer is at +z, or at -y where up is along z.
+/// The axes of the view from the front if `up` points up: the viewer is at +z, or at -y if `up` is along z.
 Matrix3 front_axes(const Vector3& up);
 
 /// The camera for which the points (n x 3) fill the share `fill` of the picture's width or height, whichever
-/// is tighter.
+/// is reached first.
 Camera fit_camera(const View& view, const Points& points, const PictureSize& size, double fill);
 
 }  // namespace orbitutte

@@ -39,8 +39,7 @@ std::uint32_t on_paper(const Rgba& pixel) {
          static_cast<std::uint32_t>(colour.green) << 8U | colour.blue;
 }
 
-// Cairo numbers surfaces through the whole process, and writes the number into an attribute that nothing
-// refers to.
+// Cairo numbers all surfaces of the process, and writes the number into an attribute that nothing refers to.
 void drop_surface_number(std::string& svg) {
   const std::size_t begin = svg.find(" id=\"surface");
   if (begin == std::string::npos) return;

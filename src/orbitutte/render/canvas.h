@@ -28,22 +28,26 @@ struct Box {
 enum class Align { left, centre, right };
 
 struct TextStyle {
-  double size = 1;  ///< in ems of the canvas
+  /// In ems of the canvas.
+  double size = 1;
   Rgb colour = ink::text;
   Align align = Align::left;
   bool bold = false;
-  double angle = 0;  ///< radians, clockwise
+  /// Radians, clockwise.
+  double angle = 0;
 };
 
 struct LineStyle {
-  double width = 0.08;  ///< in ems of the canvas
+  /// In ems of the canvas.
+  double width = 0.08;
   Rgb colour = ink::text;
-  double dash = 0;  ///< in ems; 0: a full line
+  /// In ems; 0: a full line.
+  double dash = 0;
 };
 
 class Canvas {
  public:
-  /// White paper. em: the size of normal text, in pixels. Throws Error where Cairo fails.
+  /// White paper. em: the size of normal text, in pixels. Throws Error if Cairo fails.
   Canvas(PictureFormat format, const PictureSize& size, double em);
 
   const PictureSize& size() const { return size_; }

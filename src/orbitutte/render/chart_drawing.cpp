@@ -74,7 +74,7 @@ void draw_line(Canvas& canvas, const Plot& plot, const ChartLine& line) {
   for (const Place& point : points) canvas.disc(point, 0.24 * canvas.em(), tone_colour(line.tone));
 }
 
-// In a row above the plot that ends at its right side, each label behind a piece of its line.
+// In a row above the plot that ends at its right side, with each label after a piece of its line.
 void draw_key(Canvas& canvas, const Plot& plot) {
   const double em = canvas.em(), y = plot.box.y - 1.2 * em;
   double x = plot.box.right();
@@ -98,7 +98,7 @@ void finish_outermost(Canvas& canvas, const Plot& plot, const ChartBar& bar) {
               {.size = 0.8, .colour = ink::quiet, .align = Align::centre});
 }
 
-// Smaller where it would be wider than the box.
+// Smaller if it would be wider than the box.
 void draw_scale_title(Canvas& canvas, const Box& box, const std::string& title) {
   TextStyle style = {.size = 0.9, .colour = ink::quiet, .align = Align::centre};
   style.size *= std::min(1.0, box.width / canvas.text_width(title, style));

@@ -15,7 +15,7 @@ class Checkerboard {
   /// median side, over the source's area, is `side` on the source.
   Checkerboard(const Embedding& embedding, const Points& source, const Vector3& centre, double side);
 
-  /// Dark, light, and their mean where squares are smaller than pixels.
+  /// Dark, light, or their mean if squares are smaller than pixels.
   Colour colour(const Hit& hit, double pixel) const;
 
   /// n_cut x 2: the stereographic coordinates, in squares.
@@ -27,11 +27,12 @@ class Checkerboard {
   Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> coordinates_;
   Triangles faces_;
   double side_;
-  std::vector<float> side_on_source_;  ///< m: of a square, by the face that it lies in
+  /// m: of a square, by the face that it lies in.
+  std::vector<float> side_on_source_;
 };
 
-/// The side of a square on the source at every face where a square in the plane has the side 1; infinite
-/// where the image has no area. plane: n_cut x 2; source: n x 3, by source vertex.
+/// For every face, the side that a square of side 1 in the plane has on the source; infinite if the image
+/// has no area. plane: n_cut x 2; source: n x 3, by source vertex.
 std::vector<float> sides_on_source(const Embedding& embedding, const Points& source,
                                    const Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>& plane);
 

@@ -45,7 +45,7 @@ Orientation orientation(const Points& V, const Triangles& F) {
 
 bool is_open(const Orientation& orientation) { return orientation.integral.norm() > 0.25 * orientation.area; }
 
-// The area that is seen where no part hides another, as a share of the whole.
+// The area that would be seen if no part hid another, as a share of the whole.
 double projected_share(const SourceFigure& figure, const Vector3& viewer) {
   const Points& V = figure.positions();
   double seen = 0, area = 0;
@@ -90,7 +90,7 @@ double score(const SourceFigure& figure, const Points& marked, const View& view)
 }  // namespace
 
 Vector3 default_up_direction(const Surface& surface) {
-  // What is open does not stand on its rim but faces the viewer.
+  // An open surface does not stand on its rim but faces the viewer.
   if (surface.triangles.rows() == 0 || is_open(orientation(surface.V, surface.triangles)))
     return Vector3::UnitY();
   const double across_y = base_share(surface.V, 1), across_z = base_share(surface.V, 2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From where a source mesh is shown when nobody says.
+// The view of a source mesh if none is asked for.
 #pragma once
 
 #include "orbitutte/render/source_figure.h"

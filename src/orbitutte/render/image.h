@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures as arrays of pixels, and how they come about from samples.
+// Pictures as arrays of pixels, and how samples make them.
 #pragma once
 
 #include <functional>
@@ -24,7 +24,8 @@ inline Rgba opaque(const Colour& colour) { return {colour[0], colour[1], colour[
 
 struct Image {
   PictureSize size;
-  std::vector<Rgba> pixels;  ///< row by row from the top left
+  /// Row by row from the top left.
+  std::vector<Rgba> pixels;
 
   const Rgba& at(int column, int row) const {
     return pixels[static_cast<std::size_t>(row) * size.width + column];
@@ -35,10 +36,11 @@ struct Image {
 struct Sample {
   float x = 0;
   float y = 0;
-  int number = 0;  ///< in the pixel, 0 .. samples_across^2 - 1
+  /// In the pixel, 0 .. samples_across^2 - 1.
+  int number = 0;
 };
 
-/// How many samples a pixel has along each side.
+/// The number of samples along each side of a pixel.
 constexpr int samples_across = 3;
 
 /// Every pixel is the mean of shade(sample) over a grid of samples. Pixels are independent, rows run on all

@@ -18,8 +18,10 @@ CornerNormals corner_normals(const Points& V, const Triangles& F, double crease)
 
 /// How much light reaches a point, 0 .. 1 each.
 struct Exposure {
-  float openness = 1;  ///< of all that comes from around
-  float lit = 1;       ///< of the main light
+  /// The share of the light from all around.
+  float openness = 1;
+  /// The share of the main light.
+  float lit = 1;
 };
 
 /// How bright a white, matt surface looks, about 0 .. 1, lit from above the viewer's left shoulder, filled in
@@ -30,17 +32,17 @@ float brightness(const Vector3f& normal, const Exposure& exposure);
 /// What a slightly glossy surface reflects of the main light besides, about 0 .. 0.1.
 float gloss(const Vector3f& normal);
 
-/// Whether anything lies on a ray.
+/// Does anything lie on a ray?
 using Blocker = std::function<bool(const Ray&)>;
 
-/// The share of the hemisphere above a point that nothing blocks within `from.length`, estimated with so many
-/// rays. Over the samples of a pixel their directions are spread evenly, and from pixel to pixel they are
-/// turned such that what noise remains is finely grained. from: its origin just above the surface, its
-/// direction the unit normal.
+/// The share of the hemisphere above a point that nothing blocks within `from.length`, estimated with so
+/// many rays. Their directions are spread evenly over the samples of a pixel, and turned from pixel to pixel
+/// so that the remaining noise is finely grained. from: its origin just above the surface, its direction the
+/// unit normal.
 float openness(const Blocker& is_blocked, const Ray& from, int rays, const Sample& sample);
 
-/// Whether the main light, which is as wide as a lamp near by, reaches a point: 1 or 0, and its share as the
-/// mean over the samples of a pixel. origin: just above the surface; axes: the camera's (rows).
+/// Does the main light, which is as wide as a lamp near by, reach a point? 1 or 0; the mean over the samples
+/// of a pixel is its share. origin: just above the surface; axes: the camera's (rows).
 float lit(const Blocker& is_blocked, const Vector3f& origin, const Matrix3& axes, const Sample& sample);
 
 }  // namespace orbitutte

@@ -12,7 +12,7 @@ namespace orbitutte {
 /// Coloured tubes and balls that rays can hit.
 class Ornaments {
  public:
-  /// points: n x 3; fewer than two are passed over.
+  /// points: n x 3; fewer than two are ignored.
   void add_tube(const Points& points, double radius, const Rgb& colour);
   void add_ball(const Vector3& centre, double radius, const Rgb& colour);
 
@@ -27,8 +27,10 @@ class Ornaments {
 
  private:
   RayScene scene_;
-  std::vector<Colour> colours_;                 ///< by shape
-  std::vector<std::vector<Colour>> of_copies_;  ///< by shape: the colours inside, where it is a copy
+  /// By shape.
+  std::vector<Colour> colours_;
+  /// By shape: the colours inside, if it is a copy.
+  std::vector<std::vector<Colour>> of_copies_;
 };
 
 /// The rows of `positions` at these vertices.

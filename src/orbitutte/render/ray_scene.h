@@ -18,21 +18,28 @@ using Vector3f = Eigen::Vector3f;
 struct Ray {
   Vector3f origin;
   Vector3f direction;
-  float length = std::numeric_limits<float>::infinity();  ///< in lengths of `direction`
+  /// In lengths of `direction`.
+  float length = std::numeric_limits<float>::infinity();
 };
 
 /// The first thing on a ray.
 struct Hit {
-  float distance = 0;  ///< in lengths of the ray's direction
-  int shape = -1;      ///< as add_... returned it
-  int primitive = -1;  ///< of triangles: the face
-  int copy = -1;       ///< as add_copy returned it; -1 where the shape is the scene's own
-  float u = 0, v = 0;  ///< of triangles: the hit is (1 - u - v) a + u b + v c
-  Vector3f normal;     ///< unit, of the shape as it stands, on either side
+  /// In lengths of the ray's direction.
+  float distance = 0;
+  /// As add_... returned it.
+  int shape = -1;
+  /// Of triangles: the face.
+  int primitive = -1;
+  /// As add_copy returned it; -1 if the shape is the scene's own.
+  int copy = -1;
+  /// Of triangles: the hit is (1 - u - v) a + u b + v c.
+  float u = 0, v = 0;
+  /// Unit, of the shape as it stands, on either side.
+  Vector3f normal;
 };
 
 /// In single precision: coordinates should be of the order of one. Add shapes, commit, then cast rays from
-/// any thread. Throws std::bad_alloc where memory runs out.
+/// any thread. Throws std::bad_alloc if memory runs out.
 class RayScene {
  public:
   RayScene();
@@ -53,7 +60,8 @@ class RayScene {
 
  private:
   std::shared_ptr<RTCSceneTy> scene_;
-  std::vector<Eigen::Matrix3f> transforms_;  ///< of every shape, the identity unless it is a copy
+  /// Of every shape, the identity unless it is a copy.
+  std::vector<Eigen::Matrix3f> transforms_;
 };
 
 }  // namespace orbitutte

@@ -39,8 +39,8 @@ PictureSize picture_size(const RenderOptions& options) {
 
 bool has_scale(Panel panel) { return panel == Panel::area || panel == Panel::angle; }
 
-// The size of normal text, in pixels: the same share of the picture whatever its size, but that the numbers
-// of scales can be read in small pictures, too.
+// The size of normal text, in pixels: the same share of pictures of all sizes, but larger in small pictures,
+// so that the numbers of scales can be read.
 double em_of(Panel panel, const PictureSize& size) {
   constexpr double readable = 11;
   const double side = std::min(size.width, size.height);

@@ -31,17 +31,19 @@ struct NameTable<Panel> {
 /// What a picture shows, from where, and how large.
 struct RenderOptions {
   Panel panel = Panel::sheet;
-  int width = 0;  ///< pixels, 64 .. 10,000; 0: what suits the panel
+  /// Pixels, 64 .. 10,000; 0: as suits the panel.
+  int width = 0;
   int height = 0;
-  std::optional<Vector3>
-      view;  ///< of the source mesh, towards the viewer; of the sphere where it is the only panel
-  std::optional<Vector3> up;  ///< what points up; without: y or z, whichever the mesh stands on
+  /// The direction from the source mesh towards the viewer; from the sphere if that is the only panel.
+  std::optional<Vector3> view;
+  /// What points up; if not given, default_up_direction decides.
+  std::optional<Vector3> up;
 };
 
 /// "1200x800", or "1200" for a square. Throws ArgumentError.
 void parse_picture_size(const std::string& text, RenderOptions& options);
 
-/// What points up where nobody says: y, as in most files; z for closed meshes that stand on a broad base
+/// What points up if nothing is given: y, as in most files; z for closed meshes that stand on a broad base
 /// across z and not across y, as parts for printing do.
 Vector3 default_up_direction(const Surface& surface);
 
@@ -49,7 +51,7 @@ Vector3 default_up_direction(const Surface& surface);
 Vector3 parse_up_direction(const std::string& text);
 
 /// The direction towards the viewer: "front", "back", "left", "right", "top", "bottom" relative to `up`, or
-/// "x,y,z". Where y is up, the front is at +z, and where z is up, at -y. Throws ArgumentError.
+/// "x,y,z". The front is at +z if y is up, and at -y if z is up. Throws ArgumentError.
 Vector3 parse_view_direction(const std::string& text, const Vector3& up);
 
 /// What is shown. The surface is the one that was embedded.
@@ -57,11 +59,12 @@ struct RenderSubject {
   const Surface& surface;
   const Embedding& embedding;
   const Report& report;
-  std::string title;  ///< of the sheet
+  /// Of the sheet.
+  std::string title;
 };
 
 /// The bytes of a PNG, or of an SVG (histogram and convergence only). The same input and options give the
-/// same bytes. Throws ArgumentError for options out of range or an SVG of another panel; MeshError where mesh
+/// same bytes. Throws ArgumentError for options out of range or an SVG of another panel; MeshError if mesh
 /// and embedding do not belong together.
 std::string render_png(const RenderSubject& subject, const RenderOptions& options = {});
 std::string render_svg(const RenderSubject& subject, const RenderOptions& options);

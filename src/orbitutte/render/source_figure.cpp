@@ -16,7 +16,7 @@ constexpr float surface_offset = 2e-4F;   // how far above the surface rays begi
 constexpr float reach_of_shade = 0.6F;
 constexpr int rays_to_surroundings = 3;  // for each sample
 
-// Vertices that no face uses come to lie on the first face's first corner: they must not make the figure
+// Vertices that no face uses are put on the first face's first corner, so that they do not make the figure
 // small.
 Points used_positions(const Points& V, const Triangles& F) {
   Points used = V(F(0, 0), Eigen::all).replicate(V.rows(), 1);

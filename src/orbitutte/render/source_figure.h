@@ -19,15 +19,16 @@ class SourceFigure {
   /// V (n x 3, finite) is scaled into the unit ball about the origin. There must be a face.
   SourceFigure(const Points& V, const Triangles& F);
 
-  const Points& positions() const { return V_; }  ///< n x 3, in the unit ball
+  /// n x 3, in the unit ball.
+  const Points& positions() const { return V_; }
   const Triangles& faces() const { return F_; }
   const CornerNormals& normals() const { return normals_; }
 
   /// The ornaments throw shadows on the surface, too.
   Image draw(const Camera& camera, const SurfaceColour& colour, const Ornaments& ornaments) const;
 
-  /// Whether nothing of the surface lies between a point, moved by `clearance` towards the viewer (a
-  /// direction), and the viewer.
+  /// Is a point visible? Nothing of the surface may lie between the viewer and the point, moved by
+  /// `clearance` towards the viewer (a direction).
   bool is_visible(const Vector3& point, const Vector3& viewer, double clearance) const;
 
  private:

@@ -61,7 +61,7 @@ double histogram_height(const Box& box, const PictureParts& parts) {
   return parts.options().panel == Panel::area && std::min(box.width, box.height) >= smallest ? 5 : 0;
 }
 
-// One colour, and the triangulation where it is coarse enough.
+// One colour, and the triangulation if it is coarse enough.
 SurfaceColour plain_colour(const SourceFigure& figure, double pixel) {
   const float lines = line_strength(mean_edge_length(figure.positions(), figure.faces()) / pixel);
   const Colour body = linear(bold_colour);

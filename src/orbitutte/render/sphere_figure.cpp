@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Every point of the sphere that is seen is looked up by a ray from the centre, which meets the triangle
-// whose spherical triangle holds the point: the picture shows great arcs and a round outline however coarse
-// the mesh.
+// A ray from the centre finds the triangle at every visible point of the sphere: it meets the flat triangle
+// whose spherical triangle holds the point. So the picture shows great arcs and a round outline, however
+// coarse the mesh is.
 #include "orbitutte/render/sphere_figure.h"
 
 #include <Eigen/Geometry>
@@ -42,7 +42,7 @@ RayScene copies_of_tile(const Points& positions, const Triangles& faces,
   return scene;
 }
 
-// The least distance between two marked vertices of the tile; 2 where there is one only.
+// The least distance between two marked vertices of the tile; 2 if there is only one.
 double smallest_gap(const Embedding& embedding) {
   double gap = 2;
   std::vector<int> corners;

@@ -32,10 +32,10 @@ class SphereFigure {
   RayScene scene_;
 };
 
-/// The radius of tubes along the tile's sides: thinner where tiles are small.
+/// The radius of tubes along the tile's sides: thinner if the tile is small.
 double seam_radius(const Target& target);
 
-/// The radius of balls at the marked vertices: large enough for a number on them where the tile has room.
+/// The radius of balls at the marked vertices: large enough for a number on them if the tile has room.
 /// pixel: the length of a pixel's side, where the sphere's radius is 1.
 double ball_radius(const Embedding& embedding, double pixel);
 
@@ -48,8 +48,8 @@ Ornaments sphere_ornaments(const Embedding& embedding, const std::vector<TileCop
 /// tile with the copies around it.
 Camera sphere_camera(const Embedding& embedding, const View& view, const PictureSize& size, double fill);
 
-/// The tile in the middle of the sphere, a little from above and from the right, the more so the farther it
-/// reaches, and the sphere's axis upright; the plane from above.
+/// The tile in the middle of the sphere, seen a little from above and from the right (more so if the tile is
+/// large), with the sphere's axis upright. The plane is seen from above.
 View tile_view(const Embedding& embedding);
 
 /// The point in the direction of the integral of position over the tile; never a mean of corners, which may

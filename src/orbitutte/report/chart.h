@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a chart shows, whoever draws it: the page as SVG, pictures through Cairo. All words and numbers are
+// What a chart shows. The page draws it as SVG, pictures draw it through Cairo; all words and numbers are
 // made here.
 #pragma once
 

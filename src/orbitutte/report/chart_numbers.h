@@ -12,10 +12,10 @@ namespace orbitutte {
 /// The title of axes and scales over log2 A. Both areas are shares of the whole.
 constexpr const char* area_axis_title = "← shrunk    area ratio A (image / mesh)    enlarged →";
 
-/// The value that the share q of all absolute values stays below; 0 where there are none.
+/// The value that the share q of all absolute values stays below; 0 if there are no values.
 double quantile_of_magnitudes(const std::vector<double>& values, double q);
 
-/// The value that the share q of all values stays below; 0 where there are none.
+/// The value that the share q of all values stays below; 0 if there are no values.
 double quantile(std::vector<double> values, double q);
 
 /// 1, 2 or 5 times a power of ten, such that at most `count` steps lead up to `largest`.

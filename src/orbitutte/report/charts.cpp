@@ -27,7 +27,7 @@ double reach_of_bins(const std::vector<double>& log_areas) {
   return ranges.back();
 }
 
-// The outermost numbers say so where faces lie beyond them.
+// The outermost numbers say so if faces lie beyond them.
 ChartAxis area_axis(const HistogramAxes& axes) {
   ChartAxis axis = {area_axis_title, -axes.range, axes.range, octave_ticks(axes.range)};
   if (axes.lowest < axis.low) axis.ticks.front().text.insert(0, "≤ ");
@@ -53,7 +53,7 @@ std::vector<ChartBar> area_bars(const std::vector<double>& shares, const Histogr
   return bars;
 }
 
-// Upright at a value of log2 A, which its label tells as A.
+// Upright at a value of log2 A; its label has A.
 ChartLine upright(const char* label, double log_area, const Chart& chart, ChartStroke stroke) {
   const double at = std::clamp(log_area, chart.x.low, chart.x.high);
   return {fmt::format("{} {:.3g}", label, std::exp2(log_area)),
@@ -72,7 +72,7 @@ std::vector<Eigen::Vector2d> logarithmic(const std::vector<double>& values) {
   return points;
 }
 
-// The whole decades that hold all points; none where there are none.
+// The whole decades that hold all points; none if there are no points.
 std::optional<std::pair<int, int>> decades(const std::vector<ChartLine>& lines) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const ChartLine& line : lines)

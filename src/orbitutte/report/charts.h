@@ -10,7 +10,7 @@
 
 namespace orbitutte {
 
-/// What histograms share that are to be compared: their bins, both axes, and the colours of their bars.
+/// What comparable histograms share: bins, both axes, and the colours of bars.
 struct HistogramAxes {
   /// bins run from log2 A = -range to range; the outermost hold all beyond
   double range = 1;
@@ -28,19 +28,19 @@ struct HistogramAxes {
 /// there is no value.
 std::vector<double> shares_by_bin(const std::vector<double>& log_areas, double range);
 
-/// Axes that suit all of these maps (log2 A of each): none loses more than a thirtieth of its faces beyond
+/// Axes that suit all of these maps (log2 A of each): no map has more than a thirtieth of its faces beyond
 /// the ends unless areas differ by more than 2^15.
 HistogramAxes histogram_axes(const std::vector<std::vector<double>>& maps);
 
-/// The shares of faces by log2 A, with lines at the median and the geometric mean of A. Empty where nothing
-/// is measured.
+/// The shares of faces by log2 A, with lines at the median and the geometric mean of A. Empty if nothing is
+/// measured.
 Chart area_histogram(const std::vector<double>& log_areas, const HistogramAxes& axes);
 
 /// The same on axes of its own.
 Chart area_histogram(const std::vector<double>& log_areas);
 
 /// The energy's excess over its last value and the gradient's norm by iteration, on a logarithmic axis;
-/// values that are not positive are left out. Empty where none is positive.
+/// values that are not positive are left out. Empty if none is positive.
 Chart convergence_chart(const std::vector<Iteration>& history);
 
 }  // namespace orbitutte

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which values of distortion a scale of colours spans, and what is written beside it.
+// The values of distortion that a scale of colours spans, and the text beside it.
 #pragma once
 
 #include <vector>
@@ -13,7 +13,7 @@ namespace orbitutte {
 /// itself.
 enum class Measure { area, angle };
 
-/// The face's value on scales and axes; NaN where it is not measured.
+/// The face's value on scales and axes; NaN if it is not measured.
 double value_of(Measure measure, const FaceDistortion& face);
 
 /// The values of all faces that are measured.
@@ -26,11 +26,11 @@ struct ColourScale {
   ChartAxis axis;
 };
 
-/// The scale that holds nine tenths of these values where they are areas (up to a factor of 64), and 95 %
-/// where they are angles (up to a ratio of 10). Its end is one of a few round numbers.
+/// The scale that holds nine tenths of these values if they are areas (up to a factor of 64), and 95 % if
+/// they are angles (up to a ratio of 10). Its end is one of a few round numbers.
 ColourScale colour_scale(Measure measure, const std::vector<double>& values);
 
-/// The scale that all maps share (values of each): that of the map that needs the widest.
+/// The scale that all maps share (values of each): the widest that one of them needs.
 ColourScale common_colour_scale(Measure measure, const std::vector<std::vector<double>>& maps);
 
 }  // namespace orbitutte

@@ -11,14 +11,18 @@ namespace orbitutte {
 
 /// A map of the mesh.
 struct ComparedMap {
-  std::string title;                  ///< "sphere: 432"
-  Distortion::Area area;              ///< of max(A, 1/A), as measure_distortion has it
-  std::vector<FaceDistortion> faces;  ///< m, as measure_triangles has them
+  /// "sphere: 432"
+  std::string title;
+  /// Of max(A, 1/A), as measure_distortion has it.
+  Distortion::Area area;
+  /// m, as measure_triangles has them.
+  std::vector<FaceDistortion> faces;
 };
 
 struct Comparison {
   const Surface& surface;
-  std::vector<int> cones;  ///< the marked vertices: they should be seen
+  /// The marked vertices, which should be visible.
+  std::vector<int> cones;
   std::vector<ComparedMap> maps;
 };
 

@@ -16,9 +16,9 @@ std::string serialize_embedding(const Embedding& embedding);
 /// range.
 Embedding parse_embedding(std::string_view bytes);
 
-/// Positions, faces and source vertices of such a file; what the report holds (signature, group order, seams,
-/// cones) stays empty. Polygons, which are convex, are divided into triangles from their first corners.
-/// Throws FileError, and MeshError naming what is missing or out of range.
+/// Positions, faces and source vertices of such a file. What the report holds (signature, group order,
+/// seams, cones) stays empty. Polygons, which are convex, are divided into triangles from their first
+/// corners. Throws FileError, and MeshError naming what is missing or out of range.
 Embedding read_embedding(const std::string& path);
 
 }  // namespace orbitutte

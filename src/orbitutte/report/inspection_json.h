@@ -13,11 +13,12 @@ namespace orbitutte {
 /// The families that a mesh can be embedded into ("532", "22N", ...): those of its topology.
 std::vector<std::string> families_for(const Inspection& inspection);
 
-/// Where a mesh is not 3-connected; none are looked for where it has defects.
+/// The places where a mesh is not 3-connected; none if the mesh has defects, since they are not looked for
+/// then.
 std::vector<WeakPlace> weak_places_if_sound(const PolygonMesh& mesh, const Inspection& inspection);
 
 /// Topology, quality, defects and weak places of a mesh, and what it embeds into, as JSON
-/// (docs/file-formats.md). `path`: of the file that the mesh was read from.
+/// (docs/file-formats.md). `path`: the file that the mesh was read from.
 std::string inspection_json(const std::string& path, const PolygonMesh& mesh, const Inspection& inspection,
                             const std::vector<WeakPlace>& places);
 

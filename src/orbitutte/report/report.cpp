@@ -118,8 +118,8 @@ Json list(const Values& values, const Convert& convert) {
   return rows;
 }
 
-// Reading: every value is asked for by its key, which the sentence names where it is missing or of the wrong
-// type.
+// Reading: every value is looked up by its key, which the message names if the value is missing or of the
+// wrong type.
 const Json& member(const Json& object, const char* key) {
   const auto at = object.find(key);
   if (at == object.end()) throw MeshError(fmt::format("the key '{}' is missing", key));
@@ -205,7 +205,7 @@ Seam to_seam(Space space, const Json& json) {
   return seam;
 }
 
-// Reports of the first version have no angles; the order is null if the angle is no 2 pi/n.
+// Reports of the first version have no angles; the order is null if the angle is not 2 pi/n.
 Mark to_mark(const Json& json) {
   const auto kind = to_kind<ConeKind>(text(json, "kind"), "a cone");
   const bool has_order = !json.contains("order") || !json["order"].is_null();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The report: everything about an embedding that is no position, as JSON (docs/file-formats.md).
+// The report: everything about an embedding except its positions, as JSON (docs/file-formats.md).
 #pragma once
 
 #include <optional>
@@ -14,9 +14,10 @@ namespace orbitutte {
 /// What the library cannot know of a run.
 struct RunRecord {
   std::string mesh_path;
-  std::string input_sha256;  ///< hexadecimal
+  /// Hexadecimal.
+  std::string input_sha256;
   double read_seconds = 0;
-  /// If the surface was made before it was embedded.
+  /// How long make_surface took, if it ran before embed.
   double validate_seconds = 0;
   double write_seconds = 0;
   double total_seconds = 0;
@@ -37,29 +38,30 @@ struct Report {
   std::vector<Seam> seams;
   std::vector<ConeCopies> cones;
   WeightOptions weights;
-  /// Triangles of which no edge was flipped.
+  /// Triangles none of whose edges was flipped.
   std::vector<int> kept_faces;
   double energy = 0;
   std::vector<Iteration> history;
   bool converged = false;
   bool bijective = false;
   double expected_area = 0;
-  std::optional<bool> intrinsic_bijective;  ///< of the triangulation that has the weights, where that is told
+  /// What the report says of the triangulation that has the weights, if it says anything.
+  std::optional<bool> intrinsic_bijective;
   std::vector<int> nonpositive_faces;
 };
 
 /// What the text of a report says. Throws MeshError naming the key that is missing or of the wrong type.
 Report parse_report(std::string_view text);
 
-/// parse_report of a file, whose messages begin with the path. Throws FileError, and MeshError naming the key
-/// that is missing or of the wrong type.
+/// Reads a file as parse_report does. Error messages begin with the path. Throws FileError, and MeshError
+/// naming the key that is missing or of the wrong type.
 Report read_report(const std::string& path);
 
-/// An embedding of which the report tells the signature, the group order, seams and cones. Throws MeshError
-/// where a vertex of the report is not in the embedding.
+/// The embedding with signature, group order, seams and cones from the report. Throws MeshError if a vertex
+/// of the report is not in the embedding.
 Embedding with_report(Embedding embedding, const Report& report);
 
-/// An embedding from its two files. Throws as read_embedding and read_report do, and MeshError where a vertex
+/// An embedding from its two files. Throws as read_embedding and read_report do, and MeshError if a vertex
 /// of the report is not in the embedding.
 Embedding read_embedding(const std::string& ply_path, const Report& report);
 

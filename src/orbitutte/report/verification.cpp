@@ -20,7 +20,7 @@ Check claim(std::string name, bool holds, std::string detail) {
   return {std::move(name), holds, holds ? 0.0 : 1.0, 0, holds ? std::string() : std::move(detail)};
 }
 
-// The weights that the embedding was computed with; none where they came from a file that is not at hand.
+// The weights that the embedding was computed with; nothing if they came from a file that is not at hand.
 std::optional<EdgeWeights> weights_at_hand(const Surface& surface, const Embedding& embedding,
                                            const Report& report, const VerificationOptions& options) {
   if (options.weights) return options.weights;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The judgement on an embedding and its report again, from the mesh and both alone: `orbitutte verify`.
+// Judges an embedding and its report again, from nothing but these and the mesh: `orbitutte verify`.
 #pragma once
 
 #include <optional>
@@ -12,34 +12,41 @@
 
 namespace orbitutte {
 
-/// What to look at besides the certificate.
+/// What to check besides the certificate.
 struct VerificationOptions {
-  std::string
-      weights_file;  ///< the weights that the embedding was computed with, where they came from a file
-  std::optional<EdgeWeights> weights;  ///< or these themselves
-  bool theorem2 = false;               ///< also theorem 2's conditions, which can take long
+  /// The file of the weights that the embedding was computed with, if they came from a file.
+  std::string weights_file;
+  /// Or the weights themselves.
+  std::optional<EdgeWeights> weights;
+  /// Whether to check theorem 2's conditions, too, which can take long.
+  bool theorem2 = false;
 };
 
-/// What holds, check by check.
+/// The outcome, check by check.
 struct Verdict {
-  std::vector<Check> checks;  ///< of the certificate, then whether the report says the same, then the energy
-  bool sound = false;         ///< all of them passed
-  bool bijective = false;     ///< and the report says that the optimiser converged
-  bool converged = false;     ///< that the report says so
-  std::optional<Theorem2> theorem2;  ///< where it was asked for
+  /// The checks of the certificate, then whether the report says the same, then the energy.
+  std::vector<Check> checks;
+  /// All of them passed.
+  bool sound = false;
+  /// All checks passed, and the report says that the optimiser converged.
+  bool bijective = false;
+  /// What the report says.
+  bool converged = false;
+  /// Only if it was asked for.
+  std::optional<Theorem2> theorem2;
 };
 
-/// surface: the input. Throws as read_weights and weight_kind do; what does not hold of the embedding or its
-/// report is a failed check.
+/// surface: the input. Throws as read_weights and weight_kind do. Whatever is wrong with the embedding or
+/// its report is a failed check.
 Verdict verify(const Surface& surface, const Embedding& embedding, const Report& report,
                const VerificationOptions& options = {});
 
-/// `bijective`, `checks` and, where it was asked for, `theorem2`, as JSON (docs/file-formats.md).
+/// `bijective`, `checks` and, if it was asked for, `theorem2`, as JSON (docs/file-formats.md).
 std::string verdict_json(const Verdict& verdict);
 
 /// The weights of an embedding of the surface, computed again from the surface, from what the report says of
-/// them and, where their kind takes these into account, from the embedding's cones. Throws ArgumentError for
-/// weights of a file.
+/// them and, if their kind depends on cones, from the embedding's cones. Throws ArgumentError for weights of
+/// a file.
 EdgeWeights weights_of(const Surface& surface, const Embedding& embedding, const Report& report);
 
 }  // namespace orbitutte

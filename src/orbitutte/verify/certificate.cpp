@@ -457,7 +457,7 @@ bool check_gluing(const Embedding& embedding, const Embedding& triangles, Certif
   checks.push_back(transform_check(embedding));
   checks.push_back(cone_check(embedding));
   if (!all_passed(checks)) return false;
-  certificate.expected_area = area(claimed_target(embedding));
+  certificate.expected_area = target_area(claimed_target(embedding));
   checks.push_back(held_sides_check(embedding));
   checks.push_back(group_check(embedding));
   certificate.max_seam_residual = max_seam_residual(embedding);

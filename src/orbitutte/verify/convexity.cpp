@@ -30,7 +30,7 @@ std::vector<char> vertices_with_two_edges(const Embedding& embedding) {
   const FaceView faces = embedding.faces();
   const std::vector<int>& source = embedding.source_vertex;
   constexpr std::array<int, 2> none = {-1, -1};
-  std::vector<std::array<int, 2>> vertex_neighbors(source.size(), none);
+  std::vector<std::array<int, 2>> neighbors(source.size(), none);
   std::vector<char> result(source.size(), 1);
   for (const ConeCopies& cone : embedding.cones) result[cone.vertex] = 0;
   for (int f = 0; f < faces.count(); ++f) {
@@ -79,7 +79,7 @@ DividedPolygons divide_from_middles(const Embedding& embedding) {
     divided.source_vertex.push_back(-1);
     middles.push_back(middle(embedding.space(), embedding.positions, face));
   }
-  divided.faces =
+  divided.triangles =
       Eigen::Map<const Triangles>(corners.data(), static_cast<Eigen::Index>(corners.size() / 3), 3);
   divided.positions.resize(static_cast<Eigen::Index>(divided.source_vertex.size()), 3);
   divided.positions.topRows(embedding.positions.rows()) = embedding.positions;

@@ -119,8 +119,8 @@ Embedding laid_out(const Surface& surface, const Embedding& embedding,
   result.target = embedding.target;
   result.placement = embedding.placement;
   result.positions = layout.positions();
-  result.faces.resize(surface.triangles.rows(), 3);
-  for (int h = 0; h < static_cast<int>(result.faces.size()); ++h) result.faces.data()[h] = h;
+  result.triangles.resize(surface.triangles.rows(), 3);
+  for (int h = 0; h < static_cast<int>(result.triangles.size()); ++h) result.triangles.data()[h] = h;
   result.source_vertex.assign(layout.faces().data(), layout.faces().data() + layout.faces().size());
   result.cones = embedding.cones;
   for (ConeCopies& cone : result.cones) {
