@@ -34,8 +34,12 @@ struct EmbedOptions {
 struct EmbedResult {
   Embedding embedding;
   EdgeWeights weights;
-  Minimum minimum;          ///< how the optimiser fared; its positions are those of the input vertices
-  /// Input vertices that were moved off the minimum, so that thin triangles are positively oriented; ascending.
+
+  /// The kind that was to be taken, if no map with it was certified and `weights` are of another.
+  std::optional<WeightKind> requested_weights;
+  Minimum minimum;  ///< how the optimiser fared; its positions are those of the input vertices
+  /// Input vertices that were moved off the minimum, so that thin triangles are positively oriented;
+  /// ascending.
   std::vector<int> moved_vertices;
   Certificate certificate;  ///< of the input's triangles
   /// Of the triangulation that has the weights, where it is not the input's and that is not bijective.
