@@ -3,6 +3,7 @@
 #include "orbitutte/export/export.h"
 #include "orbitutte/inspect/recognition.h"
 #include "orbitutte/io/mesh_io.h"
+#include "orbitutte/report/embedding_file.h"
 #include "orbitutte/report/report.h"
 #include "standard_streams.h"
 
@@ -11,6 +12,7 @@ namespace orbitutte::cli {
 int export_command(const ExportArguments& arguments) {
   const TextureChart chart = parse_choice<TextureChart>(arguments.chart, "--chart");
   const Embedding embedding = read_embedding(arguments.embedding, read_report(arguments.report));
+  warn(warnings_of_offsets(embedding));
   const ExportedModel model = exported_model(make_surface(read_mesh(arguments.mesh)), embedding, chart);
   write_model(arguments.output, model);
   tell(

@@ -7,6 +7,7 @@
 #include "orbitutte/inspect/recognition.h"
 #include "orbitutte/io/mesh_io.h"
 #include "orbitutte/options.h"
+#include "orbitutte/report/embedding_file.h"
 #include "orbitutte/report/report.h"
 #include "orbitutte/report/verification.h"
 #include "orbitutte/samples/sample.h"
@@ -69,8 +70,9 @@ int verify_command(const VerifyArguments& arguments) {
 }
 
 int tile_command(const TileArguments& arguments) {
-  const Tiling tiling =
-      weld_copies(read_embedding(arguments.embedding, read_report(arguments.report)), arguments.copies);
+  const Embedding embedding = read_embedding(arguments.embedding, read_report(arguments.report));
+  warn(warnings_of_offsets(embedding));
+  const Tiling tiling = weld_copies(embedding, arguments.copies);
   write_tiling(arguments.output, tiling);
   if (!tiling.left_out.empty())
     tell(

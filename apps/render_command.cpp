@@ -4,7 +4,9 @@
 #include "command_arguments.h"
 #include "commands.h"
 #include "orbitutte/render/render.h"
+#include "orbitutte/report/embedding_file.h"
 #include "page_pictures.h"
+#include "standard_streams.h"
 
 namespace orbitutte::cli {
 namespace {
@@ -26,6 +28,7 @@ int render_command(const RenderArguments& arguments) {
   RenderOptions options = options_from(arguments);
   const Report report = read_report(arguments.report);
   Embedding embedding = read_embedding(arguments.embedding, report);
+  warn(warnings_of_offsets(embedding));
   const Surface surface = read_source(arguments.mesh, embedding);
   if (!arguments.view.empty())
     options.view =

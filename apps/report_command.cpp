@@ -5,6 +5,7 @@
 #include "commands.h"
 #include "orbitutte/io/file.h"
 #include "orbitutte/page/page.h"
+#include "orbitutte/report/embedding_file.h"
 #include "orbitutte/report/report.h"
 #include "page_pictures.h"
 #include "standard_streams.h"
@@ -15,6 +16,7 @@ int report_command(const ReportArguments& arguments) {
   constexpr int written = 0;
   const Report claims = read_report(arguments.report);
   Embedding embedding = read_embedding(arguments.embedding, claims);
+  warn(warnings_of_offsets(embedding));
   const Surface surface = read_source(arguments.mesh, embedding);
   const std::string report = read_file(arguments.report);
   PageOptions options;

@@ -30,4 +30,8 @@ void tell_text(const std::string& text) {
   std::fflush(stderr);
 }
 
+void warn(const std::vector<std::string>& sentences) {
+  for (const std::string& sentence : sentences) tell("orbitutte: warning: {}\n", sentence);
+}
+
 }  // namespace orbitutte::cli

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace orbitutte::cli {
 
@@ -25,5 +26,8 @@ template <typename... Arguments>
 void tell(fmt::format_string<Arguments...> text, Arguments&&... arguments) {
   tell_text(fmt::format(text, std::forward<Arguments>(arguments)...));
 }
+
+/// Tells the warnings, a line each.
+void warn(const std::vector<std::string>& sentences);
 
 }  // namespace orbitutte::cli

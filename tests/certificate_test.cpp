@@ -240,7 +240,7 @@ TEST(Certificate, MirroredMapIsSeen) {
   const Isometry M = hand_made::symmetry(hand_made::reflection({1, 2, -0.7}));
   for (const char* signature : {"532", "22", "33", "*432", "*22", "3*2", "5*"}) {
     EXPECT_THAT(rejection(signature, [&](Embedding& e) { conjugate(e, M); }),
-                UnorderedElementsAre("positive_faces", "signed_area", "cone_angles"))
+                UnorderedElementsAre("positive_faces", "signed_area", "cone_angles", "angle_sums"))
         << signature;
     EXPECT_THAT(rejection(signature, [](Embedding& e) { e.positions = -e.positions; }),
                 Contains("positive_faces"))
@@ -257,7 +257,7 @@ TEST(Certificate, MeshTurnedInsideOutIsSeen) {
   mesh.F.col(1).swap(mesh.F.col(2));
   embedding.triangles.col(1).swap(embedding.triangles.col(2));
   EXPECT_THAT(rejection(mesh, embedding),
-              UnorderedElementsAre("positive_faces", "signed_area", "cone_angles"));
+              UnorderedElementsAre("positive_faces", "signed_area", "cone_angles", "angle_sums"));
 }
 
 // Coverings of a higher degree
@@ -434,10 +434,11 @@ test::SampleEmbedding with_a_sphere_too_many(const test::SampleEmbedding& origin
   return result;
 }
 
-TEST(Certificate, SphereTooManyIsSeenByItsAreaAlone) {
+TEST(Certificate, SphereTooManyIsSeenByItsAreaAndTheAnglesAroundTwoVertices) {
   for (const char* signature : {"22", "332", "*22", "*332", "2*3", "3*"}) {
     const test::SampleEmbedding twofold = with_a_sphere_too_many(sample(signature));
-    EXPECT_THAT(rejection(twofold.mesh, twofold.embedding()), UnorderedElementsAre("signed_area"))
+    EXPECT_THAT(rejection(twofold.mesh, twofold.embedding()),
+                UnorderedElementsAre("signed_area", "angle_sums"))
         << signature;
     const Certificate certificate = certify(test::unjudged(twofold.mesh), twofold.embedding());
     EXPECT_NEAR(certificate.signed_area, certificate.expected_area + 4 * pi, 1e-9) << signature;
@@ -625,15 +626,15 @@ TEST(Certificate, ConesAtTheWrongVerticesAreSeenByTheirAngles) {
                           const int v = e.triangles(inner_corner(e).face, 0);
                           e.cones[0] = {v, Mark::of_order(3, ConeKind::rotation), {v}};
                         }),
-              UnorderedElementsAre("cone_angles"));
+              UnorderedElementsAre("cone_angles", "angle_sums"));
   EXPECT_THAT(rejection("33", [](Embedding& e) { e.cones[0] = e.cones[1]; }),
-              UnorderedElementsAre("cone_angles"));
+              UnorderedElementsAre("angle_sums"));
   EXPECT_THAT(rejection("*22",
                         [](Embedding& e) {
                           const int v = e.seams[0].left[2];
                           e.cones[0] = {v, Mark::of_order(2, ConeKind::corner), {v}};
                         }),
-              UnorderedElementsAre("cone_angles"));
+              UnorderedElementsAre("cone_angles", "angle_sums"));
 }
 
 TEST(Certificate, WrongGroupOrderIsSeen) {
@@ -673,7 +674,8 @@ TEST(Certificate, FacesThatAreNotTheInputsAreSeen) {
     };
     cut_fault([](Embedding& e) { e.triangles.row(3).swap(e.triangles.row(200)); });
     cut_fault([](Embedding& e) { std::swap(e.triangles(3, 0), e.triangles(3, 1)); });
-    cut_fault([](Embedding& e) { e.triangles.row(3) << e.triangles(3, 1), e.triangles(3, 2), e.triangles(3, 0); });
+    cut_fault(
+        [](Embedding& e) { e.triangles.row(3) << e.triangles(3, 1), e.triangles(3, 2), e.triangles(3, 0); });
     cut_fault([](Embedding& e) { e.triangles(3, 0) = e.triangles(3, 1); });
     cut_fault([](Embedding& e) { e.triangles.conservativeResize(e.triangles.rows() - 1, 3); });
     cut_fault([](Embedding& e) { e.triangles.resize(0, 3); });
@@ -821,6 +823,51 @@ TEST(Certificate, FaultsThatAgreeWithEachOtherAreRejectedWithoutACrash) {
       }));
     }
   }
+}
+
+// Angles and seams at the scale of the edges beside them
+
+const Check& check_named(const Certificate& certificate, const std::string& name) {
+  for (const Check& check : certificate.checks)
+    if (check.name == name) return check;
+  throw std::out_of_range(name);
+}
+
+TEST(Certificate, AnglesAroundEveryVertexAddUp) {
+  for (const std::string& signature : test::all_sample_signatures()) {
+    const Certificate certificate =
+        certify(test::unjudged(sample(signature).mesh), sample(signature).embedding());
+    const Check& check = check_named(certificate, "angle_sums");
+    EXPECT_TRUE(check.passed) << signature;
+    EXPECT_LT(check.value, 1e-12) << signature;
+    EXPECT_EQ(check.bound, 1e-8) << signature;
+  }
+}
+
+TEST(Certificate, BoundsFollowTheRoundingOfShortEdges) {
+  // An edge of 1e-10 leaves angles uncertain by 1e-6; a planted error of 1e-3 there is none of rounding.
+  Embedding embedding = sample("*432").embedding();
+  const Corner at = inner_corner(embedding);
+  const int v = embedding.faces(at.face, 0), u = embedding.faces(at.face, 1);
+  const Vector3 p = position(embedding, v), q = position(embedding, u);
+  embedding.positions.row(v) = (q + 1e-10 * (p - q)).normalized().transpose();
+  const Certificate certificate = certify(test::unjudged(sample("*432").mesh), embedding);
+  const Check& check = check_named(certificate, "angle_sums");
+  EXPECT_TRUE(check.passed);
+  EXPECT_LT(check.value, 1e-4);
+}
+
+TEST(Certificate, VertexThatLeavesItsMirrorIsSeen) {
+  const auto with_step = [](double step) {
+    Embedding embedding = sample("*432").embedding();
+    const Seam& seam = embedding.seams[0];
+    const int v = seam.left[2];
+    const Vector3 off = position(embedding, v) + step * mirror_normal(seam.transform);
+    embedding.positions.row(v) = off.normalized().transpose();
+    return failed_checks(certify(test::unjudged(sample("*432").mesh), embedding));
+  };
+  EXPECT_EQ(with_step(4e-13).count("seam_residual"), 0u);
+  EXPECT_EQ(with_step(6e-13).count("seam_residual"), 1u);
 }
 
 TEST(Certificate, TheDetailNamesTheOffender) {

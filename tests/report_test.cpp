@@ -17,6 +17,7 @@
 #include "orbitutte/io/file.h"
 #include "orbitutte/io/ply.h"
 #include "orbitutte/report/embedding_file.h"
+#include "orbitutte/report/verification.h"
 #include "sample_embeddings.h"
 
 namespace orbitutte {
@@ -185,7 +186,8 @@ TEST(Report, ReadBackSaysTheSame) {
     EXPECT_EQ(report.signature, signature);
     EXPECT_EQ(report.group_order, result.embedding.target.group_order);
     EXPECT_EQ(report.space, result.embedding.space());
-    EXPECT_EQ(report.placement.matrix(), result.embedding.placement.matrix());
+    ASSERT_TRUE(report.placement);
+    EXPECT_EQ(report.placement->matrix(), result.embedding.placement.matrix());
     expect_same(report.seams, result.embedding.seams);
     expect_same(report.cones, result.embedding.cones);
     EXPECT_EQ(report.energy, result.minimum.energy);
@@ -208,7 +210,8 @@ TEST(Report, WithoutSpacePlacementAndAnglesItSpeaksOfTheSphereAndOfOrders) {
   for (Json& cone : json["cones"]) cone.erase("angle");
   const Report report = read(json.dump());
   EXPECT_EQ(report.space, Space::sphere());
-  EXPECT_TRUE(report.placement.is_identity());
+  EXPECT_FALSE(report.placement);
+  EXPECT_TRUE(with_report(test::sample_embedding("532").embedding(), report).placement.is_identity());
   expect_same(report.cones, expected.cones);
 }
 
@@ -216,8 +219,87 @@ TEST(Report, PlacementIsReadBack) {
   EmbedResult result = test::sample_embedding("532").result;
   result.embedding.placement = Space::sphere().rotation(Vector3(1, 2, 2) / 3, 0.7);
   const Report report = read(report_json(result, run));
-  EXPECT_EQ(report.placement.matrix(), result.embedding.placement.matrix());
-  EXPECT_LT((report.placement * report.placement.inverse()).difference({}), 1e-15);
+  ASSERT_TRUE(report.placement);
+  EXPECT_EQ(report.placement->matrix(), result.embedding.placement.matrix());
+  EXPECT_LT((*report.placement * report.placement->inverse()).difference({}), 1e-15);
+}
+
+TEST(Report, MovedVerticesAndOtherWeightsAreTold) {
+  EmbedResult result = test::sample_embedding("532").result;
+  Json json = Json::parse(report_json(result, run));
+  EXPECT_FALSE(json.contains("moved_vertices"));
+  EXPECT_FALSE(json.at("weights").contains("requested"));
+  result.moved_vertices = {3, 17};
+  result.requested_weights = WeightKind::delaunay;
+  json = Json::parse(report_json(result, run));
+  EXPECT_EQ(json.at("moved_vertices"), Json({3, 17}));
+  EXPECT_EQ(json.at("weights").at("requested"), "delaunay");
+  EXPECT_EQ(json.at("weights").at("kind"), "cotan");
+  EXPECT_EQ(read(json.dump()).moved_vertices, (std::vector<int>{3, 17}));
+}
+
+// Judging a report again
+
+Verdict judged(const std::string& signature, const std::function<void(Json&)>& plant) {
+  const test::SampleEmbedding& sample = test::sample_embedding(signature);
+  Json json = sample_report(signature);
+  plant(json);
+  const Report report = parse_report(json.dump());
+  return verify(test::unjudged(sample.mesh), with_report(sample.embedding(), report), report);
+}
+
+std::string failures(const Verdict& verdict) {
+  std::string names;
+  for (const Check& check : verdict.checks)
+    if (!check.passed) names += check.name + " ";
+  return names;
+}
+
+TEST(Verify, SeamsAreElementsOfTheGroupWhereTheReportSaysThatTheMapLies) {
+  const Isometry turn = Space::sphere().rotation(Vector3(1, 2, 2) / 3, 0.7);
+  const auto with_placement = [](const Isometry& placement) {
+    return [&placement](Json& json) {
+      for (int i = 0; i < 3; ++i)
+        for (int k = 0; k < 3; ++k) json["placement"][i][k] = placement.matrix()(i, k);
+    };
+  };
+  for (const std::string& signature : test::all_sample_signatures()) {
+    EXPECT_EQ(failures(judged(signature, [](Json&) {})), "") << signature;
+    EXPECT_EQ(failures(judged(signature, [](Json& json) { json.erase("placement"); })), "") << signature;
+    if (parse_orbifold(signature).space == Space::sphere()) {
+      EXPECT_EQ(failures(judged(signature, with_placement(turn))), "report_placement ") << signature;
+    }
+  }
+}
+
+TEST(Verify, MovedVerticesAreVerticesOfTheSurface) {
+  EXPECT_EQ(failures(judged("532", [](Json& json) { json["moved_vertices"] = {0, 5}; })), "");
+  EXPECT_EQ(failures(judged("532",
+                            [](Json& json) {
+                              json["moved_vertices"] = {0, 500000};
+                            })),
+            "report_moved_vertices ");
+  EXPECT_EQ(failures(judged("532", [](Json& json) { json["moved_vertices"] = {-1}; })),
+            "report_moved_vertices ");
+}
+
+TEST(Verify, TheOffsetsOfAFileAreJudged) {
+  // Every row is off by 1e-11, and the offsets put it right.
+  const test::SampleEmbedding& sample = test::sample_embedding("532");
+  const Report report = parse_report(sample_report().dump());
+  Embedding embedding = sample.embedding();
+  for (int v = 0; v < embedding.positions.rows(); ++v) {
+    const Vector3 p = embedding.positions.row(v), row = (p + Vector3(1e-11, 0, 0)).normalized();
+    embedding.positions.row(v) = row;
+    embedding.offsets.push_back({v, p - row});
+  }
+  Embedding read = with_report(parse_embedding(serialize_embedding(embedding)), report);
+  EXPECT_EQ(failures(verify(test::unjudged(sample.mesh), read, report)), "");
+  Embedding rows = read;
+  rows.offsets.clear();
+  EXPECT_EQ(failures(verify(test::unjudged(sample.mesh), rows, report)), "seam_residual ");
+  read.offsets[sample.embedding().seams[0].left[1]].d += Vector3(1e-4, 0, 0);
+  EXPECT_NE(failures(verify(test::unjudged(sample.mesh), read, report)), "");
 }
 
 TEST(Report, AngleThatContradictsTheOrderIsRefused) {

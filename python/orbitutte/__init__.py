@@ -41,12 +41,12 @@ except ImportError as error:
 from ._api import (
     Solver, Tiling, build, choose_cones, distortion, embed, families, info, keep_freed_memory, read_mesh, sample_mesh, signatures, tile, verify, write_mesh,
 )
-from ._embedding import Cone, EdgeWeights, Embedding, Location, Seam
+from ._embedding import Cone, EdgeWeights, Embedding, Location, Offsets, Seam
 from ._orbitutte import __version__
 from .errors import ArgumentError, Cancelled, EmbeddingWarning, Error, FileError, MeshError, MeshWarning
 
 __all__ = [
     "ArgumentError", "Cancelled", "Cone", "EdgeWeights", "Embedding", "EmbeddingWarning", "Error", "FileError",
-    "Location", "MeshError", "MeshWarning", "Seam", "Solver", "Tiling", "__version__", "build", "choose_cones", "distortion", "embed",
+    "Location", "MeshError", "MeshWarning", "Offsets", "Seam", "Solver", "Tiling", "__version__", "build", "choose_cones", "distortion", "embed",
     "families", "info", "keep_freed_memory", "read_mesh", "sample_mesh", "signatures", "tile", "verify", "write_mesh",
 ]

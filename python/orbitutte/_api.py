@@ -189,7 +189,8 @@ def tile(embedding: Embedding) -> Tiling:
     ArgumentError
         If the copies do not close up into a sphere; those of a polygon do not.
     """
-    V, triangles, corners, start, copy = _embedding(embedding)._core.tile()
+    _embedding(embedding)._warn_of_offsets()
+    V, triangles, corners, start, copy = embedding._core.tile()
     if len(start) < 2:
         return Tiling(V, triangles, copy)
     copies = int(copy[-1]) + 1

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import json
 import os
+import warnings
 from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _arrays, _deprecated, _options, _orbitutte
-from .errors import ArgumentError
+from .errors import ArgumentError, EmbeddingWarning
 
 Array = npt.NDArray[Any]
 
@@ -31,6 +32,13 @@ class Cone(NamedTuple):
     order: int
     kind: str
     copies: Array  #: its cut vertices
+
+
+class Offsets(NamedTuple):
+    """Parts of positions that doubles have no room for; a vertex may have several."""
+
+    vertex: Array  #: cut vertices, ascending
+    d: Array  #: (k, 3)
 
 
 class EdgeWeights(NamedTuple):
@@ -77,6 +85,11 @@ class Embedding:
     placement : (3, 3) float64
         Takes the canonical frame to the one of `positions`, `seams` and `group`: the identity, unless the map was turned to where
         doubles resolve a small limb.
+    offsets : Offsets
+        Where doubles do not resolve the map: the position of a cut vertex is exactly the sum of its row of `positions` and all of its
+        offsets.
+    moved_vertices : (k,) int32
+        Input vertices that were moved to make thin triangles positive; they are no critical points of the energy.
     is_free_to_rotate : bool
         Does the orbifold (NN, N* or Nx) fix the map only up to a rotation about its axis? See `rotation_to`.
     faces : (m, 3) int32
@@ -150,6 +163,16 @@ class Embedding:
     def placement(self) -> npt.NDArray[np.float64]:
         """(3, 3) the isometry from the canonical frame to the one of the positions."""
         return self._core.placement
+
+    @property
+    def offsets(self) -> Offsets:
+        """What positions have beyond their doubles; empty where doubles suffice."""
+        return Offsets(*self._core.offsets)
+
+    @property
+    def moved_vertices(self) -> npt.NDArray[np.int32]:
+        """(k,) the input vertices that were moved to make thin triangles positive."""
+        return np.array(self._report.get("moved_vertices", []), dtype=np.int32)
 
     @property
     def is_free_to_rotate(self) -> bool:
@@ -288,6 +311,7 @@ class Embedding:
         ArgumentError
             Names the point whose triangle or copy does not exist, or whose coordinates are none.
         """
+        self._warn_of_offsets()
         single = np.ndim(triangle) == 0
         triangles, points = _arrays.indices(_rows(triangle, 1), "triangle", "point"), _arrays.positions(_rows(barycentric, 2), "barycentric", "point")
         copies = np.empty(0, dtype=np.int32) if copy is None else _arrays.indices(_rows(copy, 1), "copy", "point")
@@ -321,6 +345,7 @@ class Embedding:
         -----
         The first call makes a search tree of the faces, which the embedding keeps.
         """
+        self._warn_of_offsets()
         single = np.ndim(points) == 1 and np.size(points) > 0
         directions = _arrays.positions(_rows(points, 2), "points", "point")
         if self._locator is None:
@@ -401,6 +426,7 @@ class Embedding:
 
     def write_tiling(self, path: str | os.PathLike) -> None:
         """Write the |G| copies as one closed mesh: .ply, .obj, .stl or .glb, as ``orbitutte tile`` does."""
+        self._warn_of_offsets()
         self._core.write_tiling(_arrays.path(path))
 
     def render(self, path: str | os.PathLike, *, panel: str = "sheet", size: Any = None, view: Any = None, up: Any = None,
@@ -426,6 +452,7 @@ class Embedding:
         ArgumentError
             For options out of range, where the mesh is not known, or where the module was built without pictures.
         """
+        self._warn_of_offsets()
         texts = {"panel": _options.text(panel, "panel")}
         if size is not None:
             texts["size"] = _size(size)
@@ -433,6 +460,11 @@ class Embedding:
             if value is not None:
                 texts[name] = value if isinstance(value, str) else _direction(value, name)
         _orbitutte.render(self._core, _arrays.path(path), _options.text(title, "title"), texts)
+
+    def _warn_of_offsets(self) -> None:
+        """For what uses the doubles alone; called by what the user calls."""
+        for sentence in self._core.offset_warnings:
+            warnings.warn(sentence, EmbeddingWarning, stacklevel=3)
 
     # What Python asks
 

@@ -124,6 +124,18 @@ py::tuple tile(const HeldEmbedding& held) {
                         take(std::move(tiling.copy)));
 }
 
+// The vertices (k) and what their positions have beyond their doubles (k x 3).
+py::tuple offsets(const HeldEmbedding& held) {
+  const std::vector<Offset>& offsets = held.embedding.offsets;
+  std::vector<int> vertices;
+  Points differences(static_cast<Eigen::Index>(offsets.size()), 3);
+  for (std::size_t k = 0; k < offsets.size(); ++k) {
+    vertices.push_back(offsets[k].vertex);
+    differences.row(static_cast<Eigen::Index>(k)) = offsets[k].d;
+  }
+  return py::make_tuple(take(std::move(vertices)), take(std::move(differences)));
+}
+
 Held loaded(Embedding embedding, std::string report, MaybeMesh mesh) {
   embedding = with_report(std::move(embedding), parse_report(report));
   if (mesh) embedding = mesh->belonging(std::move(embedding));
@@ -163,6 +175,9 @@ void bind_embedding(py::module_& module) {
                              [](const Held& held) { return take(held->embedding.canonical_positions()); })
       .def_property_readonly(
           "placement", [](const HeldEmbedding& held) { return copy(held.embedding.placement.matrix()); })
+      .def_property_readonly("offsets", &offsets)
+      .def_property_readonly("offset_warnings",
+                             [](const HeldEmbedding& held) { return warnings_of_offsets(held.embedding); })
       .def_property_readonly(
           "is_free_to_rotate",
           [](const HeldEmbedding& held) { return held.embedding.target.is_free_to_rotate; })

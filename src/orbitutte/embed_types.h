@@ -40,6 +40,9 @@ struct EmbedOptions {
 struct EmbedResult {
   Embedding embedding;
   EdgeWeights weights;
+
+  /// The kind that was to be taken, if no map with it was certified and `weights` are of another.
+  std::optional<WeightKind> requested_weights;
   /// Where the optimiser ended. Its positions are those of the input vertices.
   Minimum minimum;
   /// Input vertices that were moved off the minimum, so that thin triangles are positively oriented;

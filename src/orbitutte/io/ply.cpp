@@ -218,15 +218,17 @@ PlyFile parse_ply(std::string_view bytes) {
   return std::move(header.file);
 }
 
+void append_element(std::string& bytes, const PlyElement& element) {
+  for (const PlyProperty& property : element.properties) check_size(element, property);
+  const std::size_t count = element.properties.empty() ? 0 : element.count;
+  for (std::size_t i = 0; i < count; ++i) {
+    for (const PlyProperty& property : element.properties) append_property(bytes, property, i);
+  }
+}
+
 std::string serialize_ply(const PlyFile& file) {
   std::string bytes = serialize_ply_header(file);
-  for (const PlyElement& element : file.elements) {
-    for (const PlyProperty& property : element.properties) check_size(element, property);
-    const std::size_t count = element.properties.empty() ? 0 : element.count;
-    for (std::size_t i = 0; i < count; ++i) {
-      for (const PlyProperty& property : element.properties) append_property(bytes, property, i);
-    }
-  }
+  for (const PlyElement& element : file.elements) append_element(bytes, element);
   return bytes;
 }
 

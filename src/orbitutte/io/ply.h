@@ -46,6 +46,10 @@ struct PlyFile {
 /// header that promises more than the bytes can hold is refused before memory is taken for it.
 PlyFile parse_ply(std::string_view bytes);
 
+/// Appends an element's values, without its header. Throws ArgumentError if a property does not have one
+/// value for each.
+void append_element(std::string& bytes, const PlyElement& element);
+
 /// The bytes of a binary little-endian PLY file.
 std::string serialize_ply(const PlyFile& file);
 

@@ -224,11 +224,13 @@ std::string write_ply_triangles(const Points& V, const Triangles& F,
 
 std::string write_ply_faces(const Points& V, const FaceView& faces,
                             const std::vector<PlyIntegers>& further_properties,
-                            const std::vector<std::string>& comments) {
+                            const std::vector<std::string>& comments,
+                            const std::vector<PlyElement>& further_elements) {
   const auto vertices = static_cast<std::size_t>(V.rows());
   for (const PlyIntegers& column : further_properties) check_size(column, vertices);
   PlyFile layout = layout_of(vertices, faces, further_properties);
   layout.comments = comments;
+  layout.elements.insert(layout.elements.end(), further_elements.begin(), further_elements.end());
   std::string bytes = serialize_ply_header(layout);
   bytes.reserve(bytes.size() + vertices * size_before(layout.elements.front(), nullptr) +
                 static_cast<std::size_t>(faces.count()) * triangle_size);
@@ -241,6 +243,7 @@ std::string write_ply_faces(const Points& V, const FaceView& faces,
   } else {
     append_faces<std::int32_t>(bytes, faces);
   }
+  for (const PlyElement& element : further_elements) append_element(bytes, element);
   return bytes;
 }
 

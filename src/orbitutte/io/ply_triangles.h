@@ -39,9 +39,10 @@ std::string write_ply_triangles(const Points& V, const Triangles& F,
 /// How a list of corners says its length: as uchar, or as int if a face has more than 255 corners.
 PlyType corner_count_type(const FaceView& faces);
 
-/// The same for faces of any kind.
+/// The same for faces of any kind, and further elements behind them.
 std::string write_ply_faces(const Points& V, const FaceView& faces,
                             const std::vector<PlyIntegers>& further_properties = {},
-                            const std::vector<std::string>& comments = {});
+                            const std::vector<std::string>& comments = {},
+                            const std::vector<PlyElement>& further_elements = {});
 
 }  // namespace orbitutte

@@ -87,6 +87,10 @@ std::string check_meaning(const std::string& name) {
       {"convex_faces", "Polygons are convex: faces that are not"},
       {"held_sides", "Boundary vertices lie on the polygon's sides, in order: largest error"},
       {"cone_angles", "Angles at cones and corners: largest error"},
+      {"angle_sums", "Angles around all other vertices: largest error"},
+      {"offsets", "Offsets are finite and name cut vertices: offences"},
+      {"exact_positions",
+       "Positions with offsets are unit vectors: largest error, in shares of the shortest edge"},
       {"signed_area", "Total area is the tile's, 4π/|G|, or the polygon's: error"}};
   const auto found = meanings.find(name);
   return found == meanings.end() ? name : found->second;

@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "orbitutte/io/file.h"
 #include "orbitutte/io/mesh_io.h"
@@ -51,10 +53,49 @@ std::vector<int> to_source_vertices(const std::vector<Number>& values) {
   return sources;
 }
 
-std::vector<int> read_source_vertices(std::string_view bytes, const PlyHeader& header) {
-  if (const auto values = read_ply_integers(bytes, header, "source_vertex"))
-    return to_source_vertices(*values);
-  return to_source_vertices(parse_ply(bytes).find("vertex")->find("source_vertex")->values);
+constexpr const char* offset_properties[] = {"dx", "dy", "dz"};
+
+// `offset`: a row per offset, or no element at all if there are none.
+std::vector<PlyElement> offset_elements(const std::vector<Offset>& offsets) {
+  if (offsets.empty()) return {};
+  PlyElement element = {"offset", offsets.size(), std::vector<PlyProperty>(4)};
+  PlyProperty& vertex = element.properties.front();
+  vertex.name = "vertex";
+  vertex.type = PlyType::int32;
+  for (const Offset& offset : offsets) vertex.values.push_back(offset.vertex);
+  for (int k = 0; k < 3; ++k) {
+    PlyProperty& property = element.properties[k + 1];
+    property.name = offset_properties[k];
+    for (const Offset& offset : offsets) property.values.push_back(offset.d[k]);
+  }
+  return {std::move(element)};
+}
+
+// Ascending by vertex, those of one vertex in the order of the file.
+std::vector<Offset> to_offsets(const PlyElement& element, int vertices) {
+  require(element, "vertex", false);
+  for (const char* property : offset_properties) require(element, property, false);
+  std::vector<Offset> offsets(element.count);
+  for (std::size_t i = 0; i < element.count; ++i) {
+    offsets[i].vertex = to_index(element.find("vertex")->values[i], vertices, "offset", i);
+    for (int k = 0; k < 3; ++k) offsets[i].d[k] = element.find(offset_properties[k])->values[i];
+    if (!offsets[i].d.allFinite())
+      throw MeshError(fmt::format("offset {}, of vertex {}, is not finite", i, offsets[i].vertex));
+  }
+  std::stable_sort(offsets.begin(), offsets.end(),
+                   [](const Offset& a, const Offset& b) { return a.vertex < b.vertex; });
+  return offsets;
+}
+
+void take_vertices_and_offsets(std::string_view bytes, const PlyHeader& header, Embedding& embedding) {
+  if (const auto values = read_ply_integers(bytes, header, "source_vertex")) {
+    embedding.source_vertex = to_source_vertices(*values);
+    return;
+  }
+  const PlyFile file = parse_ply(bytes);
+  embedding.source_vertex = to_source_vertices(file.find("vertex")->find("source_vertex")->values);
+  if (const PlyElement* element = file.find("offset"))
+    embedding.offsets = to_offsets(*element, static_cast<int>(embedding.source_vertex.size()));
 }
 
 void check_faces(const PolygonMesh& mesh) {
@@ -79,7 +120,8 @@ void take_faces(PolygonMesh& mesh, Embedding& embedding) {
 
 std::string serialize_embedding(const Embedding& embedding) {
   return write_ply_faces(embedding.positions, embedding.faces(), {{"source_vertex", embedding.source_vertex}},
-                         {fmt::format("orbitutte embedding {}", embedding.target.signature)});
+                         {fmt::format("orbitutte embedding {}", embedding.target.signature)},
+                         offset_elements(embedding.offsets));
 }
 
 Embedding parse_embedding(std::string_view bytes) {
@@ -87,10 +129,21 @@ Embedding parse_embedding(std::string_view bytes) {
   require_properties(header.file);
   PolygonMesh mesh = parse_mesh(bytes, MeshFormat::ply);
   Embedding embedding;
-  embedding.source_vertex = read_source_vertices(bytes, header);
+  take_vertices_and_offsets(bytes, header, embedding);
   take_faces(mesh, embedding);
   embedding.positions = std::move(mesh.V);
   return embedding;
+}
+
+std::vector<std::string> warnings_of_offsets(const Embedding& embedding) {
+  if (embedding.offsets.empty()) return {};
+  int vertices = 0, last = -1;
+  for (const Offset& offset : embedding.offsets)
+    if (std::exchange(last, offset.vertex) != offset.vertex) ++vertices;
+  return {
+      fmt::format("{} cut vertices, the first {}, lie closer together than doubles resolve; their offsets "
+                  "are not used here, so faces may coincide there",
+                  vertices, embedding.offsets.front().vertex)};
 }
 
 Embedding read_embedding(const std::string& path) {

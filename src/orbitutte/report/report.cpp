@@ -46,9 +46,11 @@ Json to_json(const Seam& seam) {
           {"transform", to_json(seam.transform.matrix())}};
 }
 
-Json to_json(const EdgeWeights& weights) {
+Json weights_json(const EmbedResult& result) {
+  const EdgeWeights& weights = result.weights;
   Json json = {
       {"kind", name_of(weights.kind)}, {"clamp", weights.clamp}, {"clamped_edges", weights.clamped_edges}};
+  if (result.requested_weights) json["requested"] = name_of(*result.requested_weights);
   if (weights.triangulation) {
     json["flips"] = weights.triangulation->flips.size();
     json["kept_faces"] = weights.triangulation->kept_faces;
@@ -250,6 +252,7 @@ Report to_report(const Json& json) {
     report.group_order = integer(orbifold, "group_order");
     if (report.group_order < 1) throw MeshError("the value of 'group_order' is not positive");
   }
+  if (json.contains("moved_vertices")) report.moved_vertices = integers(json, "moved_vertices");
   if (json.contains("placement")) report.placement = report.space.isometry(matrix(json, "placement"));
   for (const Json& seam : array(json, "seams")) report.seams.push_back(to_seam(report.space, seam));
   for (const Json& cone : array(json, "cones")) report.cones.push_back(to_cone(cone));
@@ -286,7 +289,7 @@ std::string report_json(const EmbedResult& result, const RunRecord& run) {
                {"placement", to_json(embedding.placement.matrix())},
                {"cones", list(embedding.cones, [](const ConeCopies& cone) { return to_json(cone); })},
                {"seams", list(embedding.seams, [](const Seam& seam) { return to_json(seam); })},
-               {"weights", to_json(result.weights)},
+               {"weights", weights_json(result)},
                {"energy", minimum.energy},
                {"iterations", minimum.iterations},
                {"evaluations", minimum.evaluations},
@@ -299,6 +302,7 @@ std::string report_json(const EmbedResult& result, const RunRecord& run) {
                {"timings", timings_json(result.timings, run)},
                {"peak_memory_bytes", run.peak_memory_bytes},
                {"environment", environment_json(result, run)}};
+  if (!result.moved_vertices.empty()) json["moved_vertices"] = result.moved_vertices;
   if (result.intrinsic_certificate) json["intrinsic_certificate"] = to_json(*result.intrinsic_certificate);
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -340,7 +344,7 @@ Target target_of(const Report& report, const Points& positions) {
 }  // namespace
 
 Embedding with_report(Embedding embedding, const Report& report) {
-  embedding.placement = report.placement;
+  embedding.placement = report.placement.value_or(Isometry());
   embedding.seams = report.seams;
   embedding.cones = report.cones;
   const int count = static_cast<int>(embedding.source_vertex.size());

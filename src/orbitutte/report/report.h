@@ -34,12 +34,17 @@ struct Report {
   /// 0 if the group is infinite.
   int group_order = 0;
   Space space;
-  Isometry placement;
+
+  /// None in reports that do not say.
+  std::optional<Isometry> placement;
   std::vector<Seam> seams;
   std::vector<ConeCopies> cones;
   WeightOptions weights;
   /// Triangles none of whose edges was flipped.
   std::vector<int> kept_faces;
+
+  /// Input vertices.
+  std::vector<int> moved_vertices;
   double energy = 0;
   std::vector<Iteration> history;
   bool converged = false;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "orbitutte/orbifold/precise_group.h"
 #include "orbitutte/orbifold/signature.h"
 #include "orbitutte/verify/energy.h"
 #include "orbitutte/weights/cone_weights.h"
@@ -73,6 +74,33 @@ Check intrinsic_claim(const Surface& surface, const Embedding& embedding, const 
                            *report.intrinsic_bijective));
 }
 
+// The seams' transforms are elements of the target's group where the report says that the map lies.
+Check placement_claim(const Embedding& embedding, const Isometry& placement) {
+  const char* const check = "report_placement";
+  const PreciseGroup<double> group(embedding.target);
+  for (std::size_t s = 0; s < embedding.seams.size(); ++s) {
+    try {
+      group.element(placement.inverse() * embedding.seams[s].transform * placement);
+    } catch (const ArgumentError& error) {
+      return claim(
+          check, false,
+          fmt::format("the transform of seam {} does not fit the report's placement: {}", s, error.what()));
+    }
+  }
+  return claim(check, true, {});
+}
+
+// Moved vertices are vertices of the surface.
+Check moved_vertices_claim(const Surface& surface, const Report& report) {
+  const auto is_none = [&](int v) { return v < 0 || v >= surface.vertex_count(); };
+  const auto first = std::find_if(report.moved_vertices.begin(), report.moved_vertices.end(), is_none);
+  const bool holds = first == report.moved_vertices.end();
+  return claim("report_moved_vertices", holds,
+               holds ? std::string()
+                     : fmt::format("the report says that vertex {} was moved, but there are {}", *first,
+                                   surface.vertex_count()));
+}
+
 std::vector<Check> check_claims(const Certificate& certificate, const Report& report) {
   return {claim("report_bijective", report.bijective == (certificate.bijective && report.converged),
                 fmt::format("the report says bijective = {}", report.bijective)),
@@ -128,6 +156,9 @@ Verdict verify(const Surface& surface, const Embedding& embedding, const Report&
   Verdict verdict;
   verdict.checks = certificate.checks;
   for (Check& check : check_claims(certificate, report)) verdict.checks.push_back(std::move(check));
+  if (report.placement && has_passed(certificate, "cones"))
+    verdict.checks.push_back(placement_claim(embedding, *report.placement));
+  if (!report.moved_vertices.empty()) verdict.checks.push_back(moved_vertices_claim(surface, report));
   if (certificate.bijective && weights)
     verdict.checks.push_back(energy_check(dirichlet_energy(surface, *weights, embedding), report));
   if (report.intrinsic_bijective && weights)

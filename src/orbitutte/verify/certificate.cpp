@@ -2,7 +2,10 @@
 // Why this is a proof: seams with orthogonal transforms glue |G| copies of the cut disk to a closed surface
 // with a map to the sphere, and lay them on opposite sides of every seam. Positive triangles with edges
 // shorter than pi make the map a local homeomorphism away from the vertices, and by the area, |G| times
-// 4 pi/|G|, it covers the sphere once, so it is one at the vertices too. A polygon stands for the triangles
+// 4 pi/|G|, it covers the sphere once, so it is one at the vertices too. Seams that match leave the angles
+// around a vertex a multiple of what they have to be: the checks of angles only have to tell multiples apart,
+// and may follow the rounding of short edges. Positions are exact sums of doubles, offsets included; lengths,
+// angles and areas are those of their differences. A polygon stands for the triangles
 // between its edges and its middle; that it is convex is checked besides. Where the boundary is held on a
 // convex polygon instead, positive triangles cover every point as often as the boundary goes around it: once
 // inside the polygon, and not at all outside.
@@ -20,23 +23,25 @@
 #include <unordered_map>
 #include <utility>
 
-#include "orbitutte/geometry/orientation.h"
 #include "orbitutte/mesh/connectivity.h"
+#include "orbitutte/orbifold/exact_positions.h"
 #include "orbitutte/orbifold/polygon.h"
 #include "orbitutte/orbifold/signature.h"
 #include "orbitutte/orbifold/symmetry_group.h"
 #include "orbitutte/parallel.h"
+#include "orbitutte/verify/angle_sums.h"
 #include "orbitutte/verify/convexity.h"
 #include "orbitutte/verify/held_sides.h"
 #include "orbitutte/verify/laid_out.h"
+#include "orbitutte/verify/seam_residuals.h"
 
 namespace orbitutte {
 namespace {
 
 using std::numbers::pi;
 
-constexpr double unit_bound = 1e-12, seam_bound = 1e-12, angle_bound = 1e-8, area_bound = 1e-9,
-                 straight_bound = 1e-8;
+constexpr double unit_bound = 1e-12, angle_bound = 1e-8, area_bound = 1e-9, straight_bound = 1e-8,
+                 off_space_bound = 1e-2;
 
 Check at_most(std::string name, double value, double bound) {
   Check check = {std::move(name), value <= bound, value, bound, {}};
@@ -112,6 +117,15 @@ Check cut_mesh_check(int n, const FaceView& input, const Embedding& embedding) {
       offences.add("face {} is not the input's face {}, cut", f, f);
   }
   return offences.check("cut_mesh");
+}
+
+// Offsets name cut vertices and are finite.
+Check offsets_check(const Embedding& embedding) {
+  Offences offences;
+  for (const Offset& offset : embedding.offsets)
+    if (offset.vertex < 0 || offset.vertex >= embedding.positions.rows() || !offset.d.allFinite())
+      offences.add("an offset of vertex {} is not finite, or the cut mesh has no such vertex", offset.vertex);
+  return offences.check("offsets");
 }
 
 // In the target's space.
@@ -262,16 +276,27 @@ Check transform_check(const Embedding& embedding) {
   return offences.check("seam_transforms");
 }
 
-double max_seam_residual(const Embedding& embedding) {
-  double residual = 0;
-  for (const Seam& seam : embedding.seams) {
-    for (std::size_t k = 0; k < seam.left.size(); ++k) {
-      const Vector3 left = embedding.positions.row(seam.left[k]),
-                    right = embedding.positions.row(seam.right[k]);
-      residual = std::max(residual, (left - seam.transform * right).cwiseAbs().maxCoeff());
-    }
+// Positions with offsets lie in the target's space at the scale of the edges beside them: by how much more or
+// less than 1 is k (x^2 + y^2) + z^2, in shares of the shortest edge there.
+Check exact_surface_check(const Embedding& triangles, const ExactPositions& positions) {
+  const int count = static_cast<int>(triangles.source_vertex.size()), k = triangles.space().curvature();
+  std::vector<char> has_offsets(count);
+  for (int v = 0; v < count; ++v) has_offsets[v] = positions.has_offsets(v);
+  const std::vector<double> shortest = shortest_edges(triangles, positions, has_offsets);
+  double worst = 0;
+  for (int v = 0; v < count; ++v) {
+    if (!has_offsets[v]) continue;
+    const Vector3Of<MostPrecise> p = positions.exact(v);
+    const MostPrecise off = k * (p.x() * p.x() + p.y() * p.y()) + p.z() * p.z() - 1;
+    const double share = std::abs(static_cast<double>(off)) / shortest[v];
+    if (share > 0) worst = std::max(worst, share);
   }
-  return residual;
+  return at_most("exact_positions", worst, off_space_bound);
+}
+
+// The banks match; see judge_seams.
+Check seam_check(const SeamResiduals& residuals) {
+  return {"seam_residual", residuals.failure.empty(), residuals.value, residuals.bound, residuals.failure};
 }
 
 // The copies of the cones' input vertices among the cut vertices, ascending.
@@ -317,28 +342,97 @@ Check cone_check(const Embedding& embedding) {
   return offences.check("cones");
 }
 
-// The largest difference between an angle sum and 2 pi/order (rotation) or pi/order (corner).
-Check angle_check(const Embedding& embedding) {
-  const Space space = embedding.space();
-  constexpr int no_cone = -1;
-  std::vector<int> cone_of(embedding.source_vertex.size(), no_cone);
-  for (std::size_t k = 0; k < embedding.cones.size(); ++k)
-    for (const int v : embedding.cones[k].copies) cone_of[v] = static_cast<int>(k);
-  std::vector<double> angle(embedding.cones.size(), 0.0);
-  const Triangles& F = embedding.triangles;
-  for (int h = 0; h < static_cast<int>(F.size()); ++h) {
-    const int cone = cone_of[halfedge_origin(F, h)];
-    if (cone == no_cone) continue;
-    const Points& X = embedding.positions;
-    angle[cone] += space.angle(X.row(halfedge_origin(F, h)), X.row(halfedge_target(F, h)),
-                               X.row(halfedge_origin(F, previous_halfedge(h))));
+// What the angles around the vertices of the surface have to add up to.
+struct ExpectedAngles {
+  // By surface_vertex: 2 pi, or pi on a mirror; at cones and corners what their marks say; 0 where nothing is
+  // asked: where no face is, at fixed corners and along held sides.
+  std::vector<double> angle;
+  std::vector<char> is_cone;
+
+  // A quarter of the least of all: sums that are further off may belong to another multiple.
+  double largest_error = pi / 4;
+};
+
+// triangles: the embedding, its polygons divided, with its seams.
+ExpectedAngles expected_angles(const Embedding& triangles) {
+  ExpectedAngles expected;
+  const std::size_t count = triangles.source_vertex.size();
+  expected.angle.assign(count, 0.0);
+  expected.is_cone.assign(count, 0);
+  for (int h = 0; h < static_cast<int>(triangles.triangles.size()); ++h)
+    expected.angle[surface_vertex(triangles, halfedge_origin(triangles.triangles, h))] = 2 * pi;
+  for (const Seam& seam : triangles.seams)
+    if (seam.is_mirror())
+      for (const int v : seam.left) expected.angle[surface_vertex(triangles, v)] = pi;
+  if (!fixed_corners(triangles).empty()) {
+    Offences ignored;  // held_sides_check tells of them
+    for (const auto& [from, to] : disk_boundary(triangles, ignored))
+      expected.angle[surface_vertex(triangles, from)] = 0;
   }
-  double worst = 0;
-  for (std::size_t k = 0; k < embedding.cones.size(); ++k) {
-    const ConeCopies& cone = embedding.cones[k];
-    if (cone.mark.kind != ConeKind::fixed) worst = std::max(worst, std::abs(angle[k] - cone.mark.angle));
+  for (const ConeCopies& cone : triangles.cones) {
+    const bool is_fixed = cone.mark.kind == ConeKind::fixed;
+    expected.is_cone[cone.vertex] = 1;
+    expected.angle[cone.vertex] = is_fixed ? 0 : cone.mark.angle;
+    if (!is_fixed) expected.largest_error = std::min(expected.largest_error, cone.mark.angle / 4);
   }
-  return at_most("cone_angles", worst, angle_bound);
+  return expected;
+}
+
+// The largest difference between a sum of angles and what it has to be, relative to what rounding explains:
+// at cones and corners, or at all other vertices.
+class AngleCheck {
+ public:
+  explicit AngleCheck(std::string name) : name_(std::move(name)) {}
+
+  void add(int vertex, double difference, double bound) {
+    if (!(difference <= bound) && failures_++ == 0) vertex_ = vertex;
+    const double ratio =
+        std::isnan(difference) ? std::numeric_limits<double>::infinity() : difference / bound;
+    if (!(ratio > worst_)) return;
+    worst_ = ratio;
+    value_ = difference;
+    bound_ = bound;
+  }
+
+  Check check() const {
+    Check check = {name_, failures_ == 0, value_, bound_, {}};
+    if (!check.passed)
+      check.detail = fmt::format(
+          "the angles around {} vertices are wrong, first around vertex {}; the "
+          "largest difference is {:.3g}, more than {:.3g}",
+          failures_, vertex_, value_, bound_);
+    return check;
+  }
+
+ private:
+  std::string name_;
+  int failures_ = 0, vertex_ = -1;
+  double worst_ = -1, value_ = 0, bound_ = angle_bound;
+};
+
+// triangles, positions: those of which the sums are. Where a sum is off by more than angle_bound, the
+// rounding of the positions may explain it.
+std::vector<Check> angle_checks(const Embedding& triangles, const ExactPositions& positions,
+                                const std::vector<double>& sums, const ExpectedAngles& expected) {
+  const int count = static_cast<int>(std::min(sums.size(), expected.angle.size()));
+  const auto difference = [&](int v) { return std::abs(sums[v] - expected.angle[v]); };
+  const auto is_asked = [&](int v) {
+    return expected.is_cone[v] ? expected.angle[v] != 0 : expected.angle[v] > 0;
+  };
+  std::vector<char> is_off(sums.size(), 0);
+  bool any_off = false;
+  for (int v = 0; v < count; ++v)
+    if (is_asked(v) && !(difference(v) <= angle_bound)) is_off[v] = any_off = true;
+  std::vector<double> rounding;
+  if (any_off) rounding = rounding_of_angles(triangles, positions, is_off);
+  AngleCheck cones("cone_angles"), others("angle_sums");
+  for (int v = 0; v < count; ++v) {
+    if (!is_asked(v)) continue;
+    const double bound =
+        is_off[v] ? std::min(angle_bound + rounding[v], expected.largest_error) : angle_bound;
+    (expected.is_cone[v] ? cones : others).add(v, difference(v), bound);
+  }
+  return {cones.check(), others.check()};
 }
 
 // The seams generate the group of the signature. In the plane it is infinite, and nothing is to be counted.
@@ -364,14 +458,13 @@ Check group_check(const Embedding& embedding) {
 }
 
 // face_of: the input face of every triangle, where it is not the triangle itself.
-Check orientation_check(const Embedding& embedding, const std::vector<int>& face_of,
-                        std::vector<int>& nonpositive) {
-  const Points& X = embedding.positions;
+Check orientation_check(const Embedding& embedding, const ExactPositions& positions,
+                        const std::vector<int>& face_of, std::vector<int>& nonpositive) {
   std::vector<char> positive(embedding.triangles.rows());
   parallel_ranges(static_cast<int>(positive.size()), [&](int begin, int end) {
     for (int f = begin; f < end; ++f) {
       const auto v = embedding.triangles.row(f);
-      positive[f] = orientation_sign(X.row(v[0]), X.row(v[1]), X.row(v[2])) > 0;
+      positive[f] = positions.orientation(v[0], v[1], v[2]) > 0;
     }
   });
   for (int f = 0; f < static_cast<int>(positive.size()); ++f)
@@ -384,8 +477,9 @@ Check orientation_check(const Embedding& embedding, const std::vector<int>& face
 }
 
 // Puts polygons that are not convex among the faces that are not positively oriented.
-Check convexity_check(const Embedding& embedding, std::vector<int>& nonpositive) {
-  const std::vector<ConcaveCorner> concave = concave_corners(embedding, straight_bound);
+Check convexity_check(const Embedding& embedding, const ExactPositions& positions,
+                      std::vector<int>& nonpositive) {
+  const std::vector<ConcaveCorner> concave = concave_corners(embedding, positions, straight_bound);
   for (const ConcaveCorner& corner : concave) nonpositive.push_back(corner.face);
   std::sort(nonpositive.begin(), nonpositive.end());
   nonpositive.erase(std::unique(nonpositive.begin(), nonpositive.end()), nonpositive.end());
@@ -421,13 +515,7 @@ Check edge_length_check(const Embedding& embedding, double& longest) {
   return check;
 }
 
-Check area_check(const Embedding& embedding, Certificate& certificate) {
-  const Points& X = embedding.positions;
-  const Space space = embedding.space();
-  certificate.signed_area = parallel_sum(static_cast<int>(embedding.triangles.rows()), [&](int f) {
-    const auto v = embedding.triangles.row(f);
-    return space.area(X.row(v[0]), X.row(v[1]), X.row(v[2]));
-  });
+Check area_check(const Certificate& certificate) {
   Check check =
       at_most("signed_area", std::abs(certificate.signed_area - certificate.expected_area), area_bound);
   if (!check.passed)
@@ -446,35 +534,54 @@ bool check_input(int vertex_count, const FaceView& faces, const Embedding& embed
   certificate.expected_area = 4 * pi / std::max(embedding.target.group_order, 1);
   certificate.checks.push_back(cut_mesh_check(vertex_count, faces, embedding));
   certificate.checks.push_back(surface_check(embedding));
+  if (!embedding.offsets.empty()) certificate.checks.push_back(offsets_check(embedding));
   return all_passed(certificate.checks);
 }
 
-// That seams or held sides glue the cut mesh to a surface; false as before. triangles: the embedding, its
-// polygons divided.
-bool check_gluing(const Embedding& embedding, const Embedding& triangles, Certificate& certificate) {
+// What is judged: the embedding, and the triangles that its faces are made of.
+struct Judged {
+  const Embedding& embedding;
+
+  // The embedding, its polygons divided; of another triangulation, that one's images.
+  const Embedding& triangles;
+
+  // Of the triangles.
+  const ExactPositions& positions;
+};
+
+// That seams or held sides glue the cut mesh to a surface; false as before.
+bool check_gluing(const Judged& judged, Certificate& certificate) {
+  const Embedding& embedding = judged.embedding;
   std::vector<Check>& checks = certificate.checks;
-  checks.push_back(seam_gluing_check(triangles));
+  checks.push_back(seam_gluing_check(judged.triangles));
   checks.push_back(transform_check(embedding));
   checks.push_back(cone_check(embedding));
   if (!all_passed(checks)) return false;
   certificate.expected_area = target_area(claimed_target(embedding));
   checks.push_back(held_sides_check(embedding));
   checks.push_back(group_check(embedding));
-  certificate.max_seam_residual = max_seam_residual(embedding);
-  checks.push_back(at_most("seam_residual", certificate.max_seam_residual, seam_bound));
+  if (judged.positions.has_offsets())
+    checks.push_back(exact_surface_check(judged.triangles, judged.positions));
+  const SeamResiduals residuals = judge_seams(judged.triangles, judged.positions);
+  certificate.max_seam_residual = residuals.largest;
+  checks.push_back(seam_check(residuals));
   return true;
 }
 
 // That the images of the surface's faces cover the tile once. face_of: the face that each triangle is part
 // of, or empty.
-void check_faces(const Embedding& embedding, const Embedding& triangles, const std::vector<int>& face_of,
+void check_faces(const Judged& judged, const ExpectedAngles& expected, const std::vector<int>& face_of,
                  Certificate& certificate) {
+  const auto& [embedding, triangles, positions] = judged;
   std::vector<Check>& checks = certificate.checks;
-  checks.push_back(orientation_check(triangles, face_of, certificate.nonpositive_faces));
+  checks.push_back(orientation_check(triangles, positions, face_of, certificate.nonpositive_faces));
   const Check lengths = edge_length_check(embedding, certificate.max_edge_length);
   if (std::isfinite(lengths.bound)) checks.push_back(lengths);
-  checks.push_back(angle_check(triangles));
-  checks.push_back(area_check(triangles, certificate));
+  const TriangleSums sums = sum_over_triangles(triangles, positions);
+  for (Check& check : angle_checks(triangles, positions, sums.angle, expected))
+    checks.push_back(std::move(check));
+  certificate.signed_area = sums.signed_area;
+  checks.push_back(area_check(certificate));
   certificate.bijective = all_passed(checks);
 }
 
@@ -500,9 +607,13 @@ Certificate certify(int vertex_count, const FaceView& faces, const Embedding& em
   std::optional<DividedPolygons> polygons;
   if (embedding.polygons.count() > 0) polygons = divide_from_middles(embedding);
   const Embedding& triangles = polygons ? polygons->embedding : embedding;
-  if (!check_gluing(embedding, triangles, certificate)) return certificate;
-  check_faces(embedding, triangles, polygons ? polygons->face_of : std::vector<int>(), certificate);
-  if (polygons) certificate.checks.push_back(convexity_check(embedding, certificate.nonpositive_faces));
+  const ExactPositions positions(triangles);
+  const Judged judged = {embedding, triangles, positions};
+  if (!check_gluing(judged, certificate)) return certificate;
+  check_faces(judged, expected_angles(triangles), polygons ? polygons->face_of : std::vector<int>(),
+              certificate);
+  if (polygons)
+    certificate.checks.push_back(convexity_check(embedding, positions, certificate.nonpositive_faces));
   certificate.bijective = all_passed(certificate.checks);
   return certificate;
 }
@@ -515,9 +626,13 @@ Certificate certify_intrinsic(const Surface& surface, const Embedding& embedding
                               const IntrinsicTriangulation& triangulation) {
   Certificate certificate;
   if (!check_input(surface.vertex_count(), surface.faces(), embedding, certificate)) return certificate;
-  if (!check_gluing(embedding, embedding, certificate)) return certificate;
+  const ExactPositions positions(embedding);
+  if (!check_gluing({embedding, embedding, positions}, certificate)) return certificate;
+  if (positions.has_offsets() && !all_passed(certificate.checks)) return certificate;  // no exact group
   const Embedding layout = laid_out(surface, embedding, triangulation);
-  if (check_layout(layout, triangulation, certificate)) check_faces(layout, layout, {}, certificate);
+  if (!check_layout(layout, triangulation, certificate)) return certificate;
+  const ExactPositions laid_out_positions(layout);
+  check_faces({layout, layout, laid_out_positions}, expected_angles(embedding), {}, certificate);
   return certificate;
 }
 

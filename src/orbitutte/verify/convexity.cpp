@@ -6,16 +6,37 @@
 #include <array>
 #include <cmath>
 
-#include "orbitutte/geometry/orientation.h"
-
 namespace orbitutte {
 namespace {
 
-Vector3 middle(Space space, const Points& positions, std::span<const int> corners) {
-  const Vector3 first = positions.row(corners.front());
+// The mean of the corners, from the first.
+Vector3 to_middle(const ExactPositions& positions, std::span<const int> corners) {
   Vector3 sum = Vector3::Zero();
-  for (const int v : corners) sum += positions.row(v).transpose() - first;
-  return space.retract(first + sum / static_cast<double>(corners.size()));
+  for (const int v : corners) sum += positions.difference(corners.front(), v);
+  return sum / static_cast<double>(corners.size());
+}
+
+// Puts a vertex at the middle of a polygon. Beside positions with offsets it is the first corner's position
+// and an offset more: off the space by the square of the polygon's size, which changes no orientation.
+void add_middle(Embedding& divided, const ExactPositions& positions, std::span<const int> corners) {
+  const int first = corners.front(), v = static_cast<int>(divided.source_vertex.size());
+  const Vector3 step = to_middle(positions, corners), start = divided.positions.row(first);
+  divided.source_vertex.push_back(-1);
+  const auto is_exact = [&](int corner) { return positions.has_offsets(corner); };
+  if (std::none_of(corners.begin(), corners.end(), is_exact)) {
+    divided.positions.row(v) = divided.space().retract(start + step);
+    return;
+  }
+  divided.positions.row(v) = start;
+  for (std::size_t k = 0, count = divided.offsets.size(); k < count; ++k)
+    if (divided.offsets[k].vertex == first) divided.offsets.push_back({v, divided.offsets[k].d});
+  divided.offsets.push_back({v, step});
+}
+
+int count_polygons(const FaceView& faces) {
+  int count = 0;
+  for (int f = 0; f < faces.count(); ++f) count += faces.degree(f) > 3;
+  return count;
 }
 
 // The neighbours of corner k along the polygon.
@@ -47,9 +68,9 @@ std::vector<char> vertices_with_two_edges(const Embedding& embedding) {
 }
 
 // The distance of b from the great circle through a and c.
-double offset(const Vector3& a, const Vector3& b, const Vector3& c) {
-  const Vector3 normal = a.cross(c);
-  return std::abs(normal.dot(b - a)) / normal.norm();
+double offset(const ExactPositions& positions, int a, int b, int c) {
+  const Vector3 normal = positions.rounded(a).cross(positions.difference(a, c));
+  return std::abs(normal.dot(positions.difference(a, b))) / normal.norm();
 }
 
 }  // namespace
@@ -62,8 +83,12 @@ DividedPolygons divide_from_middles(const Embedding& embedding) {
   divided.source_vertex = embedding.source_vertex;
   divided.seams = embedding.seams;
   divided.cones = embedding.cones;
+  divided.offsets = embedding.offsets;
+  const ExactPositions positions(embedding);
+  const int n_cut = static_cast<int>(embedding.source_vertex.size());
+  divided.positions.resize(n_cut + count_polygons(faces), 3);
+  divided.positions.topRows(n_cut) = embedding.positions;
   std::vector<int> corners;
-  std::vector<Vector3> middles;
   for (int f = 0; f < faces.count(); ++f) {
     const std::span<const int> face = faces[f];
     if (face.size() == 3) {
@@ -76,27 +101,22 @@ DividedPolygons divide_from_middles(const Embedding& embedding) {
                      {face[k], face[(k + 1) % face.size()], static_cast<int>(divided.source_vertex.size())});
       result.face_of.push_back(f);
     }
-    divided.source_vertex.push_back(-1);
-    middles.push_back(middle(embedding.space(), embedding.positions, face));
+    add_middle(divided, positions, face);
   }
   divided.triangles =
       Eigen::Map<const Triangles>(corners.data(), static_cast<Eigen::Index>(corners.size() / 3), 3);
-  divided.positions.resize(static_cast<Eigen::Index>(divided.source_vertex.size()), 3);
-  divided.positions.topRows(embedding.positions.rows()) = embedding.positions;
-  for (std::size_t k = 0; k < middles.size(); ++k)
-    divided.positions.row(embedding.positions.rows() + static_cast<Eigen::Index>(k)) = middles[k];
   return result;
 }
 
-std::vector<ConcaveCorner> concave_corners(const Embedding& embedding, double straight_bound) {
+std::vector<ConcaveCorner> concave_corners(const Embedding& embedding, const ExactPositions& positions,
+                                           double straight_bound) {
   const FaceView faces = embedding.faces();
-  const Points& X = embedding.positions;
   const std::vector<char> has_two_edges = vertices_with_two_edges(embedding);
   const auto is_concave = [&](std::span<const int> face, std::size_t k) {
     const auto [before, behind] = beside(face, k);
-    const Vector3 a = X.row(before), b = X.row(face[k]), c = X.row(behind);
-    if (orientation_sign(a, b, c) > 0) return false;
-    return !(has_two_edges[embedding.source_vertex[face[k]]] && offset(a, b, c) <= straight_bound);
+    if (positions.orientation(before, face[k], behind) > 0) return false;
+    return !(has_two_edges[embedding.source_vertex[face[k]]] &&
+             offset(positions, before, face[k], behind) <= straight_bound);
   };
   std::vector<ConcaveCorner> result;
   for (int f = 0; f < faces.count(); ++f) {

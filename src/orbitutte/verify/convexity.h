@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "orbitutte/orbifold/embedding.h"
+#include "orbitutte/orbifold/exact_positions.h"
 
 namespace orbitutte {
 
@@ -31,7 +31,8 @@ struct ConcaveCorner {
 /// One corner of every polygon that is not strictly convex, by ascending face; signs are exact. The exact map
 /// is straight at a vertex with two edges that is not a cone, whether the vertex lies between two faces or
 /// along a mirror. Such a vertex may be off the arc between its neighbours by `straight_bound` radians to
-/// either side.
-std::vector<ConcaveCorner> concave_corners(const Embedding& embedding, double straight_bound);
+/// either side. positions: the embedding's.
+std::vector<ConcaveCorner> concave_corners(const Embedding& embedding, const ExactPositions& positions,
+                                           double straight_bound);
 
 }  // namespace orbitutte

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <optional>
 
+#include "orbitutte/orbifold/exact_positions.h"
 #include "orbitutte/parallel.h"
 
 namespace orbitutte {
@@ -16,7 +17,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double position_rounding = 16 * std::numeric_limits<double>::epsilon();
+constexpr double position_rounding = 16;  // in units of tangential_rounding
 constexpr double area_rounding = 4 * std::numeric_limits<double>::epsilon();
 
 double triangle_area(const Vector3& a, const Vector3& b, const Vector3& c) {
@@ -135,18 +136,53 @@ struct FaceAreas {
   double source = 0, image = 0;
 };
 
-FaceDistortion face_distortion(const std::array<Vector3, 3>& source, const std::array<Vector3, 3>& image,
-                               const FaceAreas& area, const FaceAreas& total, Space space) {
+// By how much rounding may move a point along the space. Of doubles it is that of the smaller coordinates:
+// the rounding of the largest moves the point off the sphere.
+double tangential_rounding(const Embedding& embedding, const ExactPositions& positions, int v) {
+  if (positions.has_offsets(v)) return positions.rounding(v);
+  Vector3 size = embedding.positions.row(v).cwiseAbs();
+  if (embedding.space().curvature() <= 0) size.z() = std::numeric_limits<double>::infinity();
+  std::sort(size.begin(), size.end());
+  return std::numeric_limits<double>::epsilon() * size[1];
+}
+
+// What is measured of the image of a triangle: the lengths of the sides between its corners 0 and 1, 1 and 2,
+// 2 and 0, and the rounding of the worst corner.
+struct ImageMeasures {
+  std::array<double, 3> arcs;
+  double rounding = 0;
+};
+
+ImageMeasures measure_image(const Embedding& embedding, const ExactPositions& positions, int f) {
+  const auto v = embedding.triangles.row(f);
+  ImageMeasures result;
+  for (int k = 0; k < 3; ++k) {
+    result.arcs[k] = positions.distance(v[k], v[(k + 1) % 3]);
+    result.rounding = std::max(result.rounding, tangential_rounding(embedding, positions, v[k]));
+  }
+  return result;
+}
+
+// Scaled by a power of two where their squares would underflow.
+std::array<double, 3> in_range(std::array<double, 3> lengths) {
+  const double longest = *std::max_element(lengths.begin(), lengths.end());
+  if (longest > 0 && longest < 1e-100)
+    for (double& length : lengths) length = std::ldexp(length, -std::ilogb(longest));
+  return lengths;
+}
+
+FaceDistortion face_distortion(const std::array<Vector3, 3>& source, const ImageMeasures& image,
+                               const FaceAreas& area, const FaceAreas& total) {
   FaceDistortion result;
   result.share = total.source > 0 ? area.source / total.source : 0;
   const auto length = [&](int i, int j) { return (source[i] - source[j]).norm(); };
   const std::array<double, 3> lengths = {length(0, 1), length(1, 2), length(2, 0)};
-  const std::array<double, 3> arcs = {space.distance(image[0], image[1]), space.distance(image[1], image[2]),
-                                      space.distance(image[2], image[0])};
   const double longest = std::max({lengths[0], lengths[1], lengths[2]}),
-               longest_arc = std::max({arcs[0], arcs[1], arcs[2]});
-  if (!(area.source > area_rounding * longest * longest) || !(area.image > position_rounding * longest_arc))
+               longest_arc = *std::max_element(image.arcs.begin(), image.arcs.end());
+  if (!(area.source > area_rounding * longest * longest) ||
+      !(area.image > position_rounding * image.rounding * longest_arc))
     return result;
+  const std::array<double, 3> arcs = in_range(image.arcs);
   const double ratio = (area.image / total.image) / (area.source / total.source);
   if (!(ratio > 0) || !std::isfinite(ratio)) return result;
   result.area = ratio;
@@ -162,17 +198,12 @@ FaceDistortion face_distortion(const std::array<Vector3, 3>& source, const std::
 std::vector<FaceDistortion> measure_triangles(const Surface& surface, const Embedding& embedding) {
   const int m = surface.triangle_count();
   const double unit = length_unit(surface);
-  const Space space = embedding.space();
+  const ExactPositions positions(embedding);
   const auto source = [&](int f) {
     const auto corner = [&](int k) {
       return surface.V.row(embedding.source_vertex[embedding.triangles(f, k)]) / unit;
     };
     return std::array<Vector3, 3>{corner(0), corner(1), corner(2)};
-  };
-  const auto image = [&](int f) {
-    const auto v = embedding.triangles.row(f);
-    const Points& X = embedding.positions;
-    return std::array<Vector3, 3>{X.row(v[0]), X.row(v[1]), X.row(v[2])};
   };
   std::vector<FaceAreas> area(m);
   FaceAreas total;
@@ -181,14 +212,14 @@ std::vector<FaceDistortion> measure_triangles(const Surface& surface, const Embe
     return area[f].source = triangle_area(p[0], p[1], p[2]);
   });
   total.image = parallel_sum(m, [&](int f) {
-    const auto p = image(f);
-    area[f].image = space.area(p[0], p[1], p[2]);
+    const auto v = embedding.triangles.row(f);
+    area[f].image = positions.area(v[0], v[1], v[2]);
     return std::max(area[f].image, 0.0);  // a map that is turned over in places still has shares
   });
   std::vector<FaceDistortion> of_face(m);
   parallel_ranges(m, [&](int begin, int end) {
     for (int f = begin; f < end; ++f)
-      of_face[f] = face_distortion(source(f), image(f), area[f], total, space);
+      of_face[f] = face_distortion(source(f), measure_image(embedding, positions, f), area[f], total);
   });
   return of_face;
 }

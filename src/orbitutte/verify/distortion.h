@@ -44,8 +44,8 @@ struct FaceDistortion {
 std::vector<FaceDistortion> measure_triangles(const Surface& surface, const Embedding& embedding);
 
 /// Triangles without area are left out and not counted, and so are images that are not positively oriented or
-/// thinner than the rounding errors of positions, since their shape is noise. They are neither within_4 nor
-/// below_64.
+/// thinner than the rounding errors of positions and their offsets, since their shape is noise. They are
+/// neither within_4 nor below_64.
 Distortion measure_distortion(const Surface& surface, const Embedding& embedding);
 
 }  // namespace orbitutte

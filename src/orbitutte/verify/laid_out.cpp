@@ -3,7 +3,11 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <unordered_map>
+
+#include "orbitutte/orbifold/exact_positions.h"
+#include "orbitutte/orbifold/precise_group.h"
 
 namespace orbitutte {
 namespace {
@@ -35,6 +39,7 @@ class Layout {
         if (embedding.source_vertex[v] == halfedge_origin(F_, h)) copy[h] = v;
       positions_.row(h) = embedding.positions.row(copy[h]);
     }
+    take_offsets(embedding, copy);
     const std::map<Pair, Isometry> beyond = continuations(embedding.seams);
     if (beyond.empty()) return;
     for (int h = 0; h < static_cast<int>(F_.size()); ++h) {
@@ -52,8 +57,7 @@ class Layout {
     const bool turned = halfedge_origin(F_, g) == halfedge_origin(F_, h);
     const int al = turned ? lh : next_halfedge(g), lb = turned ? next_halfedge(g) : lh;
     const Isometry into = beyond(h);
-    const Corner a = corner(h), b = corner(bk), k = corner(ka),
-                 l = {F_.data()[lh], into * corner(lh).position};
+    const Corner a = corner(h), b = corner(bk), k = corner(ka), l = moved(into, corner(lh));
     const std::array<Side, 4> sides = {
         Side{opposite_[ka], beyond(ka)}, Side{opposite_[al], into * beyond(al)},
         Side{opposite_[lb], into * beyond(lb)}, Side{opposite_[bk], beyond(bk)}};
@@ -73,22 +77,56 @@ class Layout {
   }
 
   const Triangles& faces() const { return F_; }
-  const Points& positions() const { return positions_; }
+
+  // Gives the embedding the positions of the corners.
+  void store_positions(Embedding& result) const {
+    result.positions = positions_;
+    for (const auto& [h, exact] : exact_) store(result, h, exact.position, exact.offsets);
+  }
 
  private:
+  // A position with offsets, and how many.
+  struct ExactPosition {
+    Vector3Of<MostPrecise> position;
+    int offsets = 0;
+  };
   struct Corner {
     int vertex;
     Vector3 position;
+    std::optional<ExactPosition> exact;
   };
   struct Side {
     int opposite;
     Isometry beyond;
   };
 
-  Corner corner(int h) const { return {F_.data()[h], positions_.row(h)}; }
+  void take_offsets(const Embedding& embedding, const std::vector<int>& copy) {
+    const ExactPositions positions(embedding);
+    if (!positions.has_offsets()) return;
+    group_.emplace(embedding.target);
+    for (int h = 0; h < static_cast<int>(F_.size()); ++h)
+      if (positions.has_offsets(copy[h]))
+        exact_[h] = {positions.exact(copy[h]), positions.offset_count(copy[h])};
+  }
+
+  Corner corner(int h) const {
+    const auto at = exact_.find(h);
+    return {F_.data()[h], positions_.row(h), at == exact_.end() ? std::nullopt : std::optional(at->second)};
+  }
+
+  Corner moved(const Isometry& into, Corner corner) const {
+    corner.position = into * corner.position;
+    if (corner.exact) corner.exact->position = group_->element(into) * corner.exact->position;
+    return corner;
+  }
   void set_corner(int h, const Corner& corner) {
     F_.data()[h] = corner.vertex;
     positions_.row(h) = corner.position;
+    if (corner.exact) {
+      exact_[h] = *corner.exact;
+    } else if (!exact_.empty()) {
+      exact_.erase(h);
+    }
   }
 
   Isometry beyond(int h) const {
@@ -105,7 +143,9 @@ class Layout {
 
   Triangles F_;
   std::vector<int> opposite_;
-  Points positions_;                          // of the corner where each half-edge begins
+  Points positions_;                                // of the corner where each half-edge begins
+  std::optional<PreciseGroup<MostPrecise>> group_;  // if there are offsets
+  std::map<int, ExactPosition> exact_;              // of corners that have offsets
   std::unordered_map<int, Isometry> beyond_;  // takes the face beyond a half-edge to where its own goes on
 };
 
@@ -118,10 +158,11 @@ Embedding laid_out(const Surface& surface, const Embedding& embedding,
   Embedding result;
   result.target = embedding.target;
   result.placement = embedding.placement;
-  result.positions = layout.positions();
+  layout.store_positions(result);
   result.triangles.resize(surface.triangles.rows(), 3);
   for (int h = 0; h < static_cast<int>(result.triangles.size()); ++h) result.triangles.data()[h] = h;
-  result.source_vertex.assign(layout.faces().data(), layout.faces().data() + layout.faces().size());
+  result.source_vertex.assign(layout.triangles().data(),
+                              layout.triangles().data() + layout.triangles().size());
   result.cones = embedding.cones;
   for (ConeCopies& cone : result.cones) {
     cone.copies.clear();

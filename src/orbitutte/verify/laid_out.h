@@ -12,7 +12,8 @@ namespace orbitutte {
 /// image of vertex source_vertex[h] of the surface, so that the face lies in one piece. The flips are
 /// repeated on the faces of the embedding: one of two faces is taken into the frame of the other by the
 /// transform of the seam between them. Neither orientation nor positions of the result are judged here.
-/// `embedding` is of the surface, and its seams fit (see certify).
+/// `embedding` is of the surface, and its seams fit (see certify). Where it has offsets, so has the result;
+/// throws ArgumentError if a transform is no element of the target's group in its canonical frame then.
 Embedding laid_out(const Surface& surface, const Embedding& embedding,
                    const IntrinsicTriangulation& triangulation);
 

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// Angles and areas of geodesic triangles from the differences of their corners: they keep their digits where
+// the differences do, however small the triangle.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+
+#include "orbitutte/geometry/curvature.h"
+
+namespace orbitutte {
+
+/// The angle at p from the geodesic to p + u counterclockwise to that to p + v, in (-pi, pi].
+template <int k>
+double angle_between(Curvature<k> curvature, const Vector3& p, const Vector3& u, const Vector3& v) {
+  const Vector3 first = curvature.tangent(p, u), second = curvature.tangent(p, v);
+  return std::atan2(p.dot(first.cross(second)), curvature.dot(first, second));
+}
+
+/// The signed area of the triangle a, a + u, a + v: see Space::area.
+template <int k>
+double area_between(Curvature<k> curvature, const Vector3& a, const Vector3& u, const Vector3& v) {
+  const double determinant = a.dot(u.cross(v));
+  if constexpr (k == 0) return determinant / 2;
+  const Vector3 w = v - u;
+  return 2 * std::atan2(2 * determinant,
+                        8 - k * (curvature.dot(u, u) + curvature.dot(w, w) + curvature.dot(v, v)));
+}
+
+}  // namespace orbitutte

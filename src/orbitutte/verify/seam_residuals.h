@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// Do the positions on both banks of the seams match, at the scale of the edges beside them? Private to
+// verify/.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "orbitutte/orbifold/exact_positions.h"
+
+namespace orbitutte {
+
+struct SeamResiduals {
+  /// The largest entry of position(left) - transform * position(right).
+  double largest = 0;
+
+  /// That of the pair which comes nearest to its bound, or is furthest beyond it, and the bound.
+  double value = 0, bound = 0;
+
+  /// Empty if every pair is within its bound; otherwise the worst, or why the seams cannot be judged.
+  std::string failure;
+};
+
+/// A pair may be off by a thousandth of the shortest edge at its two vertices, a mirror's vertex by a
+/// hundredth, since ears are rounded to the outer side of their mirror; by the rounding of doubles in any
+/// case, and by no more than 1e-12 (in units of the position, where that is large). Where a position has
+/// offsets the exact positions are compared by the exact element of the target's group, which has to be known
+/// then: the embedding has to lie in the canonical frame. triangles: the embedding, its polygons divided.
+SeamResiduals judge_seams(const Embedding& triangles, const ExactPositions& positions);
+
+}  // namespace orbitutte
