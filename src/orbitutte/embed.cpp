@@ -40,14 +40,8 @@ GluingProblem gluing_problem(const EmbedRequest& request, const EdgeWeights& wei
 Embedding embedding_of(const GluingProblem& problem, const SpreadMap& map) {
   const CutMesh& cut = problem.cut;
   const BoundaryConditions& boundary = map.placed.boundary;
-  return {problem.target,
-          map.placed.frame,
-          map.positions,
-          cut.F,
-          cut.source_vertex,
-          boundary.seams,
-          boundary.cones,
-          problem.surface.polygons_on(cut.F, cut.turned),
+  return {problem.target,    map.placed.frame, map.positions,  cut.F,
+          cut.source_vertex, boundary.seams,   boundary.cones, problem.surface.polygons_on(cut.F, cut.turned),
           map.offsets};
 }
 
@@ -139,21 +133,33 @@ std::vector<WeightKind> other_weights(const Surface& surface) {
   return {WeightKind::cotan, WeightKind::mean_value, WeightKind::uniform};
 }
 
-// Where no weights were asked for and the standard ones give no bijection, the first others that do are taken;
-// where none do, the result is that of the standard ones.
+// Were so many vertices moved that the weights are at fault, and not a few thin triangles?
+bool is_suspect(const EmbedResult& result) {
+  return static_cast<int>(result.moved_vertices.size()) > result.minimum.positions.rows() / 20;
+}
+
+// Is the second map the better one?
+bool is_better(const EmbedResult& first, const EmbedResult& second) {
+  if (first.certificate.bijective != second.certificate.bijective) return second.certificate.bijective;
+  return second.distortion.angle.mean < first.distortion.angle.mean;
+}
+
+// Where no weights were asked for and the standard ones give no bijection, or one for which many vertices had
+// to be moved, the first others that give one are compared with them, and the better map is taken.
 EmbedResult embed_with_some_weights(const EmbedRequest& request, EmbeddingCache& cache) {
   const EmbedOptions& options = request.options;
   EmbedResult first = embed_once(request, cache);
-  if (first.certificate.bijective || options.weights.kind != WeightKind::standard ||
-      !options.weights_file.empty())
-    return first;
+  const bool were_asked_for = options.weights.kind != WeightKind::standard || !options.weights_file.empty();
+  if (were_asked_for || (first.certificate.bijective && !is_suspect(first))) return first;
   for (const WeightKind kind : other_weights(request.prepared.surface)) {
     EmbedOptions other = options;
     other.weights.kind = kind;
     EmbedResult next = embed_once({request.prepared, request.target, request.cones, other}, cache);
     first.timings.insert(first.timings.end(), next.timings.begin(), next.timings.end());
     if (!next.certificate.bijective) continue;
+    if (!is_better(first, next)) break;
     next.timings = first.timings;
+    next.requested_weights = first.weights.kind;
     next.warnings.push_back(warning_of_replaced_weights(first, next));
     return next;
   }

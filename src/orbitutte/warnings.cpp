@@ -83,11 +83,14 @@ std::vector<std::string> warnings_of_collapse(const FaceView& faces, const std::
 }
 
 std::string warning_of_replaced_weights(const EmbedResult& standard, const EmbedResult& taken) {
-  return fmt::format(
-      "the standard weights ({}) turn {} faces over, so the weights '{}' were taken, with which the map is a "
-      "bijection; '--weights {}' keeps the others",
-      name_of(standard.weights.kind), standard.certificate.nonpositive_faces.size(), name_of(taken.weights.kind),
-      name_of(standard.weights.kind));
+  const std::string fault =
+      standard.certificate.bijective
+          ? fmt::format("fit this mesh badly: {} vertices would have to be moved for a bijection",
+                        standard.moved_vertices.size())
+          : fmt::format("turn {} faces over", standard.certificate.nonpositive_faces.size());
+  return fmt::format("the standard weights ('{}') {}; '{}' were taken instead; '--weights {}' insists",
+                     name_of(standard.weights.kind), fault, name_of(taken.weights.kind),
+                     name_of(standard.weights.kind));
 }
 
 }  // namespace orbitutte

@@ -24,7 +24,9 @@ constexpr int dividing_rounds = 2;  // after every division
 int face_count(const Mesh& mesh) { return static_cast<int>(mesh.F.rows()); }
 int vertex_count(const Mesh& mesh) { return static_cast<int>(mesh.V.rows()); }
 
-Connectivity connectivity_of(const Mesh& mesh) { return orbitutte::connectivity_of(mesh.F, vertex_count(mesh)); }
+Connectivity connectivity_of(const Mesh& mesh) {
+  return orbitutte::connectivity_of(mesh.F, vertex_count(mesh));
+}
 
 // One half-edge of every edge, the one with the lower index.
 std::vector<int> halfedge_of_edges(const Connectivity& connectivity) {

@@ -127,7 +127,8 @@ std::vector<Neighbour> DirichletEnergy::neighbours(int vertex, Elements& element
   for (int k = start_[vertex]; k < start_[vertex + 1]; ++k) {
     const auto& [neighbour, transform, w] = incidences_[k];
     const Isometry& g = transforms_[transform / 2];
-    result.push_back({neighbour, transform < 2 ? 0 : elements.index(transform % 2 == 0 ? g : g.inverse()), w});
+    result.push_back(
+        {neighbour, transform < 2 ? 0 : elements.index(transform % 2 == 0 ? g : g.inverse()), w});
   }
   return result;
 }

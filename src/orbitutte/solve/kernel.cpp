@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// By cutting planes: the program of a few conditions is solved by trying all triples of them, and the condition
-// that the solution breaks most joins them. Stars have some six triangles; hubs with thousands need few more.
+// By cutting planes: the program of a few conditions is solved by trying all triples of them, and the
+// condition that the solution breaks most joins them. Stars have some six triangles; hubs with thousands need
+// few more.
 #include "orbitutte/solve/kernel.h"
 
 #include <Eigen/LU>

@@ -22,8 +22,8 @@ struct KernelStep {
   double margin = 0;
 };
 
-/// The step of at most `reach` in each coordinate that has the largest least margin: a linear program in three
-/// unknowns. At least one condition is needed.
+/// The step of at most `reach` in each coordinate that has the largest least margin: a linear program in
+/// three unknowns. At least one condition is needed.
 KernelStep widest_step(const std::vector<KernelCondition>& conditions, const Eigen::Vector2d& reach);
 
 }  // namespace orbitutte

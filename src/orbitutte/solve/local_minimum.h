@@ -15,8 +15,8 @@ struct Neighbourhood {
   std::vector<Neighbour> neighbours;
 };
 
-/// Where the map is flat on the scale of its edges, the Laplacian is the energy's Hessian (up to a factor two),
-/// and one sparse factor in doubles serves for as many digits as the positions have: forces come from
+/// Where the map is flat on the scale of its edges, the Laplacian is the energy's Hessian (up to a factor
+/// two), and one sparse factor in doubles serves for as many digits as the positions have: forces come from
 /// differences, and each step gains some ten digits.
 class LocalMinimum {
  public:

@@ -43,7 +43,8 @@ void PlainPositions::shift(int v, const Vector3& step) {
 bool PlainPositions::is_positive(int face) const { return is_positive_in_doubles(gluing_, positions_, face); }
 
 void PlainPositions::take_back(std::size_t moves) {
-  for (; journal_.size() > moves; journal_.pop_back()) positions_.row(journal_.back().first) = journal_.back().second;
+  for (; journal_.size() > moves; journal_.pop_back())
+    positions_.row(journal_.back().first) = journal_.back().second;
 }
 
 template <typename Real>

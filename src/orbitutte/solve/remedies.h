@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is done where the minimum, rounded to doubles, is no bijection: thin triangles of the input, and limbs that
-// shrink below what doubles resolve.
+// What is done where the minimum, rounded to doubles, is no bijection: thin triangles of the input, and limbs
+// that shrink below what doubles resolve.
 #pragma once
 
 #include <optional>

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int most_sweeps = 60, sweeps_per_ring = 6, smoothing_sweeps = 8, halvings = 6;
 constexpr int most_rings = 7;
-constexpr double clamp = 0.01;    // in place of weights that are not positive
+constexpr double clamp = 0.01;     // in place of weights that are not positive
 constexpr double enough = 0.3;     // of the largest margin that a star allows
 constexpr double flattest = 1e-6;  // a source triangle's least height, relative to its base
 
@@ -25,16 +25,16 @@ enum class PatchWeights { cotan, mean_value };
 
 // A star at one moment: its triangles v, a, b in the tangent plane at v, and in the source.
 struct Shape {
-  Eigen::Matrix<double, 3, 2> axes;  // of the tangent plane, counterclockwise from outside; on a mirror the first
-                                     // lies along it
+  Eigen::Matrix<double, 3, 2> axes;  // of the tangent plane, counterclockwise from outside; on a mirror the
+                                     // first lies along it
   bool on_mirror = false;
   double radius = 0;  // the longest edge at v
   struct Triangle {
-    Vector3 a, b;         // from p_v
-    double value;         // det[p_v a b]
-    Vector3 gradient;     // of the determinant by p_v
-    double height, base;  // in the source
-    bool is_flat;         // there
+    Vector3 a, b;                  // from p_v
+    double value;                  // det[p_v a b]
+    Vector3 gradient;              // of the determinant by p_v
+    double height, base;           // in the source
+    bool is_flat;                  // there
     std::array<double, 3> source;  // squared lengths of (v, a), (v, b), (a, b)
   };
   std::vector<Triangle> triangles;
@@ -241,8 +241,8 @@ class Repair {
       const double twice_area = triangle.value + triangle.gradient.dot(step);
       if (!(twice_area > 0)) return std::numeric_limits<double>::infinity();
       if (triangle.is_flat) continue;
-      // s1/s2 + s2/s1 from the squared lengths of both triangles (J. Pinkall, K. Polthier 1993): the Dirichlet
-      // energy of the linear map over the area of its image.
+      // s1/s2 + s2/s1 from the squared lengths of both triangles (J. Pinkall, K. Polthier 1993): the
+      // Dirichlet energy of the linear map over the area of its image.
       const double a2 = (triangle.a - step).squaredNorm(), b2 = (triangle.b - step).squaredNorm(),
                    c2 = (triangle.b - triangle.a).squaredNorm();
       const auto& [A2, B2, C2] = triangle.source;

@@ -20,10 +20,10 @@ struct RepairSite {
   const std::vector<char>& may_move;
 };
 
-/// Thin triangles of the input that are no faces of the triangulation that has the weights may come out turned
-/// over. Their vertices are moved into the kernels of their stars, sweep by sweep, and the vertices around are
-/// smoothed. Returns the vertices that moved, ascending, if all faces are positive then; otherwise every vertex
-/// is where it was, and nothing is returned. turned: the faces that are not positive.
+/// Thin triangles of the input that are no faces of the triangulation that has the weights may come out
+/// turned over. Their vertices are moved into the kernels of their stars, sweep by sweep, and the vertices
+/// around are smoothed. Returns the vertices that moved, ascending, if all faces are positive then; otherwise
+/// every vertex is where it was, and nothing is returned. turned: the faces that are not positive.
 std::vector<int> repair(const RepairSite& site, const std::vector<int>& turned, MovablePositions& positions);
 
 }  // namespace orbitutte

@@ -38,8 +38,8 @@ std::vector<StarTriangle> Stars::around(int vertex) const {
     int a = halfedge_target(cut_.F, h), b = halfedge_origin(cut_.F, previous_halfedge(h));
     // Seen from the vertex itself, what a rotary reflection has turned over.
     if (boundary_.transform(v).reverses_orientation()) std::swap(a, b);
-    star.push_back({h / 3, cut_.source_vertex[a], cut_.source_vertex[b], element_between(v, a),
-                    element_between(v, b)});
+    star.push_back(
+        {h / 3, cut_.source_vertex[a], cut_.source_vertex[b], element_between(v, a), element_between(v, b)});
   }
   return star;
 }

@@ -33,7 +33,7 @@ class Stars {
 
   const CutMesh& cut_;
   const BoundaryConditions& boundary_;
-  std::vector<int> start_, halfedges_;            // those that begin at copies of vertex v
+  std::vector<int> start_, halfedges_;             // those that begin at copies of vertex v
   std::map<std::pair<int, int>, int> element_of_;  // by BoundaryConditions::transform_of of both ends
 };
 

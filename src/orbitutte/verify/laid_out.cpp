@@ -76,7 +76,7 @@ class Layout {
     }
   }
 
-  const Triangles& faces() const { return F_; }
+  const Triangles& triangles() const { return F_; }
 
   // Gives the embedding the positions of the corners.
   void store_positions(Embedding& result) const {
