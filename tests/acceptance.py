@@ -36,7 +36,7 @@ import numpy as np
 
 from planted_faults import (claim_another_area, claim_another_energy, claim_another_group_order, claim_another_signature, cover_twice,
                             cover_twice_and_claim_it, exchange_seam_transform, mirror_map, mirror_positions, move_across_edge)
-from ply_files import PLY_TYPES, Ply, half_edges, write_off
+from mesh_files import PLY_TYPES, Ply, half_edges, read_off_triangles, write_off
 from trials import PYTHON, REPOSITORY, expect, finish, run_command, run_tests
 
 SPHERE_SIGNATURES = ['532', '432', '332', '222', '223', '224', '228', '2,2,12', '22', '33', '44', '88', '12,12']
@@ -137,13 +137,6 @@ def dual(vertices, faces):
             polygon.append(f)
         polygons.append(polygon)
     return vertices[faces].mean(1), polygons
-
-
-def read_off_triangles(path):
-    words = pathlib.Path(path).read_text().split()
-    n, m = int(words[1]), int(words[2])
-    faces = np.array(words[4 + 3 * n:4 + 3 * n + 4 * m], np.int64).reshape(m, 4)
-    return np.array(words[4:4 + 3 * n], float).reshape(n, 3), faces[:, 1:]
 
 
 def read_polygons(path):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Binary little-endian PLY files of triangles as the program writes them: vertices, faces and, where doubles do not suffice, offsets."""
+"""Binary little-endian PLY files of triangles as the program writes them, with offsets where doubles do not suffice; and OFF files."""
 import pathlib
 from fractions import Fraction
 
@@ -107,6 +107,13 @@ def write_off(path, vertices, faces):
     lines += [' '.join(map(repr, vertex)) for vertex in vertices.tolist()]
     lines += [' '.join(map(str, [len(face), *face])) for face in faces]
     pathlib.Path(path).write_text('\n'.join(lines) + '\n')
+
+
+def read_off_triangles(path):
+    words = pathlib.Path(path).read_text().split()
+    n, m = int(words[1]), int(words[2])
+    faces = np.array(words[4 + 3 * n:4 + 3 * n + 4 * m], np.int64).reshape(m, 4)
+    return np.array(words[4:4 + 3 * n], float).reshape(n, 3), faces[:, 1:]
 
 
 def half_edges(faces):
