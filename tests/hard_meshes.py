@@ -28,6 +28,11 @@ def kind(function):
     return function
 
 
+def generated():
+    """All of the set that is generated: the name KIND/VARIANT -> the function that makes the mesh."""
+    return {f'{name}/{variant}': make for name, variants_of in KINDS.items() for variant, make in variants_of()}
+
+
 def variants(make, *choices):
     """Pairs of the name and the function for every combination of the choices."""
     for combination in itertools.product(*choices):
