@@ -384,6 +384,10 @@ def stretched_disk():
 EVERY = [1280, 640, 320, 160, 80, 40, 30, 20, 15, 10]
 
 
+def smooth_ball(orbifold):
+    return HardMesh(*ball(3), orbifold, BODY_CONES[orbifold])
+
+
 def flat_faces_mesh(orbifold, every):
     """Every so many faces have a vertex exactly in the middle of an edge."""
     vertices, faces = ball(3)

@@ -8,6 +8,7 @@
   fault/KIND/VARIANT  triangles turned over at every scale that is there, seam vertices exchanged or moved, double covers, offsets that
                       are wrong: 'verify' ends with 5 and the checker refuses
   offsets/KIND/...    the same embedding with the positions of its limb rounded and the rest in offsets is accepted, and every fault refused
+  conformality/N      flat faces, one in every N, leave the mean angle distortion above 1 within a quarter of that of the mesh without them
 
 The kinds are the functions of hard_meshes.py. The checker and octocat lie in a folder beside the repository (../shared); what needs them
 is left out if it is missing, with a message. Needs numpy.
@@ -132,6 +133,15 @@ class Suite:
             self.run(commands, PYTHON, self.checker, source, ply_path, report_path, codes=(0,))
         self.plant_faults(name, mesh, (source, ply_path, report_path), folder)
 
+    def test_conformality(self, name, every, commands, folder):
+        excess = []
+        for mesh in (hard_meshes.smooth_ball('432'), hard_meshes.flat_faces_mesh('432', every)):
+            done, _, _, report = self.embed(commands, folder, mesh)
+            expect(done.returncode == 0, f'exit code {done.returncode}: {first_lines(done.stderr.strip())}')
+            excess.append(json.loads(report.read_text())['distortion']['angle']['mean'] - 1)
+        self.rows.append({'test': name, 'excess': excess, 'outcome': 'measured'})
+        expect(excess[1] < 1.25 * excess[0], f'mean angle distortion {1 + excess[1]:.4g}, without flat faces {1 + excess[0]:.4g}')
+
     def certified(self, commands, folder, mesh):
         """Mesh, embedding and report."""
         done, *paths = self.embed(commands, folder, mesh)
@@ -177,6 +187,8 @@ class Suite:
         for prefix, test, names in (('fault', self.test_faults, QUICK_FAULT_MESHES if quick else FAULT_MESHES),
                                     ('offsets', self.test_offsets, QUICK_OFFSET_MESHES if quick else OFFSET_MESHES)):
             found.update((f'{prefix}/{name}', bound(test, f'{prefix}/{name}', meshes[name])) for name in names if name in meshes)
+        for every in hard_meshes.EVERY[::5 if quick else 1]:
+            found[f'conformality/{every}'] = bound(self.test_conformality, f'conformality/{every}', every)
         for name in quick_names(meshes) if quick else meshes:
             found[name] = bound(self.test_mesh, name, meshes[name])
         return found
@@ -197,8 +209,8 @@ def round_with_offsets(ply):
         ply.offset[axis] = (positions - stored)[rounded, k]
 
 
-def bound(test, name, make):
-    return lambda commands, folder: test(name, make, commands, folder)
+def bound(test, *arguments):
+    return lambda commands, folder: test(*arguments, commands, folder)
 
 
 def quick_names(meshes):
