@@ -23,13 +23,10 @@ is no part of it: where it is missing, everything is skipped. Needs numpy.
 import argparse
 import base64
 import collections
-import concurrent.futures
 import json
 import os
 import pathlib
-import shlex
 import struct
-import subprocess
 import sys
 import tempfile
 import time
@@ -37,8 +34,10 @@ import xml.etree.ElementTree
 
 import numpy as np
 
-REPOSITORY = pathlib.Path(__file__).resolve().parent.parent
-PYTHON = sys.executable or '/usr/bin/python3'
+from planted_faults import (claim_another_area, claim_another_energy, claim_another_group_order, claim_another_signature, cover_twice,
+                            cover_twice_and_claim_it, exchange_seam_transform, mirror_map, mirror_positions, move_across_edge)
+from mesh_files import PLY_TYPES, Ply, half_edges, read_off_triangles, write_off
+from trials import PYTHON, REPOSITORY, expect, finish, run_command, run_tests
 
 SPHERE_SIGNATURES = ['532', '432', '332', '222', '223', '224', '228', '2,2,12', '22', '33', '44', '88', '12,12']
 DISK_SIGNATURES = ['*' + signature for signature in SPHERE_SIGNATURES]
@@ -81,66 +80,6 @@ REPORT_KEYS = {
 }
 
 
-class Failure(Exception):
-    """A test does not hold; the text says what."""
-
-
-def expect(holds, text):
-    if not holds:
-        raise Failure(text)
-
-
-# Binary little-endian PLY files as the program writes them: scalar vertex properties, triangles.
-
-PLY_TYPES = {'char': 'i1', 'uchar': 'u1', 'short': '<i2', 'ushort': '<u2', 'int': '<i4', 'uint': '<u4', 'float': '<f4',
-             'double': '<f8', 'int8': 'i1', 'uint8': 'u1', 'int16': '<i2', 'uint16': '<u2', 'int32': '<i4', 'uint32': '<u4',
-             'float32': '<f4', 'float64': '<f8'}
-
-
-class Ply:
-    """The file's header as it is, and its vertices and faces as structured arrays."""
-
-    def __init__(self, path):
-        data = pathlib.Path(path).read_bytes()
-        self.header = data[:data.index(b'end_header\n') + len(b'end_header\n')]
-        elements = []
-        for line in self.header.decode().splitlines():
-            words = line.split()
-            if words[0] == 'format':
-                expect(words[1] == 'binary_little_endian', f'{path}: format {words[1]}')
-            elif words[0] == 'element':
-                elements.append((words[1], int(words[2]), []))
-            elif words[:2] == ['property', 'list']:
-                elements[-1][2].extend([('corners', PLY_TYPES[words[2]]), (words[4], PLY_TYPES[words[3]], 3)])
-            elif words[0] == 'property':
-                elements[-1][2].append((words[2], PLY_TYPES[words[1]]))
-        expect([name for name, _, _ in elements] == ['vertex', 'face'], f'{path}: elements {[e[0] for e in elements]}')
-        offset, arrays = len(self.header), []
-        for _, count, properties in elements:
-            arrays.append(np.frombuffer(data, np.dtype(properties), count, offset).copy())
-            offset += arrays[-1].nbytes
-        expect(offset == len(data), f'{path}: {len(data) - offset} bytes too many')
-        self.vertex, self.face = arrays
-        expect((self.face['corners'] == 3).all(), f'{path}: not all faces are triangles')
-        self.faces = self.face['vertex_indices'].astype(np.int64)
-
-    @property
-    def positions(self):
-        return np.stack([self.vertex[axis] for axis in 'xyz'], 1)
-
-    @positions.setter
-    def positions(self, values):
-        for k, axis in enumerate('xyz'):
-            self.vertex[axis] = values[:, k]
-
-    def save(self, path):
-        pathlib.Path(path).write_bytes(self.header + self.vertex.tobytes() + self.face.tobytes())
-
-
-def half_edges(faces):
-    return np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
-
-
 def spherical_distance(p, q):
     return np.arctan2(np.linalg.norm(np.cross(p, q), axis=1), (p * q).sum(1))
 
@@ -151,10 +90,6 @@ def edge_lengths(ply):
     source = np.sort(ply.vertex['source_vertex'].astype(np.int64)[ends], axis=1)
     keys, first = np.unique((source[:, 0] << 32) + source[:, 1], return_index=True)
     return keys, spherical_distance(ply.positions[ends[first, 0]], ply.positions[ends[first, 1]])
-
-
-def normalized(rows):
-    return rows / np.linalg.norm(rows, axis=-1, keepdims=True)
 
 
 def check_closed_sphere(ply, copies, tile_faces):
@@ -202,20 +137,6 @@ def dual(vertices, faces):
             polygon.append(f)
         polygons.append(polygon)
     return vertices[faces].mean(1), polygons
-
-
-def write_off(path, vertices, faces):
-    lines = ['OFF', f'{len(vertices)} {len(faces)} 0']
-    lines += [' '.join(map(repr, vertex)) for vertex in vertices.tolist()]
-    lines += [' '.join(map(str, [len(face), *face])) for face in faces]
-    pathlib.Path(path).write_text('\n'.join(lines) + '\n')
-
-
-def read_off_triangles(path):
-    words = pathlib.Path(path).read_text().split()
-    n, m = int(words[1]), int(words[2])
-    faces = np.array(words[4 + 3 * n:4 + 3 * n + 4 * m], np.int64).reshape(m, 4)
-    return np.array(words[4:4 + 3 * n], float).reshape(n, 3), faces[:, 1:]
 
 
 def read_polygons(path):
@@ -303,17 +224,7 @@ class Suite:
     # Running the program; the commands of a test are kept, to be shown where it fails.
 
     def run(self, commands, *command, codes=(0,)):
-        command = [str(word) for word in command]
-        commands.append(shlex.join(command))
-        try:
-            result = subprocess.run(command, capture_output=True, text=True, errors='replace', timeout=self.options.timeout,
-                                    stdin=subprocess.DEVNULL)
-        except subprocess.TimeoutExpired:
-            raise Failure(f'no end after {self.options.timeout} s') from None
-        if result.returncode not in codes:
-            tail = (result.stderr + result.stdout).strip().splitlines()[-6:]
-            raise Failure(f"exit code {result.returncode}, not {' or '.join(map(str, codes))}: " + ' | '.join(tail))
-        return result
+        return run_command(commands, *command, timeout=self.options.timeout, codes=codes)
 
     def embed(self, commands, folder, mesh, signature, cones, *options, name='embedding', codes=(0,)):
         ply, report = folder / f'{name}.ply', folder / f'{name}.json'
@@ -643,100 +554,6 @@ def write_corners(path, corners):
     return path
 
 
-# Faults to plant: each changes the embedding or the report in place.
-
-def move_across_edge(ply, report):
-    """Reflects a vertex inside the tile across the opposite edge of one of its triangles."""
-    held = np.zeros(len(ply.vertex), bool)
-    for seam in report['seams']:
-        held[seam['left']] = held[seam['right']] = True
-    face = ply.faces[np.flatnonzero(~held[ply.faces].any(axis=1))[0]]
-    x = ply.positions
-    normal = normalized(np.cross(x[face[1]], x[face[2]]))
-    moved = x[face[0]] - 2 * (x[face[0]] @ normal) * normal
-    x[face[0]] = moved / np.linalg.norm(moved)
-    ply.positions = x
-
-
-MIRROR = np.diag([1.0, 1.0, -1.0])
-
-
-def mirror_positions(ply, report):
-    """The positions alone: now the seams do not match either."""
-    ply.positions = ply.positions @ MIRROR
-
-
-def mirror_map(ply, report):
-    """Positions and seams: everything still fits, but every triangle is turned over."""
-    mirror_positions(ply, report)
-    for seam in report['seams']:
-        seam['transform'] = (MIRROR @ np.array(seam['transform']) @ MIRROR).tolist()
-
-
-def claim_another_group_order(ply, report):
-    report['orbifold']['group_order'] *= 2
-
-
-def claim_another_signature(ply, report):
-    signature = report['orbifold']['signature']
-    other = {'432': '532', '33': '44', '*432': '*532', '3*2': '2*6', '5*': '6*', '3x': '4x'}[signature]
-    orders = {'532': 60, '44': 4, '*532': 120, '2*6': 24, '6*': 12, '4x': 8}
-    report['orbifold'] = {'signature': other, 'group_order': orders[other]}
-
-
-def claim_another_energy(ply, report):
-    report['energy'] *= 1 + 1e-6
-
-
-def claim_another_area(ply, report):
-    report['certificate']['expected_area'] *= 1 + 1e-6
-
-
-def exchange_seam_transform(ply, report):
-    """A seam with a transform that is not its own."""
-    seam = report['seams'][0]
-    about_x = np.array([[1, 0, 0], [0, np.cos(1), -np.sin(1)], [0, np.sin(1), np.cos(1)]])
-    seam['transform'] = (about_x @ np.array(seam['transform']) @ about_x.T).tolist()
-
-
-def cover_twice(ply, report):
-    """Doubles the longitude of a lune onto half the sphere: it covers all of it, every triangle positively oriented."""
-    x = ply.positions
-    axis = x[report['cones'][0]['copies'][0]]
-    right = normalized(np.cross(axis, [0.3, 0.5, 0.7]))
-    front = np.cross(right, axis)
-    height = x @ axis
-    radius = np.sqrt(np.maximum(0, 1 - height**2))
-    longitude = 2 * np.arctan2(x @ right, x @ front)
-    x = height[:, None] * axis + radius[:, None] * (np.cos(longitude)[:, None] * front + np.sin(longitude)[:, None] * right)
-    ply.positions = normalized(x)
-    for seam in report['seams']:
-        seam['transform'] = (np.array(seam['transform']) @ np.array(seam['transform'])).tolist()
-
-
-def cover_twice_and_claim_it(ply, report):
-    """The same, and the report claims the area that is there."""
-    cover_twice(ply, report)
-    certificate = report['certificate']
-    certificate['signed_area'] = certificate['expected_area'] = 4 * np.pi
-    report['orbifold']['group_order'] = 1
-
-
-def run_test(suite, name, test):
-    """(name, seconds, what failed or None, commands)"""
-    commands, start, problem = [], time.monotonic(), None
-    with tempfile.TemporaryDirectory(prefix='orbitutte-') as folder:
-        folder = pathlib.Path(folder)
-        try:
-            test(commands, folder)
-        except Failure as failure:
-            problem = str(failure)
-        except Exception as error:  # a file that is missing or malformed is a failure of this test only
-            problem = f'{type(error).__name__}: {error}'
-        commands = [command.replace(str(folder) + '/', 'out/') for command in commands]
-    return name, time.monotonic() - start, problem, commands
-
-
 def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     extent = parser.add_mutually_exclusive_group()
@@ -756,21 +573,14 @@ def parse_arguments():
     return options
 
 
-def finish(options, passed, failed, skipped):
-    if options.summary:
-        pathlib.Path(options.summary).write_text(f'{passed} {failed} {skipped}\n')
-    print(f'{passed} passed, {failed} failed, {skipped} skipped')
-    return 1 if failed else 0
-
-
 def main():
     options = parse_arguments()
     if not (pathlib.Path(options.shared) / 'meshes' / 'cones.tsv').is_file():
         print(f'acceptance: skipped, for there are no meshes in {options.shared} (option --shared)')
-        return finish(options, 0, 0, 1)
+        return finish(options.summary, 0, 0, 1)
     if not os.access(options.program, os.X_OK):
         print(f'acceptance: {options.program} is not there; build first')
-        return finish(options, 0, 1, 0)
+        return finish(options.summary, 0, 1, 0)
 
     suite = Suite(options)
     chosen = {name: test for name, test in suite.tests(options.quick).items() if options.filter in name}
@@ -779,24 +589,18 @@ def main():
         return 0
     if not chosen:
         print(f"acceptance: no test has '{options.filter}' in its name")
-        return finish(options, 0, 1, 0)
-    failed, start, done = [], time.monotonic(), 0
-    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        for future in concurrent.futures.as_completed([pool.submit(run_test, suite, *item) for item in chosen.items()]):
-            name, seconds, problem, commands = future.result()
-            done += 1
-            if sys.stderr.isatty():
-                print(f'\r\033[K{done}/{len(chosen)} {name}', end='\r', file=sys.stderr, flush=True)
-            if problem:
-                failed.append(name)
-                print(f'FAILED {name} ({seconds:.1f} s): {problem}\n  to repeat: ' + ' && '.join(commands), flush=True)
-    if sys.stderr.isatty():
-        print('\r\033[K', end='', file=sys.stderr)
+        return finish(options.summary, 0, 1, 0)
+    failed, start = 0, time.monotonic()
+    for outcome in run_tests(chosen, options.jobs):
+        if outcome.failure:
+            failed += 1
+            print(f'FAILED {outcome.name} ({outcome.seconds:.1f} s): {outcome.failure}\n  to repeat: ' +
+                  ' && '.join(outcome.commands), flush=True)
     if options.json:
         rows = sorted(suite.rows, key=lambda row: row['test'])
         pathlib.Path(options.json).write_text(''.join(json.dumps(row) + '\n' for row in rows))
     print(f'acceptance: {len(chosen)} tests in {time.monotonic() - start:.0f} s')
-    return finish(options, len(chosen) - len(failed), len(failed), 0)
+    return finish(options.summary, len(chosen) - failed, failed, 0)
 
 
 if __name__ == '__main__':
