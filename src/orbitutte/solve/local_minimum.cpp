@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <unordered_map>
 
 #include "orbitutte/geometry/space.h"
 
@@ -12,13 +11,15 @@ namespace orbitutte {
 namespace {
 
 constexpr int most_steps = 40;
-constexpr double small_part = 1e-6;  // of the shortest edge, below which a move does not matter
+constexpr int patience = 4;  // steps without gain
+// Changes of an edge relative to its length: where no further step is needed, and where rounding may end it.
+constexpr double converged = 1e-9, settled = 1e-3;
 
 }  // namespace
 
 // The directions tangent to the space in which a vertex may move, orthonormal.
-LocalMinimum::Basis LocalMinimum::basis_at(const Gluing& gluing, const Vector3& p, int vertex) const {
-  const Room& room = gluing.boundary.basis(vertex);
+LocalMinimum::Basis LocalMinimum::basis_at(const Vector3& p, int vertex) const {
+  const Room& room = gluing_.boundary.basis(vertex);
   Basis basis(3, 0);
   for (Eigen::Index k = 0; k < room.cols() && basis.cols() < 2; ++k) {
     Vector3 direction = space_.tangent(p, room.col(k));
@@ -34,11 +35,13 @@ LocalMinimum::Basis LocalMinimum::basis_at(const Gluing& gluing, const Vector3& 
 
 LocalMinimum::LocalMinimum(const Gluing& gluing, const MovablePositions& positions,
                            std::vector<Neighbourhood> neighbourhoods)
-    : space_(gluing.boundary.space), neighbourhoods_(std::move(neighbourhoods)), first_({0}) {
-  std::unordered_map<int, int> place;
+    : gluing_(gluing),
+      space_(gluing.boundary.space),
+      neighbourhoods_(std::move(neighbourhoods)),
+      first_({0}) {
   for (const Neighbourhood& at : neighbourhoods_) {
-    place[at.vertex] = static_cast<int>(bases_.size());
-    bases_.push_back(basis_at(gluing, positions.rounded(at.vertex), at.vertex));
+    place_[at.vertex] = static_cast<int>(bases_.size());
+    bases_.push_back(basis_at(positions.rounded(at.vertex), at.vertex));
     first_.push_back(first_.back() + static_cast<int>(bases_.back().cols()));
   }
   std::vector<Eigen::Triplet<double>> entries;
@@ -46,8 +49,8 @@ LocalMinimum::LocalMinimum(const Gluing& gluing, const MovablePositions& positio
     double sum = 0;
     for (const Neighbour& neighbour : neighbourhoods_[k].neighbours) {
       sum += neighbour.weight;
-      const auto other = place.find(neighbour.vertex);
-      if (other == place.end()) continue;
+      const auto other = place_.find(neighbour.vertex);
+      if (other == place_.end()) continue;
       const Basis& there = bases_[other->second];
       for (Eigen::Index j = 0; j < there.cols(); ++j) {
         const Vector3 seen = gluing.elements[neighbour.element] * Vector3(there.col(j));
@@ -66,39 +69,53 @@ LocalMinimum::LocalMinimum(const Gluing& gluing, const MovablePositions& positio
 double LocalMinimum::step(MovablePositions& positions) const {
   const std::size_t count = neighbourhoods_.size();
   Eigen::VectorXd force(first_.back());
-  std::vector<double> shortest(count, std::numeric_limits<double>::infinity());
   visit_curvature(space_, [&]<int k>(Curvature<k>) {
     for (std::size_t n = 0; n < count; ++n) {
       Vector3 pull = Vector3::Zero();
       for (const Neighbour& at : neighbourhoods_[n].neighbours) {
         const Vector3 difference = positions.difference(neighbourhoods_[n].vertex, at.vertex, at.element);
-        const double chord = space_.norm(difference);
-        shortest[n] = std::min(shortest[n], chord);
-        pull += at.weight * Curvature<k>::over_sn(chord * chord) * difference;
+        pull += at.weight * Curvature<k>::over_sn(space_.dot(difference, difference)) * difference;
       }
       for (Eigen::Index i = 0; i < bases_[n].cols(); ++i)
         force[first_[n] + i] = space_.dot(bases_[n].col(i), pull);
     }
   });
   const Eigen::VectorXd move = factor_.solve(force);
-  double longest = 0;
-  for (std::size_t n = 0; n < count; ++n) {
-    if (bases_[n].cols() == 0) continue;
-    const Vector3 step = bases_[n] * move.segment(first_[n], bases_[n].cols());
-    if (shortest[n] > 0) longest = std::max(longest, step.norm() / shortest[n]);
-    positions.move(neighbourhoods_[n].vertex, step);
+  std::vector<Vector3> steps(count, Vector3::Zero());
+  for (std::size_t n = 0; n < count; ++n)
+    if (bases_[n].cols() > 0) steps[n] = bases_[n] * move.segment(first_[n], bases_[n].cols());
+  const double change = largest_change(positions, steps);
+  for (std::size_t n = 0; n < count; ++n)
+    if (bases_[n].cols() > 0) positions.move(neighbourhoods_[n].vertex, steps[n]);
+  return change;
+}
+
+double LocalMinimum::largest_change(const MovablePositions& positions,
+                                    const std::vector<Vector3>& steps) const {
+  double largest = 0;
+  for (std::size_t n = 0; n < neighbourhoods_.size(); ++n) {
+    for (const Neighbour& at : neighbourhoods_[n].neighbours) {
+      const auto other = place_.find(at.vertex);
+      Vector3 change = -steps[n];
+      if (other != place_.end()) change += gluing_.elements[at.element] * steps[other->second];
+      const double length = positions.difference(neighbourhoods_[n].vertex, at.vertex, at.element).norm();
+      if (length > 0) largest = std::max(largest, change.norm() / length);
+    }
   }
-  return longest;
+  return largest;
 }
 
 bool LocalMinimum::settle(MovablePositions& positions) const {
   if (factor_.info() != Eigen::Success) return false;
-  for (int k = 0; k < most_steps; ++k) {
-    const double longest = step(positions);
-    if (!std::isfinite(longest)) return false;
-    if (longest < small_part) return true;
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0, without_gain = 0; k < most_steps && without_gain < patience; ++k) {
+    const double change = step(positions);
+    if (!std::isfinite(change)) return false;
+    if (change < converged) return true;
+    without_gain = change < 0.5 * least ? 0 : without_gain + 1;
+    least = std::min(least, change);
   }
-  return false;
+  return least < settled;
 }
 
 }  // namespace orbitutte

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/SparseCholesky>
+#include <unordered_map>
 #include <vector>
 
 #include "orbitutte/solve/movable_positions.h"
@@ -24,21 +25,24 @@ class LocalMinimum {
   LocalMinimum(const Gluing& gluing, const MovablePositions& positions,
                std::vector<Neighbourhood> neighbourhoods);
 
-  /// One Newton step. Returns the longest move of a vertex, relative to its shortest edge before.
+  /// One Newton step. Returns the largest change of an edge, relative to its length before.
   double step(MovablePositions& positions) const;
 
-  /// Steps until no vertex moves by more than a small part of its shortest edge. Did that come about?
+  /// Steps until edges change by small parts of their lengths only. Did that come about?
   bool settle(MovablePositions& positions) const;
 
  private:
   using Basis = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, 2>;
 
-  Basis basis_at(const Gluing& gluing, const Vector3& p, int vertex) const;
+  Basis basis_at(const Vector3& p, int vertex) const;
+  double largest_change(const MovablePositions& positions, const std::vector<Vector3>& steps) const;
 
+  Gluing gluing_;
   Space space_;
   std::vector<Neighbourhood> neighbourhoods_;
-  std::vector<Basis> bases_;  // of the tangent plane and the room of each vertex
-  std::vector<int> first_;    // the first unknown of each vertex, and the number of all
+  std::unordered_map<int, int> place_;  // of a vertex among them
+  std::vector<Basis> bases_;            // of the tangent plane and the room of each vertex
+  std::vector<int> first_;              // the first unknown of each vertex, and the number of all
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
 };
 
