@@ -311,7 +311,7 @@ class Embedding:
         ArgumentError
             Names the point whose triangle or copy does not exist, or whose coordinates are none.
         """
-        self._warn_of_offsets()
+        self._warn_of_offsets(stacklevel=4)
         single = np.ndim(triangle) == 0
         triangles, points = _arrays.indices(_rows(triangle, 1), "triangle", "point"), _arrays.positions(_rows(barycentric, 2), "barycentric", "point")
         copies = np.empty(0, dtype=np.int32) if copy is None else _arrays.indices(_rows(copy, 1), "copy", "point")
@@ -461,10 +461,10 @@ class Embedding:
                 texts[name] = value if isinstance(value, str) else _direction(value, name)
         _orbitutte.render(self._core, _arrays.path(path), _options.text(title, "title"), texts)
 
-    def _warn_of_offsets(self) -> None:
-        """For what uses the doubles alone; called by what the user calls."""
+    def _warn_of_offsets(self, stacklevel: int = 3) -> None:
+        """For methods that use the doubles alone; `stacklevel` is that of their caller, farther by one through a decorator."""
         for sentence in self._core.offset_warnings:
-            warnings.warn(sentence, EmbeddingWarning, stacklevel=3)
+            warnings.warn(sentence, EmbeddingWarning, stacklevel=stacklevel)
 
     # What Python itself needs
 
