@@ -208,13 +208,13 @@ TEST(MeshColours, MalformedOnesArePassedOverNamingLineOrVertex) {
   const ColourWarning warnings[] = {
       {"v 0 0 0 1 0 0\nv 0 0 0 1 0\n", MeshFormat::obj, "line 2: vertex 1 lacks a colour channel"},
       {"v 0 0 0 1 red 0\n", MeshFormat::obj,
-       "line 1: vertex 0 has the colour channel 'red', which is no number"},
+       "line 1: vertex 0 has the colour channel 'red', which is not a number"},
       {"v 0 0 0 1 0 -0.5\n", MeshFormat::obj, "vertex 0 has the colour channel -0.5" + range},
       {"v 0 0 0 1 nan 0\n", MeshFormat::obj, "vertex 0 has the colour channel nan" + range},
       {"v 0 0 0 1 0 256\n", MeshFormat::obj, "vertex 0 has the colour channel 256" + range},
       {"COFF 1 0 0\n0 0 0 0.5\n", MeshFormat::off, "line 2: vertex 0 lacks a colour channel"},
       {"COFF 1 0 0\n0 0 0 x 0 0 1\n", MeshFormat::off,
-       "line 2: vertex 0 has the colour channel 'x', which is no number"},
+       "line 2: vertex 0 has the colour channel 'x', which is not a number"},
       {ply_of(channels_of("int"), "0 0 0 1 0 0\n0 0 0 1 1 -1\n"), MeshFormat::ply,
        "vertex 1 has the colour channel -1" + range},
       {ply_of(channels_of("float"), "0 0 0 1 0 0\n0 0 0 1 inf 0\n"), MeshFormat::ply,
@@ -232,7 +232,7 @@ TEST(MeshColours, MalformedOnesArePassedOverNamingLineOrVertex) {
     EXPECT_GT(mesh.vertex_count(), 0) << sentence;
     EXPECT_EQ(mesh.colours.rows(), 0) << sentence;
     EXPECT_THAT(mesh.warnings,
-                testing::ElementsAre(sentence + ": the colours of the vertices are passed over"));
+                testing::ElementsAre(sentence + ": the colours of the vertices are ignored"));
   }
 }
 

@@ -458,25 +458,25 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"CoordinateMissing", "v 0 0 0\n\nv 0 0\n",
                 "line 3: the line ends where vertex 1 needs another coordinate" + mend},
         Refusal{"CoordinateNoNumber", "v 0 0 0\nv 0 1,5 0\n",
-                "line 2: vertex 1 has the coordinate '1,5', which is no number" + mend},
+                "line 2: vertex 1 has the coordinate '1,5', which is not a number" + mend},
         Refusal{"CoordinateWithRest", "v 0 1.5x 0\n",
-                "line 1: vertex 0 has the coordinate '1.5x', which is no number" + mend},
+                "line 1: vertex 0 has the coordinate '1.5x', which is not a number" + mend},
         Refusal{"CoordinateHexadecimal", "v 0 0x10 0\n",
-                "line 1: vertex 0 has the coordinate '0x10', which is no number" + mend},
+                "line 1: vertex 0 has the coordinate '0x10', which is not a number" + mend},
         Refusal{"CoordinateTooLarge", "v 0 0 -1e400\n",
                 "line 1: vertex 0 has the coordinate '-1e400', which is out of range" + mend},
         Refusal{"CoordinateWithTwoSigns", "v 0 +-1 0\n",
-                "line 1: vertex 0 has the coordinate '+-1', which is no number" + mend},
+                "line 1: vertex 0 has the coordinate '+-1', which is not a number" + mend},
         Refusal{"IndexZero", obj_points + "f 1 2 3\nf 0 1 2\n",
                 "line 6: face 1 has the index 0, but OBJ counts from 1" + mend},
         Refusal{"IndexBeforeTheFirst", obj_points + "f -1 -4 -5\n",
-                "line 5: face 0 has the index -5, but only 4 vertices stand before it" + mend},
+                "line 5: face 0 has the index -5, but only 4 vertices come before it" + mend},
         Refusal{"IndexNoInteger", obj_points + "f 1 2 x\n",
-                "line 5: face 0 has the index 'x', which is no integer" + mend},
+                "line 5: face 0 has the index 'x', which is not an integer" + mend},
         Refusal{"IndexAsFloat", obj_points + "f 1 2 3.0\n",
-                "line 5: face 0 has the index '3.0', which is no integer" + mend},
+                "line 5: face 0 has the index '3.0', which is not an integer" + mend},
         Refusal{"IndexMissing", obj_points + "f 1 2 /3\n",
-                "line 5: face 0 has the index '/3', which is no integer" + mend},
+                "line 5: face 0 has the index '/3', which is not an integer" + mend},
         Refusal{"IndexTooLarge", obj_points + "f 1 2 2147483649\n",
                 "line 5: face 0 has the index '2147483649', which is out of range" + mend},
         Refusal{"IndexFarTooLarge", obj_points + "f 1 2 99999999999999999999\n",
@@ -486,11 +486,11 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"CornerOfFourParts", obj_points + "f 1/2/3/4 2 3\n",
                 "line 5: face 0 has the corner '1/2/3/4', which is none of v, v/vt, v//vn, v/vt/vn" + mend},
         Refusal{"LineBehindContinuations", "v 0 \\\n 0 \\\r\n 0\nv 0 x 0\n",
-                "line 4: vertex 1 has the coordinate 'x', which is no number" + mend},
+                "line 4: vertex 1 has the coordinate 'x', which is not a number" + mend},
         Refusal{"BytesThatCannotBeShown", "v 0 \x01z\xFF\n",
-                "line 1: vertex 0 has the coordinate '?z?', which is no number" + mend},
+                "line 1: vertex 0 has the coordinate '?z?', which is not a number" + mend},
         Refusal{"EndlessWord", "v 0 " + std::string(1000, 'x') + "\n",
-                "line 1: vertex 0 has the coordinate '" + std::string(40, 'x') + "...', which is no number" +
+                "line 1: vertex 0 has the coordinate '" + std::string(40, 'x') + "...', which is not a number" +
                     mend}),
     test_name);
 
@@ -510,9 +510,9 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"Binary", std::string("OFF BINARY\n\0\0\0\4", 15),
                 "line 1: binary OFF is not supported, only ASCII" + mend},
         Refusal{"FourDimensions", "4OFF\n1 0 0\n0 0 0 1\n",
-                "line 1: '4OFF' announces points of another dimension than three" + mend},
+                "line 1: '4OFF' announces points of a dimension other than three" + mend},
         Refusal{"AnyDimension", "# two\nnOFF 2\n1 0 0\n0 0\n",
-                "line 2: 'nOFF' announces points of another dimension than three" + mend},
+                "line 2: 'nOFF' announces points of a dimension other than three" + mend},
         Refusal{"CountMissing", "OFF\n4\n", "line 2: the header lacks the number of faces" + mend},
         Refusal{"TwoCountsWithoutKeyword", "4 4\n" + off_points + off_faces,
                 "line 1: the header lacks the number of edges" + mend},
@@ -535,21 +535,21 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"CutShortInALine", "OFF\n4 4 6\n" + off_points + "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 ",
                 "line 10: the line ends where face 3 needs another index" + mend},
         Refusal{"TooManyLines", "OFF\n4 3 0\n" + off_points + off_faces,
-                "line 10: '3' follows behind the 4 vertices and 3 faces that the header promises" + mend},
+                "line 10: '3' follows after the 4 vertices and 3 faces that the header promises" + mend},
         Refusal{"CoordinateMissing", "OFF\n4 4 0\n0 0\n" + off_points + off_faces,
                 "line 3: the line ends where vertex 0 needs another coordinate" + mend},
         Refusal{"CoordinateNoNumber", "OFF\n4 4 0\n0 0 O\n" + off_points + off_faces,
-                "line 3: vertex 0 has the coordinate 'O', which is no number" + mend},
+                "line 3: vertex 0 has the coordinate 'O', which is not a number" + mend},
         Refusal{"CoordinateTooLarge", "OFF\n4 4 0\n0 0 1e400\n" + off_points + off_faces,
                 "line 3: vertex 0 has the coordinate '1e400', which is out of range" + mend},
         Refusal{"DegreeNoInteger", "OFF\n4 1 0\n" + off_points + "3.0 0 1 2\n",
-                "line 7: face 0 has the number of corners '3.0', which is no integer" + mend},
+                "line 7: face 0 has the number of corners '3.0', which is not an integer" + mend},
         Refusal{"DegreeNegative", "OFF\n4 1 0\n" + off_points + "-3 0 1 2\n",
                 "line 7: face 0 has -3 corners" + mend},
         Refusal{"DegreeTooLarge", "OFF\n4 1 0\n" + off_points + "2147483647 0 1 2\n",
                 "line 7: the line ends where face 0 needs another index" + mend},
         Refusal{"IndexNoInteger", "OFF\n4 1 0\n" + off_points + "3 0 x 2\n",
-                "line 7: face 0 has the index 'x', which is no integer" + mend},
+                "line 7: face 0 has the index 'x', which is not an integer" + mend},
         Refusal{"IndexTooLarge", "OFF\n4 1 0\n" + off_points + "3 0 1 2147483648\n",
                 "line 7: face 0 has the index '2147483648', which is out of range" + mend}),
     test_name);
@@ -591,7 +591,7 @@ TEST(Stl, BytesBehindTheLastFacetArePassedOverWithAWarning) {
     const PolygonMesh mesh = parse_mesh(whole + std::string(behind, '\n'), MeshFormat::stl);
     EXPECT_EQ(mesh.face_count(), 4);
     EXPECT_THAT(mesh.warnings,
-                testing::ElementsAre(testing::HasSubstr("passed over behind the 4 triangles")));
+                testing::ElementsAre(testing::HasSubstr("ignored after the 4 triangles")));
   }
 }
 
@@ -637,12 +637,12 @@ INSTANTIATE_TEST_SUITE_P(
             "IndexNoInteger",
             ply_header("ascii", four_points + "element face 1\nproperty list uchar float vertex_indices\n") +
                 off_points + "3 0 1.5 2\n",
-            "face 0 has the index 1.5, which is no integer; export the file again"},
+            "face 0 has the index 1.5, which is not an integer; export the file again"},
         Refusal{
             "IndexNoNumber",
             ply_header("ascii", four_points + "element face 1\nproperty list uchar float vertex_indices\n") +
                 off_points + "3 0 nan 2\n",
-            "face 0 has the index nan, which is no integer; export the file again"},
+            "face 0 has the index nan, which is not an integer; export the file again"},
         Refusal{
             "IndexTooLarge",
             ply_header("ascii", four_points + "element face 2\nproperty list uchar uint vertex_indices\n") +
@@ -699,7 +699,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"Misspelt", "solid\nfecet normal 0 0 1\n",
                 "line 2: 'fecet' stands where 'facet' or 'endsolid' belongs" + mend},
         Refusal{"CoordinateNoNumber", "solid\n" + facet(o, "1 zero 0", y) + "endsolid\n",
-                "line 5: facet 0 has the coordinate 'zero', which is no number" + mend},
+                "line 5: facet 0 has the coordinate 'zero', which is not a number" + mend},
         Refusal{"CoordinateTooLarge", "solid\n" + facet(o, "1 1e400 0", y) + "endsolid\n",
                 "line 5: facet 0 has the coordinate '1e400', which is out of range" + mend},
         Refusal{"TextBehind", "solid\nendsolid\nhello\n",

@@ -195,32 +195,32 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"OneWord", "ply",
                 "line 1: the file does not begin with a line 'ply'; check that it is a PLY file"},
         Refusal{"NoEnd", "ply\nformat ascii 1.0\nelement vertex 1\n",
-                "the header has no line 'end_header', so that it is cut short; export the file again"},
+                "the header has no line 'end_header', so it is cut short; export the file again"},
         Refusal{"NoFormat", "ply\nend_header\n", "line 3: the header has no line 'format'" + mend},
         Refusal{"UnknownFormat", header("binary_middle_endian", ""),
                 "line 2: the format 'binary_middle_endian' is none of ascii, binary_little_endian and "
                 "binary_big_endian" +
                     mend},
         Refusal{"UnknownKeyword", header("ascii", "elements vertex 1\n"),
-                "line 3: 'elements' is no keyword of a PLY header" + mend},
+                "line 3: 'elements' is not a keyword of PLY headers" + mend},
         Refusal{"UnknownType", header("ascii", "element vertex 1\nproperty real x\n"),
-                "line 4: 'real' is no type of a PLY property" + mend},
+                "line 4: 'real' is not a type of PLY properties" + mend},
         Refusal{"ElementWithoutName", header("ascii", "element\n"), "line 3: the element has no name" + mend},
         Refusal{"ElementWithoutCount", header("ascii", "element vertex\n"),
                 "line 3: the element 'vertex' has no count" + mend},
         Refusal{"CountNoNumber", header("ascii", "element vertex many\n"),
-                "line 3: the element 'vertex' has the count 'many', which is none" + mend},
+                "line 3: the element 'vertex' has the count 'many', which is not a count" + mend},
         Refusal{"CountNegative", header("ascii", "element vertex -1\n"),
-                "line 3: the element 'vertex' has the count '-1', which is none" + mend},
+                "line 3: the element 'vertex' has the count '-1', which is not a count" + mend},
         Refusal{"CountTooLarge", header("ascii", "element vertex 18446744073709551616\n"),
-                "line 3: the element 'vertex' has the count '18446744073709551616', which is none" + mend},
+                "line 3: the element 'vertex' has the count '18446744073709551616', which is not a count" + mend},
         Refusal{"PropertyWithoutElement", header("ascii", "property float x\n"),
                 "line 3: a property stands before the first element" + mend},
         Refusal{"PropertyWithoutName", header("ascii", "element vertex 1\nproperty float\n"),
                 "line 4: the property has no name" + mend},
         Refusal{"ListLengthAsFloat",
                 header("ascii", "element face 1\nproperty list float int vertex_indices\n"),
-                "line 4: the length of a list has a type that is no integer" + mend}),
+                "line 4: the length of a list has a type that is not an integer" + mend}),
     [](const auto& test) { return test.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(
@@ -245,11 +245,11 @@ INSTANTIATE_TEST_SUITE_P(
     AsciiData, PlyRefusal,
     testing::Values(
         Refusal{"NoNumber", header("ascii", point) + "0 zero\n",
-                "line 7: vertex 0 has the y 'zero', which is no number" + mend},
+                "line 7: vertex 0 has the y 'zero', which is not a number" + mend},
         Refusal{"Overflow", header("ascii", point) + "0 1e400\n",
                 "line 7: vertex 0 has the y '1e400', which is out of range" + mend},
         Refusal{"NoInteger", header("ascii", triangle) + "3 0 1.5 2\n",
-                "line 6: face 0 has the vertex_indices '1.5', which is no integer" + mend},
+                "line 6: face 0 has the vertex_indices '1.5', which is not an integer" + mend},
         Refusal{"OutOfItsType", header("ascii", "element a 2\nproperty uchar red\n") + "255\n256\n",
                 "line 7: a 1 has the red '256', which is out of range" + mend},
         Refusal{"NegativeList",
@@ -258,13 +258,13 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"CutShortWithinAnElement", header("ascii", triangle) + "3 0 1\n",
                 "line 7: the text ends within face 0" + mend},
         Refusal{"UnprintableNames", header("ascii", "element a\xB8 1\nproperty int \x01\n") + "x\n",
-                "line 6: a? 0 has the ? 'x', which is no integer" + mend},
+                "line 6: a? 0 has the ? 'x', which is not an integer" + mend},
         Refusal{"CutShortBeforeAnElement", header("ascii", point) + "  \n\n\n",
                 "line 10: the text ends before vertex 0" + mend},
         Refusal{"TooManyValues", header("ascii", point) + "0 0 0\n",
-                "line 7: '0' follows behind the last property of vertex 0" + mend},
+                "line 7: '0' follows after the last property of vertex 0" + mend},
         Refusal{"TooManyElements", header("ascii", point) + "0 0\n0 0\n",
-                "line 8: '0' follows behind the last element that the header promises" + mend}),
+                "line 8: '0' follows after the last element that the header promises" + mend}),
     [](const auto& test) { return test.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(
@@ -282,7 +282,7 @@ INSTANTIATE_TEST_SUITE_P(
             "byte 98: face 0 has a list 'vertex_indices' of length -1; export the file again"},
         Refusal{"TooManyBytes",
                 header("binary_big_endian", "element a 1\nproperty int x\n") + std::string(7, '\0'),
-                "byte 75: 3 bytes follow behind the last element that the header promises; export the file "
+                "byte 75: 3 bytes follow after the last element that the header promises; export the file "
                 "again"}),
     [](const auto& test) { return test.param.name; });
 
@@ -414,14 +414,14 @@ TEST(PlyWriting, ColumnsHaveToBeAsLongAsTheirElement) {
 
 TEST(PlyWriting, ValuesHaveToFitTheirType) {
   EXPECT_EQ(failed_write(one_property(1, {"x", PlyType::uint8, false, PlyType::uint8, {256}, {}})),
-            "property 'x' has the value 256, which is no uchar");
+            "property 'x' has the value 256, which is not of type uchar");
   EXPECT_EQ(failed_write(one_property(1, {"x", PlyType::int32, false, PlyType::uint8, {0.5}, {}})),
-            "property 'x' has the value 0.5, which is no int");
+            "property 'x' has the value 0.5, which is not of type int");
   EXPECT_EQ(failed_write(one_property(1, {"x", PlyType::int32, false, PlyType::uint8, {std::nan("")}, {}})),
-            "property 'x' has the value nan, which is no int");
+            "property 'x' has the value nan, which is not of type int");
   const std::vector<double> long_list(256, 0.0);
   EXPECT_EQ(failed_write(one_property(1, {"x", PlyType::int32, true, PlyType::uint8, long_list, {0, 256}})),
-            "property 'x' has the value 256, which is no uchar");
+            "property 'x' has the value 256, which is not of type uchar");
 }
 
 TEST(PlyWriting, ACommentStaysInItsLine) {

@@ -49,7 +49,7 @@ TEST(WeakPlaces, ThreeConnectedMeshesHaveNone) {
 TEST(WeakPlaces, InnerVertexOfTwoEdgesIsNamed) {
   const PolygonMesh once = test::with_edge_divided(test::cube(), 0, 1);
   expect_only(find_weak_places(once), WeakPlaceKind::degree_two, 1,
-              "vertex 8 has no edges but to the vertices");
+              "vertex 8 has edges only to the vertices");
   const PolygonMesh twice = test::with_edge_divided(once, 0, 8);
   expect_only(find_weak_places(twice), WeakPlaceKind::degree_two, 2, "(2 such places)");
 }

@@ -29,7 +29,7 @@ Embedding                               positions, faces, source_vertex, seams, 
     save(ply, json), load(ply, json[, mesh]), write_tiling(path), render(path, panel=..., size=...)
 
 Exceptions: Error, of which MeshError and ArgumentError are ValueErrors and FileError is an OSError; Cancelled. Results that
-are not converged or not certified come with an EmbeddingWarning, files of which something was passed over with a MeshWarning.
+are not converged or not certified come with an EmbeddingWarning, and files of which something was ignored with a MeshWarning.
 """
 try:
     from . import _orbitutte

@@ -142,16 +142,16 @@ def verify(embedding: Embedding, V: npt.ArrayLike | None = None, F: Any = None, 
     ----------
     embedding : Embedding
     V, F : optional
-        The mesh; without, the one that the embedding knows.
+        The mesh; if not given, the one that the embedding knows.
     weights_file : path, optional
-        Weights that were given as a file when the embedding was computed: with them its energy is checked, too.
+        The weights of the embedding, if they came from a file. With them its energy is checked, too.
     theorem2 : bool
         Also check the conditions of the paper's theorem 2, which takes long.
 
     Returns
     -------
     dict
-        ``bijective``, ``checks`` and, where asked for, ``theorem2``: as ``orbitutte verify --json`` has it.
+        ``bijective``, ``checks`` and, if asked for, ``theorem2``, as in ``orbitutte verify --json``.
     """
     mesh = _mesh_or_none(V, F)
     file = b"" if weights_file is None else _arrays.path(weights_file)
@@ -187,7 +187,7 @@ def tile(embedding: Embedding) -> Tiling:
     Raises
     ------
     ArgumentError
-        If the copies do not close up into a sphere; those of a polygon do not.
+        If the copies do not close up into a sphere. Those of a polygon never do.
     """
     _embedding(embedding)._warn_of_offsets()
     V, triangles, corners, start, copy = embedding._core.tile()
@@ -212,14 +212,14 @@ def sample_mesh(shape: str = "figure", faces: int = 20000) -> tuple[npt.NDArray[
 
 
 def build() -> dict[str, str]:
-    """What this module is built of: ``version``, ``commit``, ``backend`` and ``blas`` of its linear algebra."""
+    """The parts that this module is built from: ``version``, ``commit``, ``backend`` and ``blas`` of its linear algebra."""
     return _orbitutte.build()
 
 
 def keep_freed_memory() -> None:
     """Make this process keep memory that is freed, until its end, instead of giving it back to the operating system.
 
-    Many embeddings of large meshes get up to a third faster, as the command line does it; where malloc is not glibc's, nothing changes.
+    This makes many embeddings of large meshes up to a third faster; the command line does it, too. Nothing changes if malloc is not glibc's.
     """
     _orbitutte.keep_freed_memory()
 
@@ -231,12 +231,12 @@ def read_mesh(path: str | os.PathLike) -> tuple[npt.NDArray[np.float64], _arrays
     -------
     V : (n, 3) float64
     F : (m, 3) int32
-        (m, k) where all faces have k corners; a list of tuples where their numbers differ.
+        (m, k) if all faces have k corners; a list of tuples if their numbers differ.
 
     Raises
     ------
     FileError, MeshError, ArgumentError
-        If it cannot be read, makes no sense, or has an unknown ending.
+        If the file cannot be read, makes no sense, or has an unknown ending.
 
     Warns
     -----
@@ -250,14 +250,14 @@ def read_mesh(path: str | os.PathLike) -> tuple[npt.NDArray[np.float64], _arrays
 
 
 def write_mesh(path: str | os.PathLike, V: npt.ArrayLike, F: Any) -> None:
-    """Write OBJ, OFF, PLY or, of triangles, STL, whichever the ending of the path names; the file appears whole or not at all."""
+    """Write OBJ, OFF, PLY or (triangles only) STL, as the ending of the path says. The file appears whole or not at all."""
     mesh = _arrays.mesh(_arrays.finite_positions(V), F)
     _arrays.require_vertices(mesh)
     mesh.write(_arrays.path(path))
 
 
 def _told(embedding: Embedding) -> Embedding:
-    """Warns of what the caller should know of a result."""
+    """Warns about what the caller should know of a result."""
     for sentence in embedding.warnings:
         warnings.warn(sentence, EmbeddingWarning, stacklevel=3)
     if not embedding.converged:

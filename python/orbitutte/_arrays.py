@@ -14,14 +14,14 @@ from . import _orbitutte
 from .errors import ArgumentError, MeshError
 
 Positions = npt.NDArray[np.float64]
-#: m x k where all faces have k corners; otherwise one sequence of vertices a face.
+#: m x k if all faces have k corners; otherwise one sequence of vertices for each face.
 Faces = Union[npt.NDArray[np.int32], list[tuple[int, ...]]]
 
 _LARGEST = np.iinfo(np.int32).max
 
 
 def positions(V: npt.ArrayLike, name: str = "V", row: str = "vertex") -> Positions:
-    """n x 3, float64. Copies only what is not so already."""
+    """n x 3, float64. Copies only if the array is different."""
     array = _as_array(V, name, row)
     if array.size == 0 and array.ndim <= 2:
         return np.empty((0, 3))
@@ -70,7 +70,7 @@ def mesh(V: npt.ArrayLike, F: Any) -> _orbitutte.Mesh:
 
 
 def require_vertices(mesh: _orbitutte.Mesh) -> None:
-    """Raises MeshError naming the first face with a vertex that is not there."""
+    """Raises MeshError naming the first face with a vertex that does not exist."""
     corners, start = mesh.faces
     n, flat = len(mesh.positions), corners.reshape(-1)
     bad = (flat < 0) | (flat >= n)
@@ -81,7 +81,7 @@ def require_vertices(mesh: _orbitutte.Mesh) -> None:
 
 
 def faces(corners: npt.NDArray[np.int32], start: npt.NDArray[np.int32] | None) -> Faces:
-    """Faces as users see them: an array where all have as many corners, otherwise a list of tuples."""
+    """Faces as users see them: an array if all have the same number of corners, otherwise a list of tuples."""
     if start is None:
         return corners
     degrees = np.diff(start)
@@ -106,7 +106,7 @@ def path(value: str | bytes | os.PathLike) -> bytes:
 
 def _as_array(values: Any, name: str, row: str) -> np.ndarray:
     if isinstance(values, np.ma.MaskedArray):
-        raise TypeError(f"{name} is a masked array; fill or leave out what is masked")
+        raise TypeError(f"{name} is a masked array; fill the masked entries or leave them out")
     try:
         array = np.asarray(values)
     except ValueError as error:  # ragged lists
@@ -154,7 +154,7 @@ def _is_ragged(F: Any) -> bool:
     try:
         return len({len(face) for face in F}) > 1
     except TypeError:
-        return False  # said better by what takes it as an array
+        return False  # taking it as an array gives a better message
 
 
 def _polygons(F: Sequence[Any]) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.int32]]:

@@ -71,8 +71,8 @@ class Location(NamedTuple):
 class Embedding:
     """A map of a mesh onto an orbifold of the sphere or the plane, with its certificate.
 
-    Made by `orbitutte.embed`, `Solver.embed` and `Embedding.load`. Nothing of it can be changed; arrays are views
-    that keep it alive, and are read-only. Indices are 0-based, angles in radians. The *cut mesh* is the mesh after cutting: its faces
+    Made by `orbitutte.embed`, `Solver.embed` and `Embedding.load`. It cannot be changed; its arrays are read-only views
+    that keep it alive. Indices are 0-based, angles in radians. The *cut mesh* is the mesh after cutting: its faces
     are the input faces in the input order, its vertices the n input vertices, followed by the copies that the cut adds.
 
     Attributes
@@ -93,9 +93,9 @@ class Embedding:
     is_free_to_rotate : bool
         Does the orbifold (NN, N* or Nx) fix the map only up to a rotation about its axis? See `rotation_to`.
     faces : (m, 3) int32
-        The input faces on cut vertices. Faces of k corners are (m, k); where their number differs, a list of tuples.
+        The input faces on cut vertices. Faces of k corners are (m, k); if their numbers differ, a list of tuples.
     triangles : (t, 3) int32
-        The same, where polygons are divided into triangles; otherwise `faces`.
+        The same, with polygons divided into triangles.
     source_vertex : (n_cut,) int32
         The input vertex of every cut vertex.
     seams : list of Seam
@@ -109,9 +109,9 @@ class Embedding:
     energy : float
         The Dirichlet energy: the sum over undirected edges of w d^2, d the length of the edge's arc.
     converged : bool
-        What the optimiser says.
+        Did the optimiser reach its tolerance?
     bijective : bool
-        What the certificate says. Only converged maps are ever called bijective.
+        Is the map certified? Only converged maps are ever called bijective.
     certificate : dict
         As in the report.
     distortion : dict
@@ -119,7 +119,7 @@ class Embedding:
     history : (k,) structured array
         Fields ``energy``, ``gradient_norm`` and ``step``, for the start and every iteration.
     warnings : list of str
-        Sentences about what deserves a look.
+        Sentences about what deserves attention.
     weights : EdgeWeights
         ``i``, ``j``, ``w``, and ``to_sparse()``.
     area_distortion : (t,) float64
@@ -270,14 +270,14 @@ class Embedding:
 
     @property
     def warnings(self) -> list[str]:
-        """Sentences about what deserves a look."""
+        """Sentences about what deserves attention."""
         return list(self._report.get("warnings", []))
 
     # The mesh that was embedded
 
     @property
     def mesh(self) -> tuple[npt.NDArray[np.float64], _arrays.Faces] | None:
-        """(V, F) as they were embedded; None where the embedding was loaded without them."""
+        """(V, F) as they were embedded; None if the embedding was loaded without them."""
         known = self._core.mesh
         return None if known is None else (known.positions, _arrays.faces(*known.faces))
 
@@ -296,8 +296,8 @@ class Embedding:
         triangle : (k,) array_like of int, or int
             Rows of `triangles`; -1 gives NaN.
         barycentric : (k, 3) array_like, or (3,)
-            Coordinates on the corners of those rows, with the sum 1. The corners are the input's, in its order, but on projective
-            planes, some of whose faces are turned over (first, third, second): their input vertices are ``source_vertex[triangles[triangle]]``.
+            Coordinates on the corners of those rows, with the sum 1. The corners are the input's, in its order. Projective planes
+            are the exception: some of their faces are turned over (first, third, second), and the input vertices are ``source_vertex[triangles[triangle]]``.
         copy : (k,) array_like of int, or int, optional
             The copies of the tile, indices into `group`; if they are not given, the embedding itself.
 
@@ -311,7 +311,7 @@ class Embedding:
         ArgumentError
             Names the point whose triangle or copy does not exist, or whose coordinates are none.
         """
-        self._warn_of_offsets()
+        self._warn_of_offsets(stacklevel=4)
         single = np.ndim(triangle) == 0
         triangles, points = _arrays.indices(_rows(triangle, 1), "triangle", "point"), _arrays.positions(_rows(barycentric, 2), "barycentric", "point")
         copies = np.empty(0, dtype=np.int32) if copy is None else _arrays.indices(_rows(copy, 1), "copy", "point")
@@ -336,14 +336,14 @@ class Embedding:
         Returns
         -------
         Location
-            ``triangle``, ``barycentric`` and ``copy``; ``map_points(*location)`` is the direction again. Where the embedding is certified,
-            every direction is found, and in the plane every point of the copies in `group`. -1 and NaN where nothing is: outside of a
-            polygon, where no face of an embedding that is not bijective lies, and for vectors that are zero or not finite. Of several
-            copies or faces the first is taken.
+            ``triangle``, ``barycentric`` and ``copy``; ``map_points(*location)`` is the direction again. If the embedding is
+            certified, every direction is found; in the plane, every point of the copies in `group`. -1 and NaN if nothing is there:
+            outside of a polygon, in gaps of an embedding that is not bijective, and for vectors that are zero or not finite. Of several
+            copies or triangles the first is taken.
 
         Notes
         -----
-        The first call makes a search tree of the faces, which the embedding keeps.
+        The first call makes a search tree of the triangles, which the embedding keeps.
         """
         self._warn_of_offsets()
         single = np.ndim(points) == 1 and np.size(points) > 0
@@ -403,7 +403,7 @@ class Embedding:
         Raises
         ------
         FileError
-            Where a file cannot be written; it appears whole or not at all.
+            If a file cannot be written. Files appear whole or not at all.
         """
         self._core.save(_arrays.path(ply), b"" if json is None else _arrays.path(json))
 
@@ -420,7 +420,7 @@ class Embedding:
         Raises
         ------
         FileError, MeshError
-            Where a file cannot be read, or is not what it should be.
+            If a file cannot be read, or is not what it should be.
         """
         return Embedding._of(_orbitutte.load(_arrays.path(ply), _arrays.path(json), _known_mesh(mesh)))
 
@@ -450,7 +450,7 @@ class Embedding:
         Raises
         ------
         ArgumentError
-            For options out of range, where the mesh is not known, or where the module was built without pictures.
+            If an option is out of range, if the mesh is not known, or if the module was built without pictures.
         """
         self._warn_of_offsets()
         texts = {"panel": _options.text(panel, "panel")}
@@ -461,12 +461,12 @@ class Embedding:
                 texts[name] = value if isinstance(value, str) else _direction(value, name)
         _orbitutte.render(self._core, _arrays.path(path), _options.text(title, "title"), texts)
 
-    def _warn_of_offsets(self) -> None:
-        """For what uses the doubles alone; called by what the user calls."""
+    def _warn_of_offsets(self, stacklevel: int = 3) -> None:
+        """For methods that use the doubles alone; `stacklevel` is that of their caller, farther by one through a decorator."""
         for sentence in self._core.offset_warnings:
-            warnings.warn(sentence, EmbeddingWarning, stacklevel=3)
+            warnings.warn(sentence, EmbeddingWarning, stacklevel=stacklevel)
 
-    # What Python asks
+    # What Python itself needs
 
     def __repr__(self) -> str:
         mesh, order = self._report["mesh"], self._report["orbifold"]["group_order"]

@@ -18,7 +18,7 @@ NAMES = ("weights", "weights_file", "clamp", "cut_seed", "spread", "tolerance", 
 
 
 def options(**given: Any) -> _orbitutte.Options:
-    """The options of the compiled module. Raises TypeError for a name that there is not."""
+    """The options of the compiled module. Raises TypeError for an unknown name."""
     for name in given:
         if name not in NAMES:
             raise TypeError(f"there is no option '{name}'; there are {', '.join(NAMES)}, progress, polygon and geometry")
@@ -41,7 +41,7 @@ def options(**given: Any) -> _orbitutte.Options:
 
 
 def target(signature: str, cones: Any, polygon: Any = None, geometry: str | None = None) -> _orbitutte.Target:
-    """What is embedded into, by its symbol, or the polygon by its corners."""
+    """The target: an orbifold by its symbol, or a polygon by its corners."""
     signature = text(signature, "signature")
     if geometry is not None:
         warnings.warn("geometry is deprecated: the signature decides the space", DeprecationWarning, stacklevel=3)
@@ -157,7 +157,7 @@ def _polygon(polygon: Any, cones: Any) -> _orbitutte.Target:
 
 
 def _polygon_of(vertices: list[int], points: np.ndarray) -> _orbitutte.Target:
-    """Corners off the sphere by 1e-3 at the most, as rounded decimals are, are put there."""
+    """Corners that are off the sphere by at most 1e-3, as rounded decimals are, are moved onto it."""
     points = _arrays.finite_positions(points, "polygon", "corner")
     lengths = np.linalg.norm(points, axis=1)
     off = np.abs(lengths - 1) > 1e-3

@@ -11,7 +11,7 @@ class MeshError(Error, ValueError):
 
 
 class ArgumentError(Error, ValueError):
-    """An argument has no meaning: a signature that is no spherical orbifold, an option out of its range."""
+    """An argument has no meaning: a signature that names no orbifold, an option out of its range."""
 
 
 class FileError(Error, OSError):
@@ -27,7 +27,7 @@ class EmbeddingWarning(UserWarning):
 
 
 class MeshWarning(UserWarning):
-    """Something in the file of a mesh that may matter was passed over."""
+    """Something in the file of a mesh was ignored although it may matter."""
 
 
 for _class in (Error, MeshError, ArgumentError, FileError, Cancelled, EmbeddingWarning, MeshWarning):

@@ -77,7 +77,7 @@ def test_what_a_reader_passes_over_is_a_warning(tmp_path, figure):
     path = tmp_path / "figure.stl"
     orbitutte.write_mesh(path, *figure)
     path.write_bytes(path.read_bytes() + b"\n")
-    with pytest.warns(orbitutte.MeshWarning, match="1 byte is passed over"):
+    with pytest.warns(orbitutte.MeshWarning, match="1 byte is ignored"):
         V, F = orbitutte.read_mesh(path)
     assert len(F) == len(figure[1])
 

@@ -60,7 +60,7 @@ Places vertices_with_two_edges(const PolygonTopology& surface, const std::vector
   }
   for (int v = 0; v < static_cast<int>(corners.size()); ++v) {
     if (corners[v] != 2 || on_boundary[v]) continue;
-    places.add("vertex {} has no edges but to the vertices {} and {}", v,
+    places.add("vertex {} has edges only to the vertices {} and {}", v,
                surface.origin[surface.previous(corner[v])], surface.target(corner[v]));
   }
   return places;
@@ -118,8 +118,7 @@ bool is_projective_plane(const PolygonTopology& surface) {
 Places double_contact_places(const PolygonTopology& surface, int vertex_count) {
   Places places(WeakPlaceKind::double_contact);
   for (const auto& [f, g, v, w] : double_contacts(surface, vertex_count))
-    places.add("faces {} and {} share the vertices {} and {}, which no edge joins that both have", f, g, v,
-               w);
+    places.add("faces {} and {} share the vertices {} and {}, but no edge of both joins these", f, g, v, w);
   return places;
 }
 

@@ -62,7 +62,7 @@ int vertex_of_index(const TextScanner& in, const TextItem& face, long long index
   if (index == 0) in.refuse(fmt::format("face {} has the index 0, but OBJ counts from 1", face.number));
   const long long vertex = index > 0 ? index - 1 : static_cast<long long>(vertices) + index;
   if (vertex >= 0) return static_cast<int>(vertex);
-  in.refuse(fmt::format("face {} has the index {}, but only {} vertices stand before it", face.number, index,
+  in.refuse(fmt::format("face {} has the index {}, but only {} vertices come before it", face.number, index,
                         vertices));
 }
 

@@ -84,7 +84,7 @@ Header read_header(TextScanner& in) {
   in.find_word();
   std::string_view word = in.word();
   if (names_other_dimension(word)) {
-    in.refuse(fmt::format("{} announces points of another dimension than three", in_quotes(word)));
+    in.refuse(fmt::format("{} announces points of a dimension other than three", in_quotes(word)));
   }
   const std::optional<Keyword> keyword = parse_keyword(word);
   if (keyword) word = keyword->count;
@@ -168,7 +168,7 @@ PolygonMesh read_items(TextScanner in, const Header& header, Layout layout) {
   read_vertices(in, header, layout, mesh);
   read_faces(in, header.faces, layout, mesh);
   if (in.find_word()) {
-    in.refuse(fmt::format("{} follows behind the {} vertices and {} faces that the header promises",
+    in.refuse(fmt::format("{} follows after the {} vertices and {} faces that the header promises",
                           in_quotes(in.word()), header.vertices, header.faces));
   }
   return mesh;

@@ -45,13 +45,13 @@ class AsciiValues {
 
   void end(const TextItem& item) {
     if (!in_.find_word_in_line()) return;
-    in_.refuse(fmt::format("{} follows behind the last property of {}", in_quotes(in_.word()), shown(item)));
+    in_.refuse(fmt::format("{} follows after the last property of {}", in_quotes(in_.word()), shown(item)));
   }
 
   void end_of_file() {
     if (!in_.find_word()) return;
     in_.refuse(
-        fmt::format("{} follows behind the last element that the header promises", in_quotes(in_.word())));
+        fmt::format("{} follows after the last element that the header promises", in_quotes(in_.word())));
   }
 
   [[noreturn]] void refuse(std::string_view problem) const { in_.refuse(problem); }
@@ -89,7 +89,7 @@ class BinaryValues {
   void end_of_file() {
     if (bytes_.find_first_not_of(" \t\r\n", at_) == bytes_.npos) return;
     refuse(
-        fmt::format("{} bytes follow behind the last element that the header promises", bytes_.size() - at_));
+        fmt::format("{} bytes follow after the last element that the header promises", bytes_.size() - at_));
   }
 
   [[noreturn]] void refuse(std::string_view problem) const {
@@ -179,7 +179,7 @@ void append(std::string& bytes, PlyType type, double value, const PlyProperty& p
   visit_type(type, [&](auto number) {
     using T = decltype(number);
     if (!holds<T>(value)) {
-      throw ArgumentError(fmt::format("property '{}' has the value {}, which is no {}", property.name, value,
+      throw ArgumentError(fmt::format("property '{}' has the value {}, which is not of type {}", property.name, value,
                                       ply_type_name(type)));
     }
     append_little_endian(bytes, static_cast<T>(value));

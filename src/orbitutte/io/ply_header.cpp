@@ -42,14 +42,14 @@ std::size_t size_of_header(std::string_view bytes) {
     if (trimmed(bytes.substr(begin, end - begin)) == "end_header") return std::min(end + 1, bytes.size());
     begin = end + 1;
   }
-  throw MeshError("the header has no line 'end_header', so that it is cut short; export the file again");
+  throw MeshError("the header has no line 'end_header', so it is cut short; export the file again");
 }
 
 PlyType to_type(const TextScanner& in, std::string_view word) {
   for (const TypeRow& row : types) {
     if (word == row.name || word == row.other_name) return row.type;
   }
-  in.refuse(fmt::format("{} is no type of a PLY property", in_quotes(word)));
+  in.refuse(fmt::format("{} is not a type of PLY properties", in_quotes(word)));
 }
 
 std::string read_name(TextScanner& in, std::string_view owner) {
@@ -78,7 +78,7 @@ PlyElement read_element(TextScanner& in) {
   const std::string_view count = in.word();
   if (count.empty()) in.refuse(fmt::format("the element {} has no count", in_quotes(element.name)));
   if (parse_number(count, element.count) != NumberError::none) {
-    in.refuse(fmt::format("the element {} has the count {}, which is none", in_quotes(element.name),
+    in.refuse(fmt::format("the element {} has the count {}, which is not a count", in_quotes(element.name),
                           in_quotes(count)));
   }
   return element;
@@ -90,7 +90,7 @@ PlyProperty read_property(TextScanner& in) {
   property.is_list = type == "list";
   if (property.is_list) {
     property.count_type = to_type(in, in.word());
-    if (!is_integer(property.count_type)) in.refuse("the length of a list has a type that is no integer");
+    if (!is_integer(property.count_type)) in.refuse("the length of a list has a type that is not an integer");
     type = in.word();
   }
   property.type = to_type(in, type);
@@ -111,7 +111,7 @@ void read_line(TextScanner& in, std::string_view keyword, PlyHeader& header) {
     if (file.elements.empty()) in.refuse("a property stands before the first element");
     file.elements.back().properties.push_back(read_property(in));
   } else if (keyword != "ply" && keyword != "obj_info" && keyword != "end_header") {
-    in.refuse(fmt::format("{} is no keyword of a PLY header", in_quotes(keyword)));
+    in.refuse(fmt::format("{} is not a keyword of PLY headers", in_quotes(keyword)));
   }
   in.rest_of_line();
 }

@@ -58,7 +58,7 @@ int to_index(double value, const PlyElement& element, std::size_t item) {
   const bool is_integer = value == std::trunc(value);
   if (is_integer && value >= lowest && value <= highest) return static_cast<int>(value);
   throw MeshError(fmt::format("{} {} has the index {}, which {}; export the file again", element.name, item,
-                              value, is_integer ? "is out of range" : "is no integer"));
+                              value, is_integer ? "is out of range" : "is not an integer"));
 }
 
 void append_faces(const PlyElement& element, PolygonMesh& mesh) {

@@ -259,7 +259,7 @@ PolygonMesh read_binary(std::string_view bytes) {
     facets.add(load_corners(left));
   PolygonMesh mesh = std::move(facets).mesh();
   if (const std::size_t behind = bytes_behind(bytes); behind > 0)
-    mesh.warnings.push_back(fmt::format("{} {} passed over behind the {} triangles that the header promises",
+    mesh.warnings.push_back(fmt::format("{} {} ignored after the {} triangles that the header promises",
                                         behind, behind == 1 ? "byte is" : "bytes are",
                                         promised_facets(bytes)));
   return mesh;

@@ -16,7 +16,7 @@ double TextColours::channel(const TextScanner& in, const TextItem& vertex, std::
   double value = 0;
   if (parse_number(word, value) == NumberError::none || !problem_.empty()) return value;
   problem_ = word.empty() ? fmt::format("line {}: {} lacks a colour channel", in.line(), shown(vertex))
-                          : fmt::format("line {}: {} has the colour channel {}, which is no number",
+                          : fmt::format("line {}: {} has the colour channel {}, which is not a number",
                                         in.line(), shown(vertex), in_quotes(word));
   return value;
 }

@@ -120,8 +120,8 @@ void TextScanner::refuse_number(NumberError error, bool is_integer, std::string_
     refuse(fmt::format("the line ends where {} needs another {}", shown(item), shown(what)));
   }
   const std::string_view why = error == NumberError::out_of_range ? "is out of range"
-                               : is_integer                       ? "is no integer"
-                                                                  : "is no number";
+                               : is_integer                       ? "is not an integer"
+                                                                  : "is not a number";
   refuse(fmt::format("{} has the {} {}, which {}", shown(item), shown(what), in_quotes(text), why));
 }
 

@@ -37,7 +37,7 @@ VertexColours out_of_range(const Points& channels, Eigen::Index channel) {
 }  // namespace
 
 VertexColours no_colours(const std::string& reason) {
-  return {Points(0, 3), reason + ": the colours of the vertices are passed over"};
+  return {Points(0, 3), reason + ": the colours of the vertices are ignored"};
 }
 
 VertexColours colours_of_bytes(const Points& channels) {
@@ -53,7 +53,7 @@ VertexColours colours_of_numbers(const Points& channels) {
   if (largest <= 1) return {channels, {}};
   if (largest <= 1 + rounding) {
     const Eigen::Index above = first_channel(channels, [](double c) { return c > 1; });
-    return {channels.cwiseMin(1.0), shown_channel(channels, above) + ": what is above 1 is taken for 1"};
+    return {channels.cwiseMin(1.0), shown_channel(channels, above) + ": values above 1 count as 1"};
   }
   const Eigen::Index fraction = first_channel(channels, [](double c) { return c != std::trunc(c); });
   if (fraction == channels.size()) return {channels / full_byte, {}};

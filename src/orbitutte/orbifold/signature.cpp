@@ -129,7 +129,7 @@ Halves split(const std::string& text) {
     const char c = text[k];
     const bool multiplication_sign = text.compare(k, 2, "\xc3\x97") == 0;
     if ((c >= '0' && c <= '9') || c == ',') {
-      if (halves.cross) refuse(text, "has orders after the cross; rotations stand before it");
+      if (halves.cross) refuse(text, "has orders after the cross; rotations come before it");
       (halves.star ? halves.after : halves.before) += c;
     } else if (c == '*' && !halves.star && !halves.cross) {
       halves.star = true;
@@ -137,7 +137,7 @@ Halves split(const std::string& text) {
       halves.cross = true;
       if (multiplication_sign) ++k;
     } else if (c == '*' || c == 'x' || c == 'X' || multiplication_sign) {
-      refuse(text, "has more than one star or cross, which is no spherical orbifold");
+      refuse(text, "has more than one star or cross, which no orbifold of the sphere or the plane has");
     } else {
       refuse(text,
              "is no Conway symbol: it may hold digits, commas, one '*' and one 'x'; see 'orbitutte types'");

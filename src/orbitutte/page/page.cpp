@@ -290,7 +290,7 @@ Json parse(const std::string& report) {
   try {
     return Json::parse(report);
   } catch (const nlohmann::json::exception&) {
-    throw MeshError("the report is no JSON");
+    throw MeshError("the report is not JSON");
   }
 }
 

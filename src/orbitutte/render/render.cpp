@@ -160,7 +160,7 @@ std::string render_png(const RenderSubject& subject, const RenderOptions& option
 
 std::string render_svg(const RenderSubject& subject, const RenderOptions& options) {
   if (!is_plot(options.panel))
-    throw ArgumentError(fmt::format("the panel '{}' is no plot, and SVG holds plots only: write a .png",
+    throw ArgumentError(fmt::format("the panel '{}' is not a plot, and SVG files hold plots only; write a .png",
                                     name_of(options.panel)));
   return picture(PictureFormat::svg, subject, options);
 }
