@@ -78,7 +78,7 @@ struct ReportArguments {
 int report_command(const ReportArguments& arguments);
 
 struct CompareArguments {
-  std::string mesh, cones = "auto", weights = name_of(WeightKind::standard), output;
+  std::string mesh, cones = "auto", weights = name_of(WeightKind::standard), output, view, up;
   std::vector<std::string> orbifolds;
   bool json = false;
 };

@@ -11,6 +11,7 @@
 #include "orbitutte/embed.h"
 #include "orbitutte/io/mesh_io.h"
 #include "orbitutte/report/comparison.h"
+#include "page_pictures.h"
 
 namespace orbitutte::cli {
 namespace {
@@ -57,6 +58,7 @@ ComparedMap compared_map(const Surface& surface, const Compared& compared) {
 
 int compare_command(const CompareArguments& arguments) {
   const Surface surface = make_surface(read_mesh(arguments.mesh));
+  const Viewpoint viewpoint = parse_viewpoint(arguments.view, arguments.up, surface);
   EmbedOptions options;
   options.weights.kind = parse_choice<WeightKind>(arguments.weights, "--weights");
 
@@ -81,7 +83,8 @@ int compare_command(const CompareArguments& arguments) {
                "median", "max", "angle", "max", "certified");
     for (const Compared& compared : maps) print_row(compared);
   }
-  if (!arguments.output.empty()) write_comparison(arguments.output, {surface, cones, std::move(pictures)});
+  if (!arguments.output.empty())
+    write_comparison(arguments.output, {surface, cones, std::move(pictures), viewpoint.view, viewpoint.up});
   const bool certified = std::all_of(maps.begin(), maps.end(), [](const Compared& compared) {
     return compared.result.certificate.bijective;
   });

@@ -234,6 +234,16 @@ void add_export(CLI::App& app, int& code) {
   command.runs(export_command, code);
 }
 
+// From where pictures show the mesh.
+template <typename Arguments>
+void view_of_mesh(Command<Arguments>& command) {
+  command.option("--view", command->view,
+                 "Where the viewer is: front, back, left, right, top, bottom or 'x,y,z'; the program chooses "
+                 "if this is not given");
+  command.option("--up", command->up,
+                 "The direction that points up: x, y, z, -x, -y, -z or 'x,y,z'; y or z if this is not given");
+}
+
 void add_render(CLI::App& app, int& code) {
   Command<RenderArguments> command(app, "render", "Draw pictures of an embedding: PNG, and SVG for plots");
   read_embedding_and_mesh_of(command);
@@ -245,11 +255,7 @@ void add_render(CLI::App& app, int& code) {
       .option("--panel", command->panel,
               "source, sphere, area, angle, checkerboard, histogram, convergence, or sheet: all of them")
       ->capture_default_str();
-  command.option("--view", command->view,
-                 "Where the viewer is: front, back, left, right, top, bottom or 'x,y,z'; the program chooses "
-                 "if this is not given");
-  command.option("--up", command->up,
-                 "The direction that points up: x, y, z, -x, -y, -z or 'x,y,z'; y or z if this is not given");
+  view_of_mesh(command);
   command.option("--size", command->size, "Width and height in pixels, such as 1600x1200, or 900 for both");
   command.runs(render_command, code);
 }
@@ -281,6 +287,7 @@ void add_compare(CLI::App& app, int& code) {
   command.option("--weights", command->weights, "As of embed")->capture_default_str();
   command.output("-o,--output", command->output, {"-o", "the picture", "", {".png", ".svg"}},
                  "Draw all here: .png (mesh and histogram) or .svg (histogram)");
+  view_of_mesh(command);
   command.flag("--json", command->json, "Print JSON");
   command.runs(compare_command, code);
 }

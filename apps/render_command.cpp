@@ -18,11 +18,18 @@ RenderOptions options_from(const RenderArguments& arguments) {
   RenderOptions options;
   options.panel = parse_choice<Panel>(arguments.panel, "--panel");
   if (!arguments.size.empty()) parse_picture_size(arguments.size, options);
-  if (!arguments.up.empty()) options.up = parse_up_direction(arguments.up);
   return options;
 }
 
 }  // namespace
+
+Viewpoint parse_viewpoint(const std::string& view, const std::string& up, const Surface& surface) {
+  Viewpoint viewpoint;
+  if (!up.empty()) viewpoint.up = parse_up_direction(up);
+  if (!view.empty())
+    viewpoint.view = parse_view_direction(view, viewpoint.up ? *viewpoint.up : default_up_direction(surface));
+  return viewpoint;
+}
 
 int render_command(const RenderArguments& arguments) {
   RenderOptions options = options_from(arguments);
@@ -30,9 +37,9 @@ int render_command(const RenderArguments& arguments) {
   Embedding embedding = read_embedding(arguments.embedding, report);
   warn(warnings_of_offsets(embedding));
   const Surface surface = read_source(arguments.mesh, embedding);
-  if (!arguments.view.empty())
-    options.view =
-        parse_view_direction(arguments.view, options.up ? *options.up : default_up_direction(surface));
+  const Viewpoint viewpoint = parse_viewpoint(arguments.view, arguments.up, surface);
+  options.view = viewpoint.view;
+  options.up = viewpoint.up;
   const std::string title = std::filesystem::path(arguments.mesh).filename().string();
   write_picture(arguments.output, {surface, embedding, report, title}, options);
   return drawn;

@@ -6,8 +6,18 @@
 
 namespace orbitutte::cli {
 
-int render_command(const RenderArguments&) {
-  throw ArgumentError("this binary was built without pictures; build it with -D ORBITUTTE_RENDER=ON");
+namespace {
+
+constexpr const char* no_pictures =
+    "this binary was built without pictures; build it with -D ORBITUTTE_RENDER=ON";
+
+}  // namespace
+
+int render_command(const RenderArguments&) { throw ArgumentError(no_pictures); }
+
+Viewpoint parse_viewpoint(const std::string& view, const std::string& up, const Surface&) {
+  if (!view.empty() || !up.empty()) throw ArgumentError(no_pictures);
+  return {};
 }
 
 std::vector<PagePicture> page_pictures(const Surface&, const Embedding&, const Report&) { return {}; }

@@ -134,6 +134,26 @@ TEST(PointMap, CornersAndEdgesAlongSeamsAreLocatedInEveryFamily) {
   }
 }
 
+// Points on a mirror lie beside all copies by a rounding error, anywhere along the edges.
+TEST(PointMap, PointsAnywhereOnMirrorsAreLocated) {
+  for (const std::string signature : {"*432", "3*2", "2*3", "3*"}) {
+    const Embedding& embedding = sample_embedding(signature).embedding();
+    const Points positions = embedding.canonical_positions();
+    std::vector<Vector3> points;
+    for (const Seam& seam : embedding.seams) {
+      if (seam.kind() != SeamKind::reflection) continue;
+      for (std::size_t k = 1; k < seam.left.size(); ++k)
+        for (double t = 0.0625; t < 1; t += 0.0625)
+          points.push_back(embedding.space().retract((1 - t) * positions.row(seam.left[k - 1]).transpose() +
+                                                     t * positions.row(seam.left[k]).transpose()));
+    }
+    Points rows(static_cast<Eigen::Index>(points.size()), 3);
+    for (Eigen::Index k = 0; k < rows.rows(); ++k) rows.row(k) = points[k].transpose();
+    ASSERT_GT(rows.rows(), 100) << signature;
+    EXPECT_LE(largest_round_trip(embedding, PointLocator(embedding), rows), 1e-12) << signature;
+  }
+}
+
 TEST(PointMap, ConesAreLocatedAtOneOfTheirCopies) {
   for (const std::string& signature : sample_signatures()) {
     const Embedding& embedding = sample_embedding(signature).embedding();
@@ -409,6 +429,26 @@ TEST(BarycentricCoordinates, TheFanOfAPointIsItsTriangleDivided) {
       }
     }
   }
+}
+
+// In spaces that are not flat a long edge is not the straight line between its ends.
+TEST(BarycentricCoordinates, TheNearestPointOfTheEdgesIsTheFootOfThePerpendicular) {
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  for (const Space space : spaces)
+    for (const double length : {1.5, 0.1, 1e-3}) {
+      for (int k = 0; k < 50; ++k) {
+        const TriangleCorners corners = thin_triangle(space, random, length, 0.5 * length);
+        const double t = uniform(random);
+        const Vector3 on_edge = barycentric_point(space, corners, Vector3(1 - t, t, 0));
+        const Vector3 beside =
+            space.at(on_edge, space.normal(Space::line(corners[0], corners[1])), -1e-12 * length);
+        const Vector3 found = nearest_on_edges(space, corners, beside);
+        EXPECT_LE((barycentric_point(space, corners, found) - on_edge).norm(), 1e-14 * on_edge.squaredNorm())
+            << space.name() << " " << length;
+        EXPECT_NEAR(found[1], t, 1e-14 * on_edge.squaredNorm() / length) << space.name();
+      }
+    }
 }
 
 TEST(BarycentricCoordinates, TheBulgeBoundsHowFarTrianglesAreFromFlatOnes) {

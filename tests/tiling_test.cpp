@@ -22,7 +22,9 @@
 #include "orbitutte/export/closed_mesh.h"
 #include "orbitutte/export/palette.h"
 #include "orbitutte/export/tiling_files.h"
+#include "orbitutte/inspect/inspection.h"
 #include "orbitutte/io/file.h"
+#include "orbitutte/io/mesh_io.h"
 #include "orbitutte/io/ply.h"
 #include "orbitutte/mesh/triangulation.h"
 #include "polygon_meshes.h"
@@ -467,6 +469,33 @@ TEST_F(TilingFiles, StlHoldsEveryTriangleWithItsColour) {
     const int attribute = number_at<std::uint16_t>(bytes, record + 48);
     ASSERT_EQ(attribute, 0x8000 + (colour.red / 8) * 1024 + (colour.green / 8) * 32 + colour.blue / 8);
   }
+}
+
+// Moves one end of an edge to within a hair of the other: doubles hold it, STL does not.
+TEST_F(TilingFiles, StlLeavesOutTrianglesThatSinglePrecisionDoesNotHold) {
+  const int a = tiling_.mesh.F(0, 0), b = tiling_.mesh.F(0, 1);
+  tiling_.mesh.V.row(b) = (tiling_.mesh.V.row(a) + 1e-10 * tiling_.mesh.V.row(b)).normalized();
+  write_tiling(path("t.stl"), tiling_);
+  const PolygonMesh found = read_mesh(path("t.stl"));
+  EXPECT_EQ(found.face_count(), static_cast<int>(faces_) - 2);
+  EXPECT_EQ(found.V.rows(), static_cast<Eigen::Index>(vertices_) - 1);
+  EXPECT_THAT(found.warnings, testing::IsEmpty());
+  EXPECT_THAT(inspect(found).defects, testing::IsEmpty());
+}
+
+TEST_F(TilingFiles, StlThatIsNoSurfaceInSinglePrecisionIsRefused) {
+  const Vector3 a = tiling_.mesh.V.row(0);
+  int far = 0;
+  (tiling_.mesh.V * a).minCoeff(&far);
+  tiling_.mesh.V.row(far) = (a + 1e-10 * tiling_.mesh.V.row(far).transpose()).normalized().transpose();
+  try {
+    write_tiling(path("t.stl"), tiling_);
+    FAIL() << "two ends of the sphere are one vertex";
+  } catch (const MeshError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("1 vertices of the tiling fall on others"));
+  }
+  EXPECT_FALSE(std::filesystem::exists(path("t.stl")));
+  EXPECT_NO_THROW(write_tiling(path("t.ply"), tiling_));
 }
 
 TEST_F(TilingFiles, ObjReadsBackTheSame) {

@@ -69,12 +69,14 @@ Tiling weld_copies(const Embedding& embedding, int copies = default_plane_copies
 /// - OBJ: a group `tile_g` per copy g, a material per colour in an .mtl file beside it, which is written
 ///   first;
 /// - STL, binary: the colour in the attribute word: bit 15 set, then 5 bits each of red, green and blue;
+///   without the triangles whose corners fall together in single precision;
 /// - GLB: a material and a primitive per colour, all on the same vertices, in single precision.
 ///
 /// PLY and OBJ have polygons if the input has them; STL and GLB have triangles. Neighbouring copies differ
 /// in colour; mirrored copies are a shade darker. The file appears whole or not at all. Throws ArgumentError
 /// for another ending or a tiling too large for the format (GLB: 4 GiB); MeshError if the format has
-/// triangles only and the triangles of polygons are not a closed mesh; and FileError.
+/// triangles only and the triangles of polygons are not a closed mesh, or if readers of STL, which know
+/// vertices by their positions in single precision, find no surface; and FileError.
 void write_tiling(const std::string& path, const Tiling& tiling);
 
 }  // namespace orbitutte

@@ -13,8 +13,10 @@
 #include "orbitutte/export/closed_mesh.h"
 #include "orbitutte/export/file_ending.h"
 #include "orbitutte/export/gltf_model.h"
+#include "orbitutte/inspect/inspection.h"
 #include "orbitutte/io/bytes.h"
 #include "orbitutte/io/file.h"
+#include "orbitutte/io/mesh_formats.h"
 #include "orbitutte/io/ply_triangles.h"
 
 namespace orbitutte {
@@ -27,8 +29,32 @@ std::uint16_t stl_attribute(const Rgb& colour) {
                                     colour.blue >> 3);
 }
 
-void append_stl_vector(std::string& bytes, const Vector3& vector) {
-  for (int k = 0; k < 3; ++k) append_little_endian(bytes, static_cast<float>(vector[k]));
+void append_stl_vector(std::string& bytes, const Eigen::Vector3f& vector) {
+  for (const float x : vector) append_little_endian(bytes, x);
+}
+
+/// Triangles whose corners stay apart in single precision. The other two edges of one whose do not are the
+/// same.
+std::vector<Eigen::Index> triangles_in_single_precision(const Mesh& mesh) {
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index f = 0; f < mesh.F.rows(); ++f) {
+    const auto corner = [&](int k) -> Eigen::Vector3f {
+      return mesh.V.row(mesh.F(f, k)).cast<float>().transpose();
+    };
+    if (corner(0) != corner(1) && corner(1) != corner(2) && corner(2) != corner(0)) kept.push_back(f);
+  }
+  return kept;
+}
+
+/// Readers of STL weld corners by their positions: what they find must be a surface, too.
+void require_surface_when_read(const std::string& path, const std::string& stl, const Tiling& tiling) {
+  const PolygonMesh read = read_stl(stl);
+  const Eigen::Index lost = tiling.mesh.V.rows() - read.V.rows();
+  if (lost == 0 || inspect(read).defects.empty()) return;
+  throw MeshError(fmt::format(
+      "{}: STL has single precision, in which {} vertices of the tiling fall on others, so that it is no "
+      "surface; write .ply or .obj, which keep all digits",
+      path, lost));
 }
 
 int faces_in_copy(const Tiling& tiling) { return std::max(1, static_cast<int>(tiling.input_faces.size())); }
@@ -36,6 +62,13 @@ int faces_in_copy(const Tiling& tiling) { return std::max(1, static_cast<int>(ti
 /// If two polygons share two vertices that no edge joins, diagonals of both may coincide.
 void require_closed_triangles(const Tiling& tiling) {
   if (tiling.polygons.count() > 0) require_closed_sphere(tiling.mesh);
+}
+
+void write_stl_file(const std::string& path, const Tiling& tiling) {
+  require_closed_triangles(tiling);
+  const std::string bytes = stl_bytes(tiling);
+  require_surface_when_read(path, bytes, tiling);
+  write_file(path, bytes);
 }
 
 void write_obj_and_mtl(const std::filesystem::path& path, const Tiling& tiling) {
@@ -100,13 +133,14 @@ std::string ply_bytes(const Tiling& tiling) {
 std::string stl_bytes(const Tiling& tiling) {
   const Mesh& mesh = tiling.mesh;
   std::string bytes = fmt::format("binary STL: tiling of the sphere by {} copies", tiling.copy_count());
-  bytes.reserve(84 + 50 * static_cast<std::size_t>(mesh.F.rows()));
+  const std::vector<Eigen::Index> kept = triangles_in_single_precision(mesh);
+  bytes.reserve(84 + 50 * kept.size());
   bytes.resize(80, ' ');
-  append_little_endian(bytes, static_cast<std::uint32_t>(mesh.F.rows()));
-  for (Eigen::Index f = 0; f < mesh.F.rows(); ++f) {
+  append_little_endian(bytes, static_cast<std::uint32_t>(kept.size()));
+  for (const Eigen::Index f : kept) {
     const Vector3 a = mesh.V.row(mesh.F(f, 0)), b = mesh.V.row(mesh.F(f, 1)), c = mesh.V.row(mesh.F(f, 2));
-    append_stl_vector(bytes, (b - a).cross(c - a).normalized());
-    for (const Vector3* corner : {&a, &b, &c}) append_stl_vector(bytes, *corner);
+    append_stl_vector(bytes, (b - a).cross(c - a).stableNormalized().cast<float>());
+    for (const Vector3* corner : {&a, &b, &c}) append_stl_vector(bytes, corner->cast<float>());
     const TileCopy& copy = tiling.copies[tiling.copy[f]];
     append_little_endian(bytes, stl_attribute(tile_colour(copy.colour, copy.mirrored)));
   }
@@ -167,9 +201,10 @@ std::string glb_bytes(const Tiling& tiling) {
 void write_tiling(const std::string& path, const Tiling& tiling) {
   const std::string ending = lower_case_ending(path);
   if (ending == ".ply") return write_file(path, ply_bytes(tiling));
-  if (ending == ".stl" || ending == ".glb") {
+  if (ending == ".stl") return write_stl_file(path, tiling);
+  if (ending == ".glb") {
     require_closed_triangles(tiling);
-    return write_file(path, ending == ".stl" ? stl_bytes(tiling) : glb_bytes(tiling));
+    return write_file(path, glb_bytes(tiling));
   }
   if (ending == ".obj") return write_obj_and_mtl(path, tiling);
   throw ArgumentError(fmt::format("{}: a tiling is written as .ply, .obj, .stl or .glb", path));

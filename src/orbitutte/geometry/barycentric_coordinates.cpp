@@ -34,6 +34,15 @@ Vector3 clamped(const Vector3& coordinates) {
   return positive / positive.sum();
 }
 
+// Where the perpendicular from the point meets the geodesic from a to b, as the share of b: with the
+// geodesic's unit normal m, point = l_a a + l_b b + l_m m, so that l_a : l_b = det[point b m] : det[a point
+// m].
+double foot_along(Space space, const Vector3& a, const Vector3& b, const Vector3& point) {
+  const Vector3 line = a.cross(b - a), m = space.normal(line);
+  const double of_a = m.dot(point.cross(b - point)), of_b = m.dot(a.cross(point - a));
+  return of_a + of_b > 0 ? std::clamp(of_b / (of_a + of_b), 0.0, 1.0) : 0.0;
+}
+
 // What the coordinates are short of: those of the residual by Cramer's rule, which is exact enough as it is
 // small.
 Vector3 corrected(Space space, const TriangleCorners& corners, const Vector3& coordinates,
@@ -86,9 +95,7 @@ Vector3 nearest_on_edges(Space space, const TriangleCorners& corners, const Vect
   Vector3 nearest = Vector3::Zero();
   double least = std::numeric_limits<double>::infinity();
   for (int k = 0; k < 3; ++k) {
-    const Vector3 &from = corners[k], along = corners[(k + 1) % 3] - from;
-    const double squared = along.squaredNorm();
-    const double t = squared > 0 ? std::clamp((point - from).dot(along) / squared, 0.0, 1.0) : 0.0;
+    const double t = foot_along(space, corners[k], corners[(k + 1) % 3], point);
     Vector3 coordinates = Vector3::Zero();
     coordinates[k] = 1 - t;
     coordinates[(k + 1) % 3] = t;

@@ -56,6 +56,10 @@ std::string measure_text(double value, const char* unit = "") {
   return std::isfinite(value) ? fmt::format("{:.4g}{}", value, unit) : missing;
 }
 
+std::string percent_text(double share) {
+  return std::isfinite(share) ? fmt::format("{:.1f} %", 100 * share) : missing;
+}
+
 /// The report's figure for a name of the template such as `report.mesh.faces`; nothing for other names.
 std::optional<std::string> named_figure(const Json& report, std::string name) {
   if (!name.starts_with("report.")) return std::nullopt;
@@ -161,8 +165,11 @@ Content warnings(const Json& report, const Judgement& judgement) {
 
 Content key_figures(const Json& report, const Embedding& embedding) {
   const double conformal = 2 * target_area(embedding.target);
-  return {{"angle", measure_text(number_at(report, "/distortion/angle/mean"))},
+  return {{"angle_median", measure_text(number_at(report, "/distortion/angle/median"))},
+          {"angle", measure_text(number_at(report, "/distortion/angle/mean"))},
           {"area", measure_text(number_at(report, "/distortion/area/median"))},
+          {"within_4", percent_text(number_at(report, "/distortion/within_4"))},
+          {"below_64", percent_text(number_at(report, "/distortion/below_64"))},
           {"energy", measure_text(number_at(report, "/energy"))},
           {"energy_share", measure_text(number_at(report, "/energy") / conformal)},
           {"time", measure_text(number_at(report, "/timings/total"), " s")},

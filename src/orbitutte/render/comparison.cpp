@@ -21,16 +21,24 @@ constexpr double picture_em = 24, column = 900, title_row = 4.4 * picture_em, fi
 struct Common {
   std::vector<std::vector<double>> areas;  // log2 A, by map
   HistogramAxes axes;
-  ColourScale scale;
+  ColourScale area_scale, angle_scale;
 };
 
+ColourScale common_scale(Measure measure, const std::vector<std::vector<double>>& values) {
+  ColourScale scale = common_colour_scale(measure, values);
+  scale.axis.title += "    (the same colours for all maps)";
+  return scale;
+}
+
 Common common_of(const std::vector<ComparedMap>& maps) {
-  Common common;
-  for (const ComparedMap& map : maps) common.areas.push_back(values_of(Measure::area, map.faces));
-  common.axes = histogram_axes(common.areas);
-  common.scale = common_colour_scale(Measure::area, common.areas);
-  common.scale.axis.title += "    (the same colours for all maps)";
-  return common;
+  std::vector<std::vector<double>> areas, angles;
+  for (const ComparedMap& map : maps) {
+    areas.push_back(values_of(Measure::area, map.faces));
+    angles.push_back(values_of(Measure::angle, map.faces));
+  }
+  const HistogramAxes axes = histogram_axes(areas);
+  const ColourScale area_scale = common_scale(Measure::area, areas);
+  return {std::move(areas), axes, area_scale, common_scale(Measure::angle, angles)};
 }
 
 PictureFormat format_of(const std::string& path) {
@@ -55,14 +63,18 @@ void draw_title(Canvas& canvas, const Box& box, const ComparedMap& map) {
               {.size = 0.9, .colour = ink::quiet, .align = Align::centre});
 }
 
+View view_of(const Comparison& comparison, const SourceFigure& figure) {
+  const Vector3 up = comparison.up ? *comparison.up : default_up_direction(comparison.surface);
+  return comparison.view ? View{*comparison.view, up}
+                         : default_view(figure, polyline(figure.positions(), comparison.cones), up);
+}
+
 // The same view of the mesh for every map, and one scale.
 void draw_figures(Canvas& canvas, double top, const Comparison& comparison, const ColourScale& scale) {
   const SourceFigure figure(comparison.surface.V, comparison.surface.triangles);
-  const View view = default_view(figure, polyline(figure.positions(), comparison.cones),
-                                 default_up_direction(comparison.surface));
   const Box box = cell(0, top, figure_row).inset(2 * picture_em, 0, 2 * picture_em, 0);
-  const Camera camera =
-      fit_camera(view, figure.positions(), {static_cast<int>(box.width), static_cast<int>(box.height)}, 0.95);
+  const Camera camera = fit_camera(view_of(comparison, figure), figure.positions(),
+                                   {static_cast<int>(box.width), static_cast<int>(box.height)}, 0.95);
   Ornaments none;
   none.commit();
   for (std::size_t k = 0; k < comparison.maps.size(); ++k) {
@@ -78,12 +90,16 @@ void draw_figures(Canvas& canvas, double top, const Comparison& comparison, cons
 void write_comparison(const std::string& path, const Comparison& comparison) {
   const PictureFormat format = format_of(path);
   const Common common = common_of(comparison.maps);
-  const double plots_top = title_row + (format == PictureFormat::png ? figure_row + scale_row : 0);
+  constexpr double figures_row = figure_row + scale_row;  // with their scale
+  const double plots_top = title_row + (format == PictureFormat::png ? 2 * figures_row : 0);
   Canvas canvas(format,
                 {static_cast<int>(column * static_cast<double>(comparison.maps.size())),
                  static_cast<int>(plots_top + histogram_row)},
                 picture_em);
-  if (format == PictureFormat::png) draw_figures(canvas, title_row, comparison, common.scale);
+  if (format == PictureFormat::png) {
+    draw_figures(canvas, title_row, comparison, common.area_scale);
+    draw_figures(canvas, title_row + figures_row, comparison, common.angle_scale);
+  }
   for (std::size_t k = 0; k < comparison.maps.size(); ++k) {
     draw_title(canvas, cell(k, 0, title_row), comparison.maps[k]);
     draw_chart(canvas, cell(k, plots_top, histogram_row).inset(picture_em, 0, picture_em, picture_em),

@@ -2,6 +2,7 @@
 // Distortions of several maps of one mesh side by side (section 6.3, figure 12).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,11 +25,14 @@ struct Comparison {
   /// The marked vertices, which should be visible.
   std::vector<int> cones;
   std::vector<ComparedMap> maps;
+  std::optional<Vector3> view;  ///< towards the viewer; without: whichever shows most
+  std::optional<Vector3> up;    ///< what points up; without: y or z, whichever the mesh stands on
 };
 
-/// Draws the maps next to each other: the mesh in the colours of area distortion (.png only), and below it
-/// the histogram. All have the same colour scale, bins and axes. The same input gives the same bytes. The
-/// file appears whole or not at all. Throws ArgumentError for another ending than .png or .svg, FileError.
+/// Draws the maps next to each other: the mesh in the colours of area distortion and of angle distortion
+/// (.png only), and below it the histogram of areas. All have the same colour scales, bins and axes. The same
+/// input gives the same bytes. The file appears whole or not at all. Throws ArgumentError for another ending
+/// than .png or .svg, FileError.
 void write_comparison(const std::string& path, const Comparison& comparison);
 
 }  // namespace orbitutte
