@@ -848,7 +848,7 @@ TEST(Certificate, BoundsFollowTheRoundingOfShortEdges) {
   // An edge of 1e-10 leaves angles uncertain by 1e-6; a planted error of 1e-3 there is none of rounding.
   Embedding embedding = sample("*432").embedding();
   const Corner at = inner_corner(embedding);
-  const int v = embedding.faces(at.face, 0), u = embedding.faces(at.face, 1);
+  const int v = embedding.triangles(at.face, 0), u = embedding.triangles(at.face, 1);
   const Vector3 p = position(embedding, v), q = position(embedding, u);
   embedding.positions.row(v) = (q + 1e-10 * (p - q)).normalized().transpose();
   const Certificate certificate = certify(test::unjudged(sample("*432").mesh), embedding);
