@@ -42,7 +42,7 @@ std::vector<Example> examples() {
           {test::united(test::octahedron(), test::round_disk(2)), 3, false, true}};
 }
 
-Connectivity connectivity_of(const Mesh& mesh) { return connectivity_of(mesh.F, vertex_count(mesh)); }
+Connectivity connectivity_of(const Mesh& mesh) { return orbitutte::connectivity_of(mesh.F, vertex_count(mesh)); }
 
 int edge_count(const Connectivity& connectivity) { return static_cast<int>(connectivity.edges.size()); }
 
@@ -134,14 +134,14 @@ TEST(Connectivity, NeighborsAreBothEndsOfEveryEdge) {
 
 TEST(Connectivity, VerticesWithoutFacesHaveNoNeighbors) {
   const Mesh mesh = test::octahedron();
-  const Connectivity connectivity = connectivity_of(mesh.F, 9);
+  const Connectivity connectivity = orbitutte::connectivity_of(mesh.F, 9);
   const Neighbors around = vertex_neighbors(connectivity.edges, 9);
   EXPECT_EQ(edge_count(connectivity), 12);
   for (int v = 6; v < 9; ++v) EXPECT_EQ(around.start[v], around.start[v + 1]);
 }
 
 TEST(Connectivity, OfNoFacesIsEmpty) {
-  const Connectivity connectivity = connectivity_of(Triangles(0, 3), 0);
+  const Connectivity connectivity = orbitutte::connectivity_of(Triangles(0, 3), 0);
   EXPECT_TRUE(connectivity.edges.empty());
   EXPECT_TRUE(connectivity.edge_of.empty());
   EXPECT_TRUE(connectivity.opposite.empty());

@@ -240,8 +240,8 @@ TEST(Polygon, TrianglesWithTwoEdgesOnASideAreRoundedOutward) {
 }
 
 TEST(Polygon, ItsAreaIsThatOfTheTriangleOfOneOctant) {
-  EXPECT_NEAR(area(polygon_target({{0, {1, 0, 0}}, {1, {0, 1, 0}}, {2, {0, 0, 1}}})), pi / 2, 1e-15);
-  EXPECT_NEAR(area(parse_orbifold("532")), 4 * pi / 60, 1e-15);
+  EXPECT_NEAR(target_area(polygon_target({{0, {1, 0, 0}}, {1, {0, 1, 0}}, {2, {0, 0, 1}}})), pi / 2, 1e-15);
+  EXPECT_NEAR(target_area(parse_orbifold("532")), 4 * pi / 60, 1e-15);
 }
 
 TEST(Polygon, ItHasNoTiling) {

@@ -143,7 +143,7 @@ TEST(PreciseGroup, TilesMayLieTurnedWhereTheirTargetIsFree) {
     const Target target = parse_orbifold(signature);
     const PreciseGroup<Precise> group(target);
     const Isometry turn = Space::sphere().rotation(Space::origin(), 1.234);
-    const Tile tile = moved(basic_tile(target, first_arrangement(target)), turn);
+    const Tile tile = moved_tile(basic_tile(target, first_arrangement(target)), turn);
     for (const TileSide& side : tile.sides)
       EXPECT_LT(largest(group.element(side.transform).cast<double>() - side.transform.matrix()), 4e-15);
   }

@@ -9,7 +9,6 @@
 #include <numeric>
 
 #include "orbitutte/solve/ears.h"
-#include "orbitutte/solve/frame.h"
 #include "orbitutte/solve/laplacian_systems.h"
 #include "orbitutte/solve/lbfgs.h"
 #include "solve_cases.h"
@@ -220,20 +219,19 @@ TEST(LaplacianSolver, BoundariesThatAreLongBesideTheMeshAreSolvedAsWell) {
   EXPECT_EQ(result.minimum.termination, Termination::converged);
 }
 
-TEST(Frame, PlaceThatShrinksMostIsTakenToTheOrigin) {
+TEST(DirichletEnergy, TheSmallestSpotIsAtTheShortestEdge) {
   const auto c = solve_case("432");
   const DirichletEnergy energy(c->glued, c->weights, c->boundary);
   Points positions = feasible_positions(*c, 30);
-  EXPECT_FALSE(resolving_frame(energy, positions).has_value());
+  EXPECT_GT(energy.smallest_spot(positions).second, 1e-6);
   int v = 0;
   while (!is_free(*c, v) || c->glued.edges[v].t != 0 || !is_free(*c, c->glued.edges[v].j)) ++v;
   const auto [i, j, t] = c->glued.edges[v];
   positions.row(j) = positions.row(i);
   positions(j, 0) += 1e-9;
-  const std::optional<Isometry> frame = resolving_frame(energy, positions);
-  ASSERT_TRUE(frame.has_value());
-  EXPECT_LT((*frame * Vector3(positions.row(i)) - Space::origin()).norm(), 1e-8);
-  EXPECT_FALSE(frame->reverses_orientation());
+  const auto [vertex, length] = energy.smallest_spot(positions);
+  EXPECT_TRUE(vertex == i || vertex == j);
+  EXPECT_NEAR(length, 1e-9, 1e-15);
 }
 
 // A mesh of several blocks, embedded whole and in parts.

@@ -138,32 +138,35 @@ bool is_suspect(const EmbedResult& result) {
   return static_cast<int>(result.moved_vertices.size()) > result.minimum.positions.rows() / 20;
 }
 
-// Is the second map the better one?
+// Is the second map so much better that it is taken in place of the first?
 bool is_better(const EmbedResult& first, const EmbedResult& second) {
   if (first.certificate.bijective != second.certificate.bijective) return second.certificate.bijective;
-  return second.distortion.angle.mean < first.distortion.angle.mean;
+  return second.distortion.angle.mean - 1 < 0.5 * (first.distortion.angle.mean - 1);
 }
 
 // Where no weights were asked for and the standard ones give no bijection, or one for which many vertices had
-// to be moved, the first others that give one are compared with them, and the better map is taken.
+// to be moved: the first others that give one without that, unless the first map is about as good.
 EmbedResult embed_with_some_weights(const EmbedRequest& request, EmbeddingCache& cache) {
   const EmbedOptions& options = request.options;
   EmbedResult first = embed_once(request, cache);
   const bool were_asked_for = options.weights.kind != WeightKind::standard || !options.weights_file.empty();
   if (were_asked_for || (first.certificate.bijective && !is_suspect(first))) return first;
+  std::optional<EmbedResult> best;
   for (const WeightKind kind : other_weights(request.prepared.surface)) {
     EmbedOptions other = options;
     other.weights.kind = kind;
     EmbedResult next = embed_once({request.prepared, request.target, request.cones, other}, cache);
     first.timings.insert(first.timings.end(), next.timings.begin(), next.timings.end());
     if (!next.certificate.bijective) continue;
-    if (!is_better(first, next)) break;
-    next.timings = first.timings;
-    next.requested_weights = first.weights.kind;
-    next.warnings.push_back(warning_of_replaced_weights(first, next));
-    return next;
+    const bool is_good = !is_suspect(next);
+    if (!best || is_good) best = std::move(next);
+    if (is_good) break;
   }
-  return first;
+  if (!best || !is_better(first, *best)) return first;
+  best->timings = first.timings;
+  best->requested_weights = first.weights.kind;
+  best->warnings.push_back(warning_of_replaced_weights(first, *best));
+  return std::move(*best);
 }
 
 // Runs `compute` with the threads that the options ask for.

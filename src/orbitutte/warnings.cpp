@@ -75,11 +75,13 @@ std::vector<std::string> warnings_of_collapse(const FaceView& faces, const std::
                                               const std::vector<int>& nonpositive) {
   const long unavoidable = count_in_or_beside(collapsing, faces, nonpositive);
   if (unavoidable == 0) return {};
-  return {fmt::format(
-      "{} of the {} faces that are not positively oriented must become arcs or lie beside such faces, "
-      "the first face {}: the mesh is not 3-connected there (see 'orbitutte info'), so that no "
-      "solver can do better; mark a vertex there, or add edges",
-      unavoidable, nonpositive.size(), collapsing.front())};
+  return {
+      fmt::format("{} faces must become arcs or points, the first face {}: the mesh is not 3-connected there "
+                  "(see 'orbitutte "
+                  "info'). {} of the {} faces that are not positive are such faces or lie beside them, and "
+                  "no solver can do "
+                  "better; mark a vertex there, or split an inner edge",
+                  collapsing.size(), collapsing.front(), unavoidable, nonpositive.size())};
 }
 
 std::string warning_of_replaced_weights(const EmbedResult& standard, const EmbedResult& taken) {

@@ -169,14 +169,10 @@ class Collapse {
   void onto(const std::vector<int>& mirror) {
     for (int k = static_cast<int>(mirror.size()) - 1; k >= 0; --k) place_[mirror[k]] = k;
     const std::vector<int> halfedge = boundary_halfedges(mirror);
-    int end = 0;  // of the longest stretch so far: those within it belong to its part
+    int end = 0;  // of the longest stretch so far that collapsed: those within it belong to its part
     for (const CutOff& cut : cut_off_stretches()) {
       if (cut.to <= end) continue;
-      end = cut.to;
-      for (int k = cut.from; k < cut.to; ++k)
-        if (halfedge[k] >= 0 && !collapsing_[surface().face_of[halfedge[k]]])
-          collapse(parts_.reached(halfedge[k], {cut.face, cut.face}, collapsing_.size()),
-                   {mirror[cut.from], mirror[cut.to]});
+      if (collapse_beyond(cut, mirror, halfedge)) end = cut.to;
     }
     for (int f = 0; f < surface().face_count(); ++f)
       if (lies_on_the_mirror(f)) collapsing_[f] = 1;
@@ -212,15 +208,40 @@ class Collapse {
   }
 
  private:
-  // Does no mark hold the part in its place? At its two ends marks hold nothing.
-  void collapse(const std::vector<int>& part, const std::array<int, 2>& ends) {
+  // The part that a stretch of a mirror cuts off. If a mark holds it, and the mirror is all of the boundary,
+  // it is the rest that collapses. Did the part?
+  bool collapse_beyond(const CutOff& cut, const std::vector<int>& mirror, const std::vector<int>& halfedge) {
+    const std::array<int, 2> ends = {mirror[cut.from], mirror[cut.to]};
+    std::vector<int> part;
+    for (int k = cut.from; k < cut.to; ++k) {
+      if (halfedge[k] < 0 || collapsing_[surface().face_of[halfedge[k]]]) continue;
+      part = parts_.reached(halfedge[k], {cut.face, cut.face}, collapsing_.size());
+      if (collapse(part, ends)) continue;
+      if (mirror.front() == mirror.back()) collapse(all_but(part), ends);
+      return false;
+    }
+    return true;
+  }
+
+  std::vector<int> all_but(const std::vector<int>& part) const {
+    std::vector<char> is_in(collapsing_.size(), 0);
+    for (const int f : part) is_in[f] = 1;
+    std::vector<int> rest;
+    for (int f = 0; f < static_cast<int>(is_in.size()); ++f)
+      if (!is_in[f]) rest.push_back(f);
+    return rest;
+  }
+
+  // If no mark holds the part in its place. At its two ends marks hold nothing.
+  bool collapse(const std::vector<int>& part, const std::array<int, 2>& ends) {
     const auto holds = [&](int v) {
       return v != ends[0] && v != ends[1] && std::find(marks_.begin(), marks_.end(), v) != marks_.end();
     };
     for (const int f : part)
       for (int c = surface().face_start[f]; c < surface().face_start[f + 1]; ++c)
-        if (holds(surface().origin[c])) return;
+        if (holds(surface().origin[c])) return false;
     for (const int f : part) collapsing_[f] = 1;
+    return true;
   }
 
   bool meets_boundary(const std::vector<int>& part) const {
