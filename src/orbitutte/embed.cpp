@@ -87,9 +87,12 @@ void judge(const EmbedRequest& request, EmbedResult& result) {
 std::vector<int> faces_that_must_collapse(const EmbedRequest& request, const GluingProblem& problem,
                                           const Placement& placed) {
   const auto mirrors = mirrors_of(placed.tile, placed.boundary, problem.cut.source_vertex);
-  std::vector<int> faces = collapsing_faces(problem.surface.faces(), mirrors, request.cones);
-  for (const Ear& ear : ears_of(problem, placed)) std::erase(faces, ear.face);
-  return faces;
+  return collapsing_faces(problem.surface.faces(), mirrors, request.cones);
+}
+
+// Ears alone are rounded outward; what else must collapse cannot be helped.
+bool is_hopeless(const std::vector<int>& collapsing, const std::vector<Ear>& ears) {
+  return static_cast<int>(collapsing.size()) > count_faces(ears);
 }
 
 // Warnings about the map in the result.
@@ -128,8 +131,11 @@ EmbedResult embed_once(const EmbedRequest& request, EmbeddingCache& cache) {
     if (!needs_mending()) judge(request, result);
   });
   if (needs_mending()) {
-    result.collapsing_faces = faces_that_must_collapse(request, problem, placed);
-    if (result.collapsing_faces.empty()) stage("mend", [&] { mend(problem, placed, result); });
+    std::vector<int> collapsing = faces_that_must_collapse(request, problem, placed);
+    if (is_hopeless(collapsing, ears_of(problem, placed)))
+      result.collapsing_faces = std::move(collapsing);
+    else
+      stage("mend", [&] { mend(problem, placed, result); });
     stage("measure", [&] { judge(request, result); });
   }
 
@@ -143,6 +149,7 @@ EmbedResult embed_once(const EmbedRequest& request, EmbeddingCache& cache) {
 // Weights that are tried, in this order, where the standard ones give no bijection.
 std::vector<WeightKind> other_weights(const Surface& surface) {
   if (surface.has_polygons()) return {WeightKind::uniform};
+  if (surface.zero_area_faces > 0) return {WeightKind::mean_value, WeightKind::uniform};  // no cotangents
   return {WeightKind::cotan, WeightKind::mean_value, WeightKind::uniform};
 }
 

@@ -48,8 +48,8 @@ struct EmbedResult {
   /// Input vertices that were moved off the minimum, so that thin triangles are positively oriented;
   /// ascending.
   std::vector<int> moved_vertices;
-  /// If the map is not bijective: the faces that must become arcs or points whatever the solver does, since
-  /// the mesh is not 3-connected there; ascending. Ears are left out: they are rounded outward.
+  /// If no map can be bijective: the faces that must become arcs or points, since the mesh is not 3-connected
+  /// there; ascending. Empty if that are ears alone, which are rounded outward.
   std::vector<int> collapsing_faces;
   /// The certificate of the input's triangles.
   Certificate certificate;

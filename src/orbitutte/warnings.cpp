@@ -68,6 +68,12 @@ std::vector<std::vector<int>> mirrors_of(const Tile& tile, const BoundaryConditi
     std::vector<int>& mirror = mirrors.emplace_back();
     for (const int v : boundary.sides[s]) mirror.push_back(source_vertex[v]);
   }
+  // A cut that ends at a point of a mirror divides it into two sides.
+  if (mirrors.size() == 2 &&
+      std::any_of(tile.sides.begin(), tile.sides.end(), [](const TileSide& side) { return side.slides; })) {
+    mirrors[1].insert(mirrors[1].end(), mirrors[0].begin() + 1, mirrors[0].end());
+    mirrors.erase(mirrors.begin());
+  }
   return mirrors;
 }
 

@@ -168,6 +168,7 @@ class Collapse {
 
   void onto(const std::vector<int>& mirror) {
     for (int k = static_cast<int>(mirror.size()) - 1; k >= 0; --k) place_[mirror[k]] = k;
+    end_of_loop_ = mirror.front() == mirror.back() ? static_cast<int>(mirror.size()) - 1 : 0;
     const std::vector<int> halfedge = boundary_halfedges(mirror);
     int end = 0;  // of the longest stretch so far that collapsed: those within it belong to its part
     for (const CutOff& cut : cut_off_stretches()) {
@@ -285,15 +286,17 @@ class Collapse {
   // Between two corners of one face that follow each other on the mirror, unless an edge of the boundary
   // joins them.
   void add_stretch(int c, int d, std::vector<CutOff>& stretches) const {
-    const int from = place_[surface().origin[c]], to = place_[surface().origin[d]];
-    const bool is_boundary_edge = surface().next(c) == d && surface().twin[c] < 0;
-    if (from < to && !is_boundary_edge) stretches.push_back({from, to, surface().face_of[c]});
+    const int from = place_[surface().origin[c]], place = place_[surface().origin[d]];
+    const int to = place == 0 ? end_of_loop_ : place;
+    const auto joins = [&](int a, int b) { return surface().next(a) == b && surface().twin[a] < 0; };
+    if (from < to && !joins(c, d) && !joins(d, c)) stretches.push_back({from, to, surface().face_of[c]});
   }
 
   Parts parts_;
   std::vector<char> collapsing_;
   const std::vector<int>& marks_;
   std::vector<int> place_;  // of every vertex on the present mirror; -1 elsewhere
+  int end_of_loop_ = 0;     // the other place of its first vertex, if the mirror is a loop
   int vertex_count_ = 0;
 };
 

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "orbitutte/embed.h"
+#include "orbitutte/solve/kernel.h"
+#include "orbitutte/solve/lbfgs.h"
+#include "orbitutte/solve/repair.h"
+#include "solve_cases.h"
+
+namespace orbitutte {
+namespace {
+
+using test::solve_case;
+using test::SolveCase;
+
+// The conditions of a star-shaped polygon around a point near the origin: inside of every edge.
+std::vector<KernelCondition> random_star(std::mt19937& generator, int corners) {
+  std::uniform_real_distribution<double> uniform(0.3, 1);
+  std::vector<Eigen::Vector2d> points;
+  for (int k = 0; k < corners; ++k) {
+    const double angle = 2 * M_PI * k / corners;
+    points.emplace_back(uniform(generator) * std::cos(angle), uniform(generator) * std::sin(angle));
+  }
+  std::vector<KernelCondition> conditions;
+  for (int k = 0; k < corners; ++k) {
+    const Eigen::Vector2d a = points[k], along = (points[(k + 1) % corners] - a).normalized();
+    const Eigen::Vector2d inward(-along.y(), along.x());
+    conditions.push_back({inward, -inward.dot(a), uniform(generator)});
+  }
+  return conditions;
+}
+
+double least_margin(const std::vector<KernelCondition>& conditions, const Eigen::Vector2d& step) {
+  double least = INFINITY;
+  for (const KernelCondition& condition : conditions) least = std::min(least, condition.margin(step));
+  return least;
+}
+
+TEST(Kernel, NoStepHasALargerLeastMargin) {
+  std::mt19937 generator(1);
+  for (const int corners : {3, 4, 6, 7, 12, 60, 500}) {
+    const std::vector<KernelCondition> conditions = random_star(generator, corners);
+    const KernelStep widest = widest_step(conditions, {1, 1});
+    EXPECT_NEAR(widest.margin, least_margin(conditions, widest.step), 1e-12);
+    for (int k = 0; k < 2000; ++k) {
+      std::uniform_real_distribution<double> uniform(-1, 1);
+      const Eigen::Vector2d step(uniform(generator), uniform(generator));
+      EXPECT_LE(least_margin(conditions, step), widest.margin + 1e-9) << corners;
+    }
+  }
+}
+
+TEST(Kernel, StepsStayWithinReach) {
+  std::mt19937 generator(2);
+  const std::vector<KernelCondition> conditions = random_star(generator, 6);
+  EXPECT_EQ(widest_step(conditions, {1, 0}).step.y(), 0);
+  EXPECT_LE(widest_step({{{1, 0}, 0, 1}}, {0.25, 0.5}).step.cwiseAbs().maxCoeff(), 0.5);
+  EXPECT_NEAR(widest_step({{{1, 0}, 0, 1}}, {0.25, 0.5}).step.x(), 0.25, 1e-12);
+}
+
+// A minimum, and all that moves its vertices.
+struct MinimumCase {
+  explicit MinimumCase(const std::string& signature)
+      : of(solve_case(signature)),
+        surface(test::unjudged(of->mesh)),
+        energy(of->glued, of->weights, of->boundary),
+        stars(of->cut, of->boundary, elements),
+        may_move(of->boundary.basis_of.size()) {
+    const LaplacianSolver laplacian(of->cut, of->glued, of->weights, of->boundary, {});
+    LbfgsOptions options;
+    options.tolerance = 1e-12;
+    positions = minimize(energy, laplacian,
+                         initial_embedding(surface, of->cut, of->tile, of->boundary, laplacian), options)
+                    .positions;
+    for (std::size_t v = 0; v < may_move.size(); ++v) may_move[v] = of->boundary.basis_of[v] != held_in_place;
+  }
+
+  // A vertex inside whose neighbours are as well.
+  int vertex_inside() const {
+    for (int v = 0; v < static_cast<int>(may_move.size()); ++v) {
+      const std::vector<StarTriangle> star = stars.around(v);
+      if (of->boundary.basis_of[v] == in_space &&
+          std::all_of(star.begin(), star.end(),
+                      [&](const StarTriangle& at) { return of->boundary.basis_of[at.a] == in_space; }))
+        return v;
+    }
+    return -1;
+  }
+
+  std::unique_ptr<SolveCase> of;
+  Surface surface;
+  Elements elements;
+  DirichletEnergy energy;
+  Stars stars;
+  std::vector<char> may_move;
+  Points positions;
+  Gluing gluing = {of->cut, of->boundary, elements};
+};
+
+class EveryFamilyMended : public testing::TestWithParam<std::string> {};
+
+TEST_P(EveryFamilyMended, StarsGoOnceAroundEveryVertex) {
+  MinimumCase c(GetParam());
+  const PlainPositions positions(c.gluing, c.positions);
+  for (int v = 0; v < static_cast<int>(c.may_move.size()); ++v) {
+    if (c.of->boundary.basis_of[v] != in_space) continue;
+    double angle = 0;
+    for (const StarTriangle& at : c.stars.around(v)) {
+      const Vector3 p = positions.rounded(v);
+      angle += c.of->boundary.space.angle(p, p + positions.difference(v, at.a, at.element_a),
+                                          p + positions.difference(v, at.b, at.element_b));
+    }
+    EXPECT_NEAR(angle, 2 * M_PI, 1e-9) << v;
+  }
+}
+
+TEST_P(EveryFamilyMended, ALocalMinimumIsThatOfAllVertices) {
+  MinimumCase c(GetParam());
+  const Points minimum = c.positions;
+  const int v = c.vertex_inside();
+  ASSERT_GE(v, 0);
+  std::vector<int> vertices = {v};
+  for (const StarTriangle& at : c.stars.around(v)) vertices.push_back(at.a);
+  std::sort(vertices.begin(), vertices.end());
+  PlainPositions positions(c.gluing, c.positions);
+  std::vector<Neighbourhood> neighbourhoods;
+  for (const int u : vertices) {
+    positions.move(u, Vector3(0.01, -0.02, 0.01));
+    neighbourhoods.push_back({u, c.energy.neighbours(u, c.elements)});
+  }
+  // Where the map is curved on the scale of its edges, as here, steps gain less than ten digits.
+  const LocalMinimum local(c.gluing, positions, neighbourhoods);
+  for (int k = 0; k < 1000 && local.step(positions) > 1e-12; ++k) {
+  }
+  EXPECT_LT((c.positions - minimum).cwiseAbs().maxCoeff(), 1e-8);
+  positions.take_back(0);
+  EXPECT_EQ(c.positions, minimum);
+}
+
+TEST_P(EveryFamilyMended, ATurnedStarIsRepairedAndNothingElseMoves) {
+  MinimumCase c(GetParam());
+  const int v = c.vertex_inside();
+  ASSERT_GE(v, 0);
+  PlainPositions positions(c.gluing, c.positions);
+  const StarTriangle first = c.stars.around(v).front();
+  positions.move(v, 1.5 * positions.difference(v, first.a, first.element_a));
+  const Points before = c.positions;
+  std::vector<int> turned;
+  for (int f = 0; f < static_cast<int>(c.of->cut.F.rows()); ++f)
+    if (!positions.is_positive(f)) turned.push_back(f);
+  ASSERT_FALSE(turned.empty());
+  const std::vector<int> moved = repair({c.surface, c.gluing, c.stars, c.may_move}, turned, positions);
+  ASSERT_FALSE(moved.empty());
+  for (int f = 0; f < static_cast<int>(c.of->cut.F.rows()); ++f) EXPECT_TRUE(positions.is_positive(f)) << f;
+  for (int u = 0; u < static_cast<int>(c.may_move.size()); ++u) {
+    const bool may_differ = std::binary_search(moved.begin(), moved.end(), u);
+    EXPECT_TRUE(may_differ || c.positions.row(u) == before.row(u)) << u;
+    EXPECT_EQ(c.of->boundary.feasible(u, c.positions.row(u)).isApprox(c.positions.row(u).transpose(), 1e-14),
+              true)
+        << u;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Remedies, EveryFamilyMended, testing::ValuesIn(test::all_signatures()),
+                         [](const auto& info) {
+                           std::string name = info.param;
+                           for (char& c : name)
+                             if (c == '*') c = 's';
+                           return name;
+                         });
+
+// A ball with spikes beside each other, each `length` long.
+Mesh spiked(double length, const std::vector<int>& spikes) {
+  Mesh mesh = test::icosphere(3);
+  for (const int v : spikes) {
+    const Vector3 axis = mesh.V.row(v).normalized();
+    for (Eigen::Index u = 0; u < mesh.V.rows(); ++u)
+      if (const double closeness = axis.dot(mesh.V.row(u)); closeness > 0.95)
+        mesh.V.row(u) += length * std::pow((closeness - 0.95) / 0.05, 2) * axis.transpose();
+  }
+  return mesh;
+}
+
+TEST(Limbs, OfAnyLengthAreCertified) {
+  const Target target = parse_orbifold("432");
+  for (const double length : {3.0, 30.0, 100.0}) {
+    const Mesh mesh = spiked(length, {0, 5});
+    const EmbedResult result = embed(mesh, target, {1, 2, 3});
+    EXPECT_TRUE(result.certificate.bijective) << length;
+    EXPECT_TRUE(certify(make_surface(mesh), result.embedding).bijective);
+  }
+}
+
+}  // namespace
+}  // namespace orbitutte
