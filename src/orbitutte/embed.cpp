@@ -84,17 +84,22 @@ void judge(const EmbedRequest& request, EmbedResult& result) {
     refuse(*result.intrinsic_certificate, result.minimum, request.options.tolerance);
 }
 
+std::vector<int> faces_that_must_collapse(const EmbedRequest& request, const GluingProblem& problem,
+                                          const Placement& placed) {
+  const auto mirrors = mirrors_of(placed.tile, placed.boundary, problem.cut.source_vertex);
+  std::vector<int> faces = collapsing_faces(problem.surface.faces(), mirrors, request.cones);
+  for (const Ear& ear : ears_of(problem, placed)) std::erase(faces, ear.face);
+  return faces;
+}
+
 // Warnings about the map in the result.
 std::vector<std::string> warnings_of(const EmbedRequest& request, const GluingProblem& problem,
                                      const Placement& placed, const EmbedResult& result) {
   std::vector<std::string> warnings = warnings_about(result.weights, ears_of(problem, placed));
   append(request.prepared.warnings, warnings);
-  if (const std::vector<int>& nonpositive = result.certificate.nonpositive_faces; !nonpositive.empty()) {
-    const FaceView faces = problem.surface.faces();
-    const auto mirrors = mirrors_of(placed.tile, placed.boundary, problem.cut.source_vertex);
-    const std::vector<int> collapsing = collapsing_faces(faces, mirrors, request.cones);
-    append(warnings_of_collapse(faces, collapsing, nonpositive), warnings);
-  }
+  append(warnings_of_collapse(problem.surface.faces(), result.collapsing_faces,
+                              result.certificate.nonpositive_faces),
+         warnings);
   return warnings;
 }
 
@@ -115,10 +120,18 @@ EmbedResult embed_once(const EmbedRequest& request, EmbeddingCache& cache) {
   lbfgs.max_iterations = options.max_iterations;
   const Placement placed = place(problem, lbfgs, stage);  // (2)
   result.minimum = placed.minimum;
-  stage("certify", [&] { take(problem, spread_map(problem, placed), result); });
-  if (!result.certificate.bijective && result.minimum.termination == Termination::converged)
-    stage("mend", [&] { mend(problem, placed, result); });
-  stage("measure", [&] { judge(request, result); });
+  const auto needs_mending = [&] {
+    return !result.certificate.bijective && result.minimum.termination == Termination::converged;
+  };
+  stage("certify", [&] {
+    take(problem, spread_map(problem, placed), result);
+    if (!needs_mending()) judge(request, result);
+  });
+  if (needs_mending()) {
+    result.collapsing_faces = faces_that_must_collapse(request, problem, placed);
+    if (result.collapsing_faces.empty()) stage("mend", [&] { mend(problem, placed, result); });
+    stage("measure", [&] { judge(request, result); });
+  }
 
   result.warnings = warnings_of(request, problem, placed, result);
   result.topology = surface.topology;
@@ -150,7 +163,9 @@ EmbedResult embed_with_some_weights(const EmbedRequest& request, EmbeddingCache&
   const EmbedOptions& options = request.options;
   EmbedResult first = embed_once(request, cache);
   const bool were_asked_for = options.weights.kind != WeightKind::standard || !options.weights_file.empty();
-  if (were_asked_for || (first.certificate.bijective && !is_suspect(first))) return first;
+  if (were_asked_for || !first.collapsing_faces.empty() ||
+      (first.certificate.bijective && !is_suspect(first)))
+    return first;
   std::optional<EmbedResult> best;
   for (const WeightKind kind : other_weights(request.prepared.surface)) {
     EmbedOptions other = options;

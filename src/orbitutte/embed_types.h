@@ -48,6 +48,9 @@ struct EmbedResult {
   /// Input vertices that were moved off the minimum, so that thin triangles are positively oriented;
   /// ascending.
   std::vector<int> moved_vertices;
+  /// If the map is not bijective: the faces that must become arcs or points whatever the solver does, since
+  /// the mesh is not 3-connected there; ascending. Ears are left out: they are rounded outward.
+  std::vector<int> collapsing_faces;
   /// The certificate of the input's triangles.
   Certificate certificate;
   /// The certificate of the triangulation that has the weights. Only present if that triangulation is not

@@ -73,8 +73,8 @@ std::vector<std::vector<int>> mirrors_of(const Tile& tile, const BoundaryConditi
 
 std::vector<std::string> warnings_of_collapse(const FaceView& faces, const std::vector<int>& collapsing,
                                               const std::vector<int>& nonpositive) {
+  if (collapsing.empty()) return {};
   const long unavoidable = count_in_or_beside(collapsing, faces, nonpositive);
-  if (unavoidable == 0) return {};
   return {
       fmt::format("{} faces must become arcs or points, the first face {}: the mesh is not 3-connected there "
                   "(see 'orbitutte "

@@ -15,7 +15,7 @@
 namespace orbitutte {
 namespace {
 
-constexpr int most_sweeps = 60, sweeps_per_ring = 6, smoothing_sweeps = 8, halvings = 6;
+constexpr int most_sweeps = 60, sweeps_per_ring = 6, smoothing_sweeps = 8, halvings = 6, most_rounds = 20;
 constexpr int most_rings = 7;
 constexpr double clamp = 0.01;     // in place of weights that are not positive
 constexpr double enough = 0.3;     // of the largest margin that a star allows
@@ -265,7 +265,7 @@ class Repair {
     Eigen::Vector2d best(0, 0);
     double least = at_first, length = 0.25 * shortest_edge(shape);
     const int directions = shape.on_mirror ? 2 : 8;
-    for (int k = 0; k < halvings;) {
+    for (int k = 0, round = 0; k < halvings && round < most_rounds; ++round) {
       const Eigen::Vector2d from = best;
       for (int d = 0; d < directions; ++d) {
         const double angle = 2 * std::numbers::pi * d / directions;
