@@ -561,12 +561,13 @@ def corridor(steps):
 
 
 def maze_mesh(orbifold, steps):
-    """A corridor one square wide: all of its faces must become arcs."""
+    """A corridor one square wide: its faces must become arcs, but for those of squares beside the large one."""
     cells = set(itertools.product(range(SQUARE), range(SQUARE)))
     walk = list(corridor(steps))
     vertices, faces, at = cells_disk(cells | set(walk))
     corners = [at[point] for point in ((0, 0), (SQUARE, 0), (SQUARE, SQUARE), (0, SQUARE))]
-    return HardMesh(vertices, faces, orbifold, disk_cones(orbifold, [corners[0], corners[3], at[(0, 4)], at[(0, 2)]], at[(4, 4)]), arcs=2 * steps)
+    return HardMesh(vertices, faces, orbifold, disk_cones(orbifold, [corners[0], corners[3], at[(0, 4)], at[(0, 2)]], at[(4, 4)]),
+                    arcs=2 * sum(column > SQUARE or row >= SQUARE for column, row in walk))
 
 
 @kind

@@ -134,7 +134,7 @@ TEST_P(EveryFamilyMended, ALocalMinimumIsThatOfAllVertices) {
   }
   // Where the map is curved on the scale of its edges, as here, steps gain less than ten digits.
   const LocalMinimum local(c.gluing, positions, neighbourhoods);
-  for (int k = 0; k < 1000 && local.step(positions) > 1e-12; ++k) {
+  for (int k = 0; k < 1000 && local.step(positions).largest > 1e-12; ++k) {
   }
   EXPECT_LT((c.positions - minimum).cwiseAbs().maxCoeff(), 1e-8);
   positions.take_back(0);

@@ -66,16 +66,18 @@ LocalMinimum::LocalMinimum(const Gluing& gluing, const MovablePositions& positio
   factor_.compute(matrix);
 }
 
-double LocalMinimum::step(MovablePositions& positions) const {
+LocalMinimum::Change LocalMinimum::step(MovablePositions& positions) const {
   const std::size_t count = neighbourhoods_.size();
   Eigen::VectorXd force(first_.back());
   visit_curvature(space_, [&]<int k>(Curvature<k>) {
     for (std::size_t n = 0; n < count; ++n) {
-      Vector3 pull = Vector3::Zero();
-      for (const Neighbour& at : neighbourhoods_[n].neighbours) {
-        const Vector3 difference = positions.difference(neighbourhoods_[n].vertex, at.vertex, at.element);
-        pull += at.weight * Curvature<k>::over_sn(space_.dot(difference, difference)) * difference;
+      const auto& [vertex, neighbours] = neighbourhoods_[n];
+      std::vector<double> factors;
+      for (const Neighbour& at : neighbours) {
+        const Vector3 difference = positions.difference(vertex, at.vertex, at.element);
+        factors.push_back(at.weight * Curvature<k>::over_sn(space_.dot(difference, difference)));
       }
+      const Vector3 pull = positions.pull(vertex, neighbours, factors);
       for (Eigen::Index i = 0; i < bases_[n].cols(); ++i)
         force[first_[n] + i] = space_.dot(bases_[n].col(i), pull);
     }
@@ -84,38 +86,41 @@ double LocalMinimum::step(MovablePositions& positions) const {
   std::vector<Vector3> steps(count, Vector3::Zero());
   for (std::size_t n = 0; n < count; ++n)
     if (bases_[n].cols() > 0) steps[n] = bases_[n] * move.segment(first_[n], bases_[n].cols());
-  const double change = largest_change(positions, steps);
+  const Change change = change_by(positions, steps);
   for (std::size_t n = 0; n < count; ++n)
     if (bases_[n].cols() > 0) positions.move(neighbourhoods_[n].vertex, steps[n]);
   return change;
 }
 
-double LocalMinimum::largest_change(const MovablePositions& positions,
-                                    const std::vector<Vector3>& steps) const {
-  double largest = 0;
+LocalMinimum::Change LocalMinimum::change_by(const MovablePositions& positions,
+                                             const std::vector<Vector3>& steps) const {
+  Change result;
   for (std::size_t n = 0; n < neighbourhoods_.size(); ++n) {
     for (const Neighbour& at : neighbourhoods_[n].neighbours) {
       const auto other = place_.find(at.vertex);
       Vector3 change = -steps[n];
       if (other != place_.end()) change += gluing_.elements[at.element] * steps[other->second];
       const double length = positions.difference(neighbourhoods_[n].vertex, at.vertex, at.element).norm();
-      if (length > 0) largest = std::max(largest, change.norm() / length);
+      const double relative = length > 0 ? change.norm() / length : std::numeric_limits<double>::max();
+      if (change.norm() > 0) result.largest = std::max(result.largest, relative);
+      if (change.norm() > 0 && !(relative < settled)) ++result.unsettled;
     }
   }
-  return largest;
+  return result;
 }
 
 bool LocalMinimum::settle(MovablePositions& positions) const {
   if (factor_.info() != Eigen::Success) return false;
-  double least = std::numeric_limits<double>::infinity();
+  Change best = {std::numeric_limits<double>::infinity(), std::numeric_limits<int>::max()};
   for (int k = 0, without_gain = 0; k < most_steps && without_gain < patience; ++k) {
-    const double change = step(positions);
-    if (!std::isfinite(change)) return false;
-    if (change < converged) return true;
-    without_gain = change < 0.5 * least ? 0 : without_gain + 1;
-    least = std::min(least, change);
+    const Change change = step(positions);
+    if (!std::isfinite(change.largest)) return false;
+    if (change.largest < converged) return true;
+    const bool gains = change.largest < 0.5 * best.largest || change.unsettled < best.unsettled;
+    without_gain = gains ? 0 : without_gain + 1;
+    best = {std::min(best.largest, change.largest), std::min(best.unsettled, change.unsettled)};
   }
-  return least < settled;
+  return best.unsettled == 0;
 }
 
 }  // namespace orbitutte

@@ -17,16 +17,23 @@ struct Neighbourhood {
 };
 
 /// Where the map is flat on the scale of its edges, the Laplacian is the energy's Hessian (up to a factor
-/// two), and one sparse factor in doubles serves for as many digits as the positions have: forces come from
-/// differences, and each step gains some ten digits.
+/// two), and one sparse factor in doubles serves for as many digits as the positions have: forces are
+/// summed with all of them, and each step gains some ten digits.
 class LocalMinimum {
  public:
   /// One neighbourhood of each vertex that may move, ascending; held vertices among them stay where they are.
   LocalMinimum(const Gluing& gluing, const MovablePositions& positions,
                std::vector<Neighbourhood> neighbourhoods);
 
-  /// One Newton step. Returns the largest change of an edge, relative to its length before.
-  double step(MovablePositions& positions) const;
+  /// What a step does to the edges: the largest change of one, relative to its length before, and how many
+  /// change so much that they have not settled.
+  struct Change {
+    double largest = 0;
+    int unsettled = 0;
+  };
+
+  /// One Newton step.
+  Change step(MovablePositions& positions) const;
 
   /// Steps until edges change by small parts of their lengths only. Did that come about?
   bool settle(MovablePositions& positions) const;
@@ -35,7 +42,7 @@ class LocalMinimum {
   using Basis = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, 2>;
 
   Basis basis_at(const Vector3& p, int vertex) const;
-  double largest_change(const MovablePositions& positions, const std::vector<Vector3>& steps) const;
+  Change change_by(const MovablePositions& positions, const std::vector<Vector3>& steps) const;
 
   Gluing gluing_;
   Space space_;

@@ -30,6 +30,14 @@ Vector3 PlainPositions::difference(int v, int u, int element) const {
   return (element == 0 ? there : gluing_.elements[element] * there) - here;
 }
 
+Vector3 PlainPositions::pull(int v, const std::vector<Neighbour>& neighbours,
+                             const std::vector<double>& factors) const {
+  Vector3 sum = Vector3::Zero();
+  for (std::size_t k = 0; k < neighbours.size(); ++k)
+    sum += factors[k] * difference(v, neighbours[k].vertex, neighbours[k].element);
+  return gluing_.boundary.space.tangent(positions_.row(v), sum);
+}
+
 void PlainPositions::move(int v, const Vector3& step) {
   journal_.emplace_back(v, positions_.row(v));
   positions_.row(v) = gluing_.boundary.feasible(v, positions_.row(v).transpose() + step);
@@ -76,6 +84,21 @@ Vector3 PrecisePositions<Real>::difference(int v, int u, int k) const {
   }
   const Vector there = k == 0 ? precise(u) : Vector(element(k) * precise(u));
   return to_double<Real>(there - precise(v));
+}
+
+template <typename Real>
+Vector3 PrecisePositions<Real>::pull(int v, const std::vector<Neighbour>& neighbours,
+                                     const std::vector<double>& factors) const {
+  const Vector here = precise(v);
+  Vector sum = Vector::Zero();
+  for (std::size_t k = 0; k < neighbours.size(); ++k) {
+    const auto& [u, e, weight] = neighbours[k];
+    const Vector there = e == 0 ? precise(u) : Vector(element(e) * precise(u));
+    sum += Real(factors[k]) * Vector(there - here);
+  }
+  const int curvature = gluing_.boundary.space.curvature();
+  const Real off = here.z() * sum.z() + curvature * (here.x() * sum.x() + here.y() * sum.y());
+  return to_double<Real>(sum - off * here);  // see Curvature::tangent
 }
 
 template <typename Real>

@@ -30,6 +30,11 @@ class MovablePositions {
   /// elements[element] * p_u - p_v.
   virtual Vector3 difference(int v, int u, int element) const = 0;
 
+  /// The tangential part of the sum of factors[k] * (elements[e_k] * p_k - p_v) over the neighbours of v,
+  /// with all digits that there are.
+  virtual Vector3 pull(int v, const std::vector<Neighbour>& neighbours,
+                       const std::vector<double>& factors) const = 0;
+
   /// p_v in doubles.
   virtual Vector3 rounded(int v) const = 0;
 
@@ -56,6 +61,8 @@ class PlainPositions final : public MovablePositions {
   PlainPositions(Gluing gluing, Points& positions) : gluing_(gluing), positions_(positions) {}
 
   Vector3 difference(int v, int u, int element) const override;
+  Vector3 pull(int v, const std::vector<Neighbour>& neighbours,
+               const std::vector<double>& factors) const override;
   Vector3 rounded(int v) const override { return positions_.row(v); }
   void move(int v, const Vector3& step) override;
   void shift(int v, const Vector3& step) override;
@@ -77,6 +84,8 @@ class PrecisePositions final : public MovablePositions {
   PrecisePositions(Gluing gluing, const Points& positions, const Target& target);
 
   Vector3 difference(int v, int u, int element) const override;
+  Vector3 pull(int v, const std::vector<Neighbour>& neighbours,
+               const std::vector<double>& factors) const override;
   Vector3 rounded(int v) const override { return positions_.row(v); }
   void move(int v, const Vector3& step) override;
   void shift(int v, const Vector3& step) override;
