@@ -150,6 +150,11 @@ std::string other_weights(WeightKind kind) {
 
 // What may help if the result is not certified, in one sentence.
 std::string remedy(const EmbedArguments& arguments, const EmbedResult& result) {
+  if (!result.collapsing_faces.empty())
+    return fmt::format(
+        "What may help: mark a vertex of the faces that must become arcs, such as one of face {} (--cones); "
+        "split an edge inside the mesh there.",
+        result.collapsing_faces.front());
   std::vector<std::string> ways;
   const Termination termination = result.minimum.termination;
   if (termination == Termination::max_iterations) ways.push_back("allow more iterations (--max-iterations)");
@@ -159,7 +164,9 @@ std::string remedy(const EmbedArguments& arguments, const EmbedResult& result) {
     ways.push_back("mark the tips of the longest limbs (--cones)");
   if (arguments.orbifold == polygon_signature)
     ways.push_back("take an orbifold such as *432, along whose mirrors the boundary may slide");
-  if (const std::string way = other_weights(result.weights.kind); !way.empty()) ways.push_back(way);
+  const bool were_tried = arguments.weights == name_of(WeightKind::standard);
+  if (const std::string way = other_weights(result.weights.kind); !way.empty() && !were_tried)
+    ways.push_back(way);
   ways.push_back("make the mesh coarser or more even where the faces are smallest");
   return fmt::format("What may help: {}.", fmt::join(ways, "; "));
 }

@@ -32,20 +32,24 @@ def read_obj(path):
     return vertices, [[int(corner.split('/')[0]) - 1 for corner in line[1:]] for line in words if line and line[0] == 'f']
 
 
-def tube(rings, corners=6):
-    """A closed tube along z, much longer than it is wide. The last two vertices are the ends."""
-    vertices = [(math.cos(2 * math.pi * k / corners), math.sin(2 * math.pi * k / corners), float(ring))
-                for ring in range(rings) for k in range(corners)]
+def square_with_ribbon(ribbon, side=4):
+    """A square of quads, and a ribbon of so many triangles at one edge of its boundary, all of which must become arcs."""
+    across = side + 1
+    vertices = [(float(x), float(y), 0.0) for y in range(across) for x in range(across)]
     faces = []
-    for ring in range(rings - 1):
-        for k in range(corners):
-            a, b = ring * corners + k, ring * corners + (k + 1) % corners
-            faces += [[a, b, b + corners], [a, b + corners, a + corners]]
-    bottom, top = len(vertices), len(vertices) + 1
-    vertices += [(0.0, 0.0, -0.5), (0.0, 0.0, rings - 0.5)]
-    for k in range(corners):
-        after = (k + 1) % corners
-        faces += [[bottom, after, k], [top, (rings - 1) * corners + k, (rings - 1) * corners + after]]
+    for y in range(side):
+        for x in range(side):
+            a = y * across + x
+            faces += [[a, a + 1, a + across + 1], [a, a + across + 1, a + across]]
+    left, right = 1, 2
+    for k in range(ribbon):
+        vertices.append((1.0 + k % 2, -1.0 - k // 2, 0.0))
+        new = len(vertices) - 1
+        faces.append([right, left, new])
+        if k % 2 == 0:
+            left = new
+        else:
+            right = new
     return vertices, faces
 
 
@@ -249,13 +253,14 @@ class Messages(CommandLine):
         self.assertNotIn('inside out', self.expect(0, *self.embed(self.mesh('far.obj', far, faces))).stderr)
 
     def test_what_is_not_certified_says_how_many_faces_and_what_may_help(self):
-        vertices, faces = tube(60)
-        mesh = self.mesh('tube.obj', vertices, faces)
+        vertices, faces = square_with_ribbon(40)
+        mesh = self.mesh('ribbon.obj', vertices, faces)
         for quiet in ([], ['--quiet']):
-            done = self.expect(IS_NOT_CERTIFIED, *self.embed(mesh, '--report', 'tube.json', *quiet, cones='0,2,4'), says=['What may help: .*--cones.*--weights'])
+            done = self.expect(IS_NOT_CERTIFIED, *self.embed(mesh, '--report', 'ribbon.json', *quiet, cones='0,4,24', orbifold='*432'),
+                               says=['What may help: mark a vertex.*--cones.*split an edge', '41 faces must become arcs or points.*not 3-connected'])
             count, total, first = map(int, re.search(r'not certified: (\d+) of (\d+) faces are not positive on the sphere, the first face (\d+)',
                                                      done.stderr).groups())
-            found = json.loads((self.folder / 'tube.json').read_text())['certificate']['nonpositive_faces']
+            found = json.loads((self.folder / 'ribbon.json').read_text())['certificate']['nonpositive_faces']
             self.assertEqual((count, total, first), (len(found), len(faces), found[0]))
 
     def test_what_did_not_converge_says_what_may_help(self):
