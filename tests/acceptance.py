@@ -468,6 +468,9 @@ class Suite:
         _, ply, report = self.embed(commands, folder, mesh, signature, self.marked(mesh, signature))
         files = [ply, report_path(ply), self.path(mesh)]
         found = self.theorem2(commands, *files)
+        if json.loads(report_path(ply).read_text()).get('moved_vertices'):  # off the minimum, of which the theorem speaks
+            expect(found['status'] == 'not run' and 'moved' in found['detail'], f"theorem 2: {found['status']} {found['detail']}")
+            return
         expect(found['holds'], f"theorem 2: {found['status']} {found['detail']}, {found['negative_eigenvalues']} negative eigenvalues, "
                                f"kernel {found['kernel_dimension']}, longest edge {found['max_edge_length']}")
         weights = folder / 'weights.txt'

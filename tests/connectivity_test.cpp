@@ -42,7 +42,9 @@ std::vector<Example> examples() {
           {test::united(test::octahedron(), test::round_disk(2)), 3, false, true}};
 }
 
-Connectivity connectivity_of(const Mesh& mesh) { return orbitutte::connectivity_of(mesh.F, vertex_count(mesh)); }
+Connectivity connectivity_of(const Mesh& mesh) {
+  return orbitutte::connectivity_of(mesh.F, vertex_count(mesh));
+}
 
 int edge_count(const Connectivity& connectivity) { return static_cast<int>(connectivity.edges.size()); }
 

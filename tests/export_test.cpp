@@ -92,7 +92,8 @@ TEST(TextureChart, StereographicCoordinatesKeepCrossRatios) {
     };
     for (Eigen::Index f = 0; f + 7 < embedding.triangles.rows(); f += 5) {
       const Eigen::Index g = f + 7;
-      if (embedding.triangles(g, 0) == embedding.triangles(f, 1) || embedding.triangles(g, 0) == embedding.triangles(f, 2) ||
+      if (embedding.triangles(g, 0) == embedding.triangles(f, 1) ||
+          embedding.triangles(g, 0) == embedding.triangles(f, 2) ||
           embedding.triangles(g, 0) == embedding.triangles(f, 0))
         continue;
       const double flat = ratio(uv(texture, f, 0), uv(texture, f, 1), uv(texture, f, 2), uv(texture, g, 0));
@@ -143,7 +144,8 @@ TEST(TextureChart, SmallTilesAreHardlyDistorted) {
 }
 
 TEST(TextureChart, NamesAreRead) {
-  for (const TextureChart chart : charts) EXPECT_EQ(parse_choice<TextureChart>(name_of(chart), "chart"), chart);
+  for (const TextureChart chart : charts)
+    EXPECT_EQ(parse_choice<TextureChart>(name_of(chart), "chart"), chart);
   EXPECT_THROW(parse_choice<TextureChart>("mercator", "chart"), ArgumentError);
 }
 

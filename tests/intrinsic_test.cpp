@@ -23,7 +23,9 @@ namespace {
 using std::numbers::pi;
 using test::vertex_count;
 
-Connectivity connectivity_of(const Mesh& mesh) { return orbitutte::connectivity_of(mesh.F, vertex_count(mesh)); }
+Connectivity connectivity_of(const Mesh& mesh) {
+  return orbitutte::connectivity_of(mesh.F, vertex_count(mesh));
+}
 
 IntrinsicTriangulation unflipped(const Mesh& mesh) { return intrinsic_triangulation(test::unjudged(mesh)); }
 
@@ -94,7 +96,8 @@ void expect_sound(const IntrinsicTriangulation& T, const Mesh& mesh) {
     EXPECT_EQ(halfedge_origin(T.F, g), halfedge_target(T.F, h));
   }
   // What connects the faces anew finds the same surface.
-  const Connectivity anew = orbitutte::connectivity_of(T.F, vertex_count(mesh)), before = connectivity_of(mesh);
+  const Connectivity anew = orbitutte::connectivity_of(T.F, vertex_count(mesh)),
+                     before = connectivity_of(mesh);
   EXPECT_EQ(anew.edges.size(), before.edges.size());
   EXPECT_EQ(std::count(anew.opposite.begin(), anew.opposite.end(), -1),
             std::count(before.opposite.begin(), before.opposite.end(), -1));

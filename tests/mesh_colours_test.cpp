@@ -231,8 +231,7 @@ TEST(MeshColours, MalformedOnesArePassedOverNamingLineOrVertex) {
     const PolygonMesh mesh = parse_mesh(bytes, format);
     EXPECT_GT(mesh.vertex_count(), 0) << sentence;
     EXPECT_EQ(mesh.colours.rows(), 0) << sentence;
-    EXPECT_THAT(mesh.warnings,
-                testing::ElementsAre(sentence + ": the colours of the vertices are ignored"));
+    EXPECT_THAT(mesh.warnings, testing::ElementsAre(sentence + ": the colours of the vertices are ignored"));
   }
 }
 

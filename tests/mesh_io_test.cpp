@@ -490,8 +490,8 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"BytesThatCannotBeShown", "v 0 \x01z\xFF\n",
                 "line 1: vertex 0 has the coordinate '?z?', which is not a number" + mend},
         Refusal{"EndlessWord", "v 0 " + std::string(1000, 'x') + "\n",
-                "line 1: vertex 0 has the coordinate '" + std::string(40, 'x') + "...', which is not a number" +
-                    mend}),
+                "line 1: vertex 0 has the coordinate '" + std::string(40, 'x') +
+                    "...', which is not a number" + mend}),
     test_name);
 
 class OffRefusal : public testing::TestWithParam<Refusal> {};
@@ -590,8 +590,7 @@ TEST(Stl, BytesBehindTheLastFacetArePassedOverWithAWarning) {
   for (const std::size_t behind : {1, 49, 51, 80}) {
     const PolygonMesh mesh = parse_mesh(whole + std::string(behind, '\n'), MeshFormat::stl);
     EXPECT_EQ(mesh.face_count(), 4);
-    EXPECT_THAT(mesh.warnings,
-                testing::ElementsAre(testing::HasSubstr("ignored after the 4 triangles")));
+    EXPECT_THAT(mesh.warnings, testing::ElementsAre(testing::HasSubstr("ignored after the 4 triangles")));
   }
 }
 

@@ -212,8 +212,9 @@ INSTANTIATE_TEST_SUITE_P(
                 "line 3: the element 'vertex' has the count 'many', which is not a count" + mend},
         Refusal{"CountNegative", header("ascii", "element vertex -1\n"),
                 "line 3: the element 'vertex' has the count '-1', which is not a count" + mend},
-        Refusal{"CountTooLarge", header("ascii", "element vertex 18446744073709551616\n"),
-                "line 3: the element 'vertex' has the count '18446744073709551616', which is not a count" + mend},
+        Refusal{
+            "CountTooLarge", header("ascii", "element vertex 18446744073709551616\n"),
+            "line 3: the element 'vertex' has the count '18446744073709551616', which is not a count" + mend},
         Refusal{"PropertyWithoutElement", header("ascii", "property float x\n"),
                 "line 3: a property stands before the first element" + mend},
         Refusal{"PropertyWithoutName", header("ascii", "element vertex 1\nproperty float\n"),

@@ -37,7 +37,8 @@ const std::string order_one = " has an order of 1, which marks nothing; orders a
 const std::string order_zero = " has an order of 0; orders are 2 or more";
 const std::string no_symbol =
     " is no Conway symbol: it may hold digits, commas, one '*' and one 'x'; see 'orbitutte types'";
-const std::string too_many_signs = " has more than one star or cross, which no orbifold of the sphere or the plane has";
+const std::string too_many_signs =
+    " has more than one star or cross, which no orbifold of the sphere or the plane has";
 const std::string after_cross = " has orders after the cross; rotations come before it";
 const std::string empty_place = " has an empty place between commas; give every order once";
 

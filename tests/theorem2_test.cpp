@@ -24,7 +24,9 @@ using std::numbers::pi;
 using testing::HasSubstr;
 using Status = Theorem2::Status;
 
-Connectivity connectivity_of(const Mesh& mesh) { return orbitutte::connectivity_of(mesh.F, test::vertex_count(mesh)); }
+Connectivity connectivity_of(const Mesh& mesh) {
+  return orbitutte::connectivity_of(mesh.F, test::vertex_count(mesh));
+}
 
 Theorem2 theorem2_of(const Mesh& mesh, const EdgeWeights& weights, const Embedding& embedding,
                      const Theorem2Options& options = {}) {

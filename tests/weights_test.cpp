@@ -27,7 +27,9 @@ namespace {
 
 using test::vertex_count;
 
-Connectivity connectivity_of(const Mesh& mesh) { return orbitutte::connectivity_of(mesh.F, vertex_count(mesh)); }
+Connectivity connectivity_of(const Mesh& mesh) {
+  return orbitutte::connectivity_of(mesh.F, vertex_count(mesh));
+}
 
 EdgeWeights weights_of(const Mesh& mesh, const WeightOptions& options = {WeightKind::cotan}) {
   return edge_weights(test::unjudged(mesh), options);

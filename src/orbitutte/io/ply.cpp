@@ -179,8 +179,8 @@ void append(std::string& bytes, PlyType type, double value, const PlyProperty& p
   visit_type(type, [&](auto number) {
     using T = decltype(number);
     if (!holds<T>(value)) {
-      throw ArgumentError(fmt::format("property '{}' has the value {}, which is not of type {}", property.name, value,
-                                      ply_type_name(type)));
+      throw ArgumentError(fmt::format("property '{}' has the value {}, which is not of type {}",
+                                      property.name, value, ply_type_name(type)));
     }
     append_little_endian(bytes, static_cast<T>(value));
   });

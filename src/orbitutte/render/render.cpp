@@ -160,8 +160,8 @@ std::string render_png(const RenderSubject& subject, const RenderOptions& option
 
 std::string render_svg(const RenderSubject& subject, const RenderOptions& options) {
   if (!is_plot(options.panel))
-    throw ArgumentError(fmt::format("the panel '{}' is not a plot, and SVG files hold plots only; write a .png",
-                                    name_of(options.panel)));
+    throw ArgumentError(fmt::format(
+        "the panel '{}' is not a plot, and SVG files hold plots only; write a .png", name_of(options.panel)));
   return picture(PictureFormat::svg, subject, options);
 }
 

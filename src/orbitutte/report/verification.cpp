@@ -167,7 +167,12 @@ Verdict verify(const Surface& surface, const Embedding& embedding, const Report&
   for (const Check& check : verdict.checks) verdict.sound = verdict.sound && check.passed;
   verdict.converged = report.converged;
   verdict.bijective = verdict.sound && report.converged;
-  if (options.theorem2) verdict.theorem2 = theorem2_of(surface, weights, embedding, certificate);
+  if (options.theorem2)
+    verdict.theorem2 = report.moved_vertices.empty()
+                           ? theorem2_of(surface, weights, embedding, certificate)
+                           : not_run(
+                                 "vertices were moved off the minimum of the energy, of which the theorem "
+                                 "speaks (moved_vertices in the report)");
   return verdict;
 }
 

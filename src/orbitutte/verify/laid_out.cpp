@@ -161,7 +161,8 @@ Embedding laid_out(const Surface& surface, const Embedding& embedding,
   layout.store_positions(result);
   result.triangles.resize(surface.triangles.rows(), 3);
   for (int h = 0; h < static_cast<int>(result.triangles.size()); ++h) result.triangles.data()[h] = h;
-  result.source_vertex.assign(layout.triangles().data(), layout.triangles().data() + layout.triangles().size());
+  result.source_vertex.assign(layout.triangles().data(),
+                              layout.triangles().data() + layout.triangles().size());
   result.cones = embedding.cones;
   for (ConeCopies& cone : result.cones) {
     cone.copies.clear();

@@ -21,6 +21,10 @@ namespace {
 // positive weights; one as small as this has no visible effect.
 constexpr double concyclic_weight = 1e-6;
 
+// Edges of no length have the largest mean value weights: bounded by so many times the median, they leave the
+// rounding errors of the others small enough for the optimiser to converge.
+constexpr double largest_ratio = 1e4;
+
 // Half the cotangent of the angle at vertex o of a triangle (i, j, o). Zero if the area is nothing but
 // rounding error, by the criterion of `inspect`: the cotangent, 1e15 or so, would be rounding error, too.
 double half_cotangent(const Points& V, int i, int j, int o) {
@@ -118,6 +122,10 @@ EdgeWeights mean_value_weights(const Surface& surface) {
   });
   EdgeWeights result;
   result.w = summed_over_sides(connectivity, share);
+  std::vector<double> sorted(result.w.begin(), result.w.end());
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  if (middle != sorted.end()) result.w = result.w.cwiseMin(largest_ratio * *middle);
   return result;
 }
 
