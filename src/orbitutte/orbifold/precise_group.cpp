@@ -35,7 +35,7 @@ Vector3Of<Real> raised(Space space, const Vector3Of<Real>& line) {
 template <typename Real>
 std::vector<Vector3Of<Real>> sides_of_triangle(Space space, const std::vector<int>& n) {
   using std::cos, std::sin, std::sqrt;
-  const Real pi = boost::math::constants::pi<Real>();
+  const Real& pi = boost::math::constants::pi<Real>();
   const Real a = pi / n[0], b = pi / n[1], c = pi / n[2];
   const Real x = (-cos(c) - cos(a) * cos(b)) / sin(a), y = -cos(b);
   const int k = space.curvature();

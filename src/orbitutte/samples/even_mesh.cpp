@@ -24,8 +24,8 @@ constexpr int dividing_rounds = 2;  // after every division
 int face_count(const Mesh& mesh) { return static_cast<int>(mesh.F.rows()); }
 int vertex_count(const Mesh& mesh) { return static_cast<int>(mesh.V.rows()); }
 
-Connectivity connectivity_of(const Mesh& mesh) {
-  return orbitutte::connectivity_of(mesh.F, vertex_count(mesh));
+Connectivity mesh_connectivity(const Mesh& mesh) {
+  return connectivity_of(mesh.F, vertex_count(mesh));
 }
 
 // One half-edge of every edge, the one with the lower index.
@@ -106,7 +106,7 @@ std::vector<int> edges_by_length(const Mesh& mesh, const Connectivity& connectiv
 // Splits the longest edges, at most one of every face, until there are `faces` faces or a share of the edges
 // is split.
 void split_long_edges(Mesh& mesh, const SmoothSurface& surface, int faces) {
-  const Connectivity connectivity = connectivity_of(mesh);
+  const Connectivity connectivity = mesh_connectivity(mesh);
   const std::vector<int> halfedge = halfedge_of_edges(connectivity);
   std::vector<char> is_split(mesh.F.rows(), 0);
   int m = vertex_count(mesh), f = face_count(mesh);
@@ -154,7 +154,7 @@ bool lies_wrong(const Mesh& mesh, const SmoothSurface& surface, int a, int b, in
 // number of flips.
 int flip_edges(Mesh& mesh, const SmoothSurface& surface) {
   constexpr double rounding = 1e-9;
-  const Connectivity connectivity = connectivity_of(mesh);
+  const Connectivity connectivity = mesh_connectivity(mesh);
   std::vector<char> at_flip(mesh.V.rows(), 0);
   int flips = 0;
   for (int h = 0; h < static_cast<int>(mesh.F.size()); ++h) {
@@ -237,7 +237,7 @@ bool lies_wrong(const Mesh& mesh, const Points& normal, int f) {
 void relax(Mesh& mesh, const SmoothSurface& surface) {
   const Mesh before = mesh;
   const Points normal_before = normals(mesh.V, surface);
-  mesh.V = centred(mesh, surface, connectivity_of(mesh));
+  mesh.V = centred(mesh, surface, mesh_connectivity(mesh));
   Points normal = normals(mesh.V, surface);
   for (bool put_back = true; put_back;) {
     put_back = false;
@@ -264,7 +264,7 @@ void relax_and_flip(Mesh& mesh, const SmoothSurface& surface, int rounds) {
 
 // How many faces to grow before the divisions. Closed triangle meshes have an even number of faces.
 int grown_faces(const Mesh& mesh, int faces, int divisions) {
-  const auto& opposite = connectivity_of(mesh).opposite;
+  const auto& opposite = mesh_connectivity(mesh).opposite;
   const bool closed = std::find(opposite.begin(), opposite.end(), -1) == opposite.end();
   const int unit = closed ? 2 : 1;
   const double wanted = std::ldexp(faces, -2 * divisions) / unit;
@@ -273,7 +273,7 @@ int grown_faces(const Mesh& mesh, int faces, int divisions) {
 
 // Divides every triangle into four at the midpoints of its edges.
 Mesh divided(const Mesh& mesh, const SmoothSurface& surface) {
-  const Connectivity connectivity = connectivity_of(mesh);
+  const Connectivity connectivity = mesh_connectivity(mesh);
   const std::vector<int> halfedge = halfedge_of_edges(connectivity);
   const int n = vertex_count(mesh), edges = static_cast<int>(connectivity.edges.size());
   Mesh result;
@@ -314,7 +314,7 @@ Mesh even_mesh(Mesh mesh, const SmoothSurface& surface, int faces) {
   for (int division = 0; division < divisions; ++division) {
     mesh = divided(mesh, surface);
     if (face_count(mesh) <= most_flipped_faces) flip_to_delaunay(mesh, surface);
-    const Connectivity connectivity = connectivity_of(mesh);
+    const Connectivity connectivity = mesh_connectivity(mesh);
     for (int round = 0; round < dividing_rounds; ++round) mesh.V = centred(mesh, surface, connectivity);
   }
   return mesh;
