@@ -24,9 +24,7 @@ constexpr int dividing_rounds = 2;  // after every division
 int face_count(const Mesh& mesh) { return static_cast<int>(mesh.F.rows()); }
 int vertex_count(const Mesh& mesh) { return static_cast<int>(mesh.V.rows()); }
 
-Connectivity mesh_connectivity(const Mesh& mesh) {
-  return connectivity_of(mesh.F, vertex_count(mesh));
-}
+Connectivity mesh_connectivity(const Mesh& mesh) { return connectivity_of(mesh.F, vertex_count(mesh)); }
 
 // One half-edge of every edge, the one with the lower index.
 std::vector<int> halfedge_of_edges(const Connectivity& connectivity) {
