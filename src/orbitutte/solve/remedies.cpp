@@ -86,6 +86,14 @@ std::vector<int> nonpositive_faces(const Site& site, const MovablePositions& pos
   return result;
 }
 
+bool any_in_limbs(Site& site, const MovablePositions& positions, const std::vector<int>& faces) {
+  const auto is_in_limb = [&](int v) { return shortest_edge(site, positions, v) < small; };
+  return std::any_of(faces.begin(), faces.end(), [&](int f) {
+    const auto corners = site.problem.surface.triangles.row(f);
+    return std::any_of(corners.begin(), corners.end(), is_in_limb);
+  });
+}
+
 // Where many faces are turned over, the weights are at fault, and to move single vertices would not do.
 bool may_be_repaired(const Site& site, const std::vector<int>& turned) {
   return static_cast<Eigen::Index>(turned.size()) <= 1 + site.problem.cut.F.rows() / 20;
@@ -150,7 +158,7 @@ std::optional<SpreadMap> with_faces_repaired(const GluingProblem& problem, const
   Placement result = placed;
   Site site(problem, placed);
   PlainPositions positions(site.gluing, result.minimum.positions);
-  if (site.energy.smallest_spot(result.minimum.positions).second < small) return std::nullopt;
+  if (any_in_limbs(site, positions, nonpositive_faces(site, positions))) return std::nullopt;
   std::optional<std::vector<int>> moved = finish(site, positions);
   if (!moved) return std::nullopt;
   return spread_map(problem, std::move(result), std::move(*moved));

@@ -30,8 +30,8 @@ SpreadMap spread_map(const GluingProblem& problem, const Placement& placed);
 /// The faces that become arcs, of the cut mesh.
 std::vector<Ear> ears_of(const GluingProblem& problem, const Placement& placed);
 
-/// The same with turned faces repaired in place. Nothing if that fails, or if edges are as short as in
-/// with_limbs_resolved, to which it is left.
+/// The same with turned faces repaired in place. Nothing if that fails, or if one of them lies in a limb,
+/// where edges are as short as in with_limbs_resolved: it is left to that.
 std::optional<SpreadMap> with_faces_repaired(const GluingProblem& problem, const Placement& placed);
 
 /// The same turned to where doubles resolve the smallest limb, all limbs settled there, and turned faces
