@@ -34,7 +34,7 @@ struct EmbedArguments {
   double clamp = 0.01, tolerance = 1e-9;
   std::uint64_t cut_seed = 0;
   int max_iterations = 2000, threads = 0;
-  bool quiet = false, json = false;
+  bool floor = false, quiet = false, json = false;
 };
 int embed_command(const EmbedArguments& arguments);
 

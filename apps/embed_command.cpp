@@ -8,6 +8,7 @@
 
 #include "command_arguments.h"
 #include "commands.h"
+#include "orbitutte/distortion_floor.h"
 #include "orbitutte/embed.h"
 #include "orbitutte/io/corner_file.h"
 #include "orbitutte/io/file.h"
@@ -138,7 +139,19 @@ void summarize(const EmbedArguments& arguments, const EmbedResult& result) {
   tell("area: within a factor of 4 of the mean scale on {} of the surface, shrunk by more than 64 on {}\n",
        percent(distortion.within_4), percent(distortion.below_64));
   tell("angles: median distortion {:.4g}, where 1 is none\n", distortion.angle.median);
+  if (result.floor)
+    tell("angles of the mesh subdivided twice, at best: median {:.4g}; mean {:.4g}, and {:.4g} of this map\n",
+         result.floor->angle.median, result.floor->angle.mean, distortion.angle.mean);
   if (result.certificate.bijective) tell("certified: bijective\n");
+}
+
+// Measures the floor into the result, or warns that there is none.
+void measure_floor(const Surface& surface, const EmbedOptions& options, EmbedResult& result) {
+  std::vector<int> cones;
+  for (const ConeCopies& cone : result.embedding.cones) cones.push_back(cone.vertex);
+  result.floor = distortion_floor(surface, result.embedding.target, cones, options);
+  if (!result.floor)
+    result.warnings.push_back("the map of the mesh subdivided twice is not certified: there is no 'floor'");
 }
 
 // Advice to take weights that depend less on lengths and angles than these do; empty if there are none.
@@ -210,6 +223,7 @@ int embed_command(const EmbedArguments& arguments) {
     return true;
   };
   EmbedResult result = embed(surface, target, cones, options);
+  if (arguments.floor) measure_floor(surface, options, result);
   result.warnings.insert(result.warnings.begin(), reader_warnings.begin(), reader_warnings.end());
   line.clear();
   for (const std::string& warning : result.warnings) tell("orbitutte: warning: {}\n", warning);

@@ -12,7 +12,7 @@
 #include "orbitutte/embed.h"
 #include "orbitutte/io/mesh_io.h"
 #include "orbitutte/memory.h"
-#include "orbitutte/mesh/connectivity.h"
+#include "orbitutte/mesh/subdivision.h"
 #include "orbitutte/samples/sample.h"
 #include "yardstick.h"
 
@@ -30,25 +30,6 @@ struct Arguments {
   int block_size = LaplacianOptions().block_size;
   std::string again;
 };
-
-// Divides every triangle into four at the midpoints of its edges. The vertices keep their numbers.
-Mesh subdivided(const Mesh& mesh) {
-  const int n = static_cast<int>(mesh.V.rows());
-  const Connectivity connectivity = connectivity_of(mesh.F, n);
-  Mesh fine = {Points(n + connectivity.edges.size(), 3), Triangles(4 * mesh.F.rows(), 3)};
-  fine.V.topRows(n) = mesh.V;
-  for (std::size_t e = 0; e < connectivity.edges.size(); ++e) {
-    const auto [i, j] = connectivity.edges[e];
-    fine.V.row(n + static_cast<int>(e)) = 0.5 * (mesh.V.row(i) + mesh.V.row(j));
-  }
-  for (int f = 0; f < mesh.F.rows(); ++f) {
-    const auto corner = mesh.F.row(f);
-    const auto middle = [&](int k) { return n + connectivity.edge_of[3 * f + k]; };
-    for (int k = 0; k < 3; ++k) fine.F.row(4 * f + k) << corner[k], middle(k), middle((k + 2) % 3);
-    fine.F.row(4 * f + 3) << middle(0), middle(1), middle(2);
-  }
-  return fine;
-}
 
 struct Input {
   Mesh mesh;

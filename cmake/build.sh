@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Configures and builds into build/ (Ninja, Release unless it was configured otherwise), showing the log only where it fails.
+# Configures and builds into build/ (Ninja, Release and several files at a time unless it was configured otherwise), showing the log only
+# where it fails.
 # usage: cmake/build.sh [TARGET ...]
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
@@ -8,7 +9,7 @@ build=$root/build
 log=$build/build.log
 
 configure=(cmake -S "$root" -B "$build")
-[ -f "$build/CMakeCache.txt" ] || configure+=(-G Ninja -D CMAKE_BUILD_TYPE=Release)
+[ -f "$build/CMakeCache.txt" ] || configure+=(-G Ninja -D CMAKE_BUILD_TYPE=Release -D CMAKE_UNITY_BUILD=ON)
 compile=(cmake --build "$build" --parallel "$(nproc)")
 [ $# = 0 ] || compile+=(--target "$@")
 

@@ -42,10 +42,6 @@ std::vector<Example> examples() {
           {test::united(test::octahedron(), test::round_disk(2)), 3, false, true}};
 }
 
-Connectivity connectivity_of(const Mesh& mesh) {
-  return orbitutte::connectivity_of(mesh.F, vertex_count(mesh));
-}
-
 int edge_count(const Connectivity& connectivity) { return static_cast<int>(connectivity.edges.size()); }
 
 TEST(Connectivity, NextAndPreviousGoAroundTheFace) {
@@ -61,7 +57,7 @@ TEST(Connectivity, NextAndPreviousGoAroundTheFace) {
 
 TEST(Connectivity, OppositeOfTheOppositeIsTheHalfEdgeItself) {
   for (const Example& example : examples()) {
-    const Connectivity connectivity = connectivity_of(example.mesh);
+    const Connectivity connectivity = test::edges_of(example.mesh);
     const Triangles& F = example.mesh.F;
     for (int h = 0; h < F.size(); ++h) {
       const int o = connectivity.opposite[h];
@@ -79,7 +75,7 @@ TEST(Connectivity, OppositeOfTheOppositeIsTheHalfEdgeItself) {
 
 TEST(Connectivity, OnlyBoundaryHalfEdgesHaveNoOpposite) {
   for (const Example& example : examples()) {
-    const Connectivity connectivity = connectivity_of(example.mesh);
+    const Connectivity connectivity = test::edges_of(example.mesh);
     std::vector<int> uses(connectivity.edges.size(), 0);
     for (const int e : connectivity.edge_of) ++uses[e];
     int boundary = 0;
@@ -95,14 +91,14 @@ TEST(Connectivity, OnlyBoundaryHalfEdgesHaveNoOpposite) {
 TEST(Connectivity, VerticesLessEdgesPlusFacesIsTheEulerCharacteristic) {
   for (const Example& example : examples()) {
     EXPECT_EQ(
-        vertex_count(example.mesh) - edge_count(connectivity_of(example.mesh)) + face_count(example.mesh),
+        vertex_count(example.mesh) - edge_count(test::edges_of(example.mesh)) + face_count(example.mesh),
         example.euler_characteristic);
   }
 }
 
 TEST(Connectivity, EdgesAreThePairsThatFacesJoinInLexicographicOrder) {
   for (const Example& example : examples()) {
-    const Connectivity connectivity = connectivity_of(example.mesh);
+    const Connectivity connectivity = test::edges_of(example.mesh);
     std::set<std::array<int, 2>> expected;
     for (int h = 0; h < example.mesh.F.size(); ++h) {
       const auto [i, j] =
@@ -116,7 +112,7 @@ TEST(Connectivity, EdgesAreThePairsThatFacesJoinInLexicographicOrder) {
 
 TEST(Connectivity, NeighborsAreBothEndsOfEveryEdge) {
   for (const Example& example : examples()) {
-    const Connectivity connectivity = connectivity_of(example.mesh);
+    const Connectivity connectivity = test::edges_of(example.mesh);
     const int n = vertex_count(example.mesh);
     const Neighbors around = vertex_neighbors(connectivity.edges, n);
     ASSERT_EQ(static_cast<int>(around.start.size()), n + 1);
@@ -136,14 +132,14 @@ TEST(Connectivity, NeighborsAreBothEndsOfEveryEdge) {
 
 TEST(Connectivity, VerticesWithoutFacesHaveNoNeighbors) {
   const Mesh mesh = test::octahedron();
-  const Connectivity connectivity = orbitutte::connectivity_of(mesh.F, 9);
+  const Connectivity connectivity = connectivity_of(mesh.F, 9);
   const Neighbors around = vertex_neighbors(connectivity.edges, 9);
   EXPECT_EQ(edge_count(connectivity), 12);
   for (int v = 6; v < 9; ++v) EXPECT_EQ(around.start[v], around.start[v + 1]);
 }
 
 TEST(Connectivity, OfNoFacesIsEmpty) {
-  const Connectivity connectivity = orbitutte::connectivity_of(Triangles(0, 3), 0);
+  const Connectivity connectivity = connectivity_of(Triangles(0, 3), 0);
   EXPECT_TRUE(connectivity.edges.empty());
   EXPECT_TRUE(connectivity.edge_of.empty());
   EXPECT_TRUE(connectivity.opposite.empty());
@@ -154,8 +150,8 @@ RC_GTEST_PROP(Connectivity, DoesNotDependOnTheNumbersOfVerticesAndFaces, (std::u
   const Mesh mesh = test::grid_disk(3, 3);
   const std::vector<int> number = test::permutation(vertex_count(mesh), seed);
   const std::vector<int> old_face = test::permutation(face_count(mesh), seed + 1);
-  const Connectivity before = connectivity_of(mesh);
-  const Connectivity after = connectivity_of(test::reordered(test::relabelled(mesh, number), old_face));
+  const Connectivity before = test::edges_of(mesh);
+  const Connectivity after = test::edges_of(test::reordered(test::relabelled(mesh, number), old_face));
   std::set<std::array<int, 2>> expected;
   for (const auto& [i, j] : before.edges)
     expected.insert({std::min(number[i], number[j]), std::max(number[i], number[j])});

@@ -323,12 +323,22 @@ TEST(Cut, ArrangementFollowsTheBoundaryOfADisk) {
   EXPECT_EQ(cut_open(mesh, {20, 36, 28, 24}).arrangement, (std::vector<int>{0, 3, 2, 1}));
 }
 
+// Any marks, as they go around from any of them in either direction.
+std::vector<int> marks_around(const std::vector<int>& boundary, std::uint32_t seed) {
+  std::vector<int> places = test::permutation(static_cast<int>(boundary.size()), seed);
+  places.resize(1 + seed % boundary.size());
+  const int first = places.front();
+  std::sort(places.begin(), places.end());
+  std::rotate(places.begin(), std::find(places.begin(), places.end(), first), places.end());
+  if (seed % 2 == 1) std::reverse(places.begin(), places.end());
+  std::vector<int> marks;
+  for (const int k : places) marks.push_back(boundary[k]);
+  return marks;
+}
+
 RC_GTEST_PROP(Cut, OfADiskArrangesAnyMarksAlongTheBoundary, (std::uint32_t seed)) {
   const Mesh mesh = test::grid_disk(4, 3);
-  const std::vector<int> boundary = grid_boundary(4, 3);
-  std::vector<int> marks;
-  for (const int k : test::permutation(static_cast<int>(boundary.size()), seed)) marks.push_back(boundary[k]);
-  marks.resize(1 + seed % boundary.size());
+  const std::vector<int> marks = marks_around(grid_boundary(4, 3), seed);
   const CutMesh cut = cut_open(mesh, marks);
   RC_ASSERT(fault_in_arrangement(cut, marks) == "");
   RC_ASSERT(cut.arrangement.front() == 0);
@@ -548,7 +558,8 @@ TEST(Cut, NoMarkOrTwoOnAProjectivePlaneAreRefused) {
   };
   EXPECT_EQ(refusal({}), "0 marked vertices on a projective plane; mark one");
   EXPECT_EQ(refusal({1, 2}), "2 marked vertices on a projective plane; mark one");
-  EXPECT_EQ(refusal({100}), "the marked vertex 100 is out of range; the mesh has the vertices 0 to 20");
+  EXPECT_EQ(refusal({100}),
+            "the marked vertex 100 is out of range; the mesh has the vertices 0 to 20");
 }
 
 // ------------------------------------------------------------------------------------------------- lengths
@@ -569,7 +580,7 @@ TEST(Cut, EdgeLengthsArePositiveAndAlmostThoseInSpace) {
 
 // ------------------------------------------------------------------------------------------------ refusals
 
-std::string refusal(const Mesh& mesh, const std::vector<int>& marks, int inner_marks = 0) {
+std::string refusal_of_cut(const Mesh& mesh, const std::vector<int>& marks, int inner_marks = 0) {
   try {
     cut_to_disk(test::unjudged(mesh), marks, inner_marks);
     return {};
@@ -580,66 +591,77 @@ std::string refusal(const Mesh& mesh, const std::vector<int>& marks, int inner_m
 
 TEST(Cut, MarksOutOfRangeAreRefused) {
   const std::string range = " is out of range; the mesh has the vertices 0 to ";
-  EXPECT_EQ(refusal(test::octahedron(), {0, 6}), "the marked vertex 6" + range + "5");
-  EXPECT_EQ(refusal(test::octahedron(), {-1, 2, 3}), "the marked vertex -1" + range + "5");
-  EXPECT_EQ(refusal(test::grid_disk(1, 1), {0, 4}), "the marked vertex 4" + range + "3");
+  EXPECT_EQ(refusal_of_cut(test::octahedron(), {0, 6}), "the marked vertex 6" + range + "5");
+  EXPECT_EQ(refusal_of_cut(test::octahedron(), {-1, 2, 3}), "the marked vertex -1" + range + "5");
+  EXPECT_EQ(refusal_of_cut(test::grid_disk(1, 1), {0, 4}), "the marked vertex 4" + range + "3");
 }
 
 TEST(Cut, RepeatedMarksAreRefused) {
   const std::string twice = " is marked twice; mark different vertices";
-  EXPECT_EQ(refusal(test::octahedron(), {3, 3}), "the vertex 3" + twice);
-  EXPECT_EQ(refusal(test::octahedron(), {3, 1, 3}), "the vertex 3" + twice);
-  EXPECT_EQ(refusal(test::grid_disk(1, 1), {0, 1, 1}), "the vertex 1" + twice);
+  EXPECT_EQ(refusal_of_cut(test::octahedron(), {3, 3}), "the vertex 3" + twice);
+  EXPECT_EQ(refusal_of_cut(test::octahedron(), {3, 1, 3}), "the vertex 3" + twice);
+  EXPECT_EQ(refusal_of_cut(test::grid_disk(1, 1), {0, 1, 1}), "the vertex 1" + twice);
 }
 
 TEST(Cut, MarksWithoutFacesAreRefused) {
   Mesh mesh = test::octahedron();
   mesh.V.conservativeResize(7, 3);
   mesh.V.row(6).setZero();
-  EXPECT_EQ(refusal(mesh, {0, 6}), "the marked vertex 6 belongs to no face; mark a vertex of the surface");
+  EXPECT_EQ(refusal_of_cut(mesh, {0, 6}),
+            "the marked vertex 6 belongs to no face; mark a vertex of the surface");
+}
+
+TEST(Cut, MarksThatDoNotGoAroundTheBoundaryAreRefusedInTheOrderInWhichTheyDo) {
+  const Mesh mesh = test::round_disk(3);  // its boundary is 19, 20, ..., 36
+  EXPECT_EQ(refusal_of_cut(mesh, {19, 30, 25, 35}),
+            "the boundary meets the marked vertices in the order 19,25,30,35, not 19,30,25,35; mark them in "
+            "that order");
+  EXPECT_EQ(refusal_of_cut(mesh, {35, 25, 30, 19, 22}),
+            "the boundary meets the marked vertices in the order 35,19,22,25,30, not 35,25,30,19,22; mark "
+            "them in that order");
 }
 
 TEST(Cut, MarksInsideADiskAreRefused) {
   const std::string inside = "the marked vertex 0 is inside the disk; mark a vertex on its boundary";
-  EXPECT_EQ(refusal(test::round_disk(2), {0}), inside);
-  EXPECT_EQ(refusal(test::round_disk(2), {7, 0, 9}), inside);
+  EXPECT_EQ(refusal_of_cut(test::round_disk(2), {0}), inside);
+  EXPECT_EQ(refusal_of_cut(test::round_disk(2), {7, 0, 9}), inside);
 }
 
 TEST(Cut, MarksOnTheBoundaryThatHaveToBeInsideAreRefused) {
   const std::string outside = " is on the boundary of the disk; mark a vertex inside";
-  EXPECT_EQ(refusal(test::round_disk(2), {9}, 1), "the marked vertex 9" + outside);
-  EXPECT_EQ(refusal(test::round_disk(2), {9, 0}, 1), "the marked vertex 9" + outside);
-  EXPECT_EQ(refusal(test::round_disk(2), {0, 1}, 1),
+  EXPECT_EQ(refusal_of_cut(test::round_disk(2), {9}, 1), "the marked vertex 9" + outside);
+  EXPECT_EQ(refusal_of_cut(test::round_disk(2), {9, 0}, 1), "the marked vertex 9" + outside);
+  EXPECT_EQ(refusal_of_cut(test::round_disk(2), {0, 1}, 1),
             "the marked vertex 1 is inside the disk; mark a vertex on its boundary");
 }
 
 TEST(Cut, MoreMarksInsideADiskThanOneAreRefused) {
   const std::string too_many = " are inside the disk; mark one inside, and at most one on the boundary";
-  EXPECT_EQ(refusal(test::round_disk(2), {0, 1}, 2), "2 of 2 marked vertices" + too_many);
-  EXPECT_EQ(refusal(test::round_disk(2), {0, 9, 10}, 1), "1 of 3 marked vertices" + too_many);
+  EXPECT_EQ(refusal_of_cut(test::round_disk(2), {0, 1}, 2), "2 of 2 marked vertices" + too_many);
+  EXPECT_EQ(refusal_of_cut(test::round_disk(2), {0, 9, 10}, 1), "1 of 3 marked vertices" + too_many);
 }
 
 TEST(Cut, MarksThatNoPathJoinsToTheBoundaryAreRefused) {
-  EXPECT_EQ(refusal(test::united(test::octahedron(), test::round_disk(2)), {0}, 1),
+  EXPECT_EQ(refusal_of_cut(test::united(test::octahedron(), test::round_disk(2)), {0}, 1),
             "no edge path leads from the marked vertex 0 to the boundary; mark another vertex");
 }
 
 TEST(Cut, OneMarkOrFiveOnASphereAreRefused) {
   const std::string on_a_sphere = " marked vertices on a sphere; mark two to four";
-  EXPECT_EQ(refusal(test::octahedron(), {}), "0" + on_a_sphere);
-  EXPECT_EQ(refusal(test::octahedron(), {0}), "1" + on_a_sphere);
-  EXPECT_EQ(refusal(test::octahedron(), {0, 1, 2, 3, 4}), "5" + on_a_sphere);
+  EXPECT_EQ(refusal_of_cut(test::octahedron(), {}), "0" + on_a_sphere);
+  EXPECT_EQ(refusal_of_cut(test::octahedron(), {0}), "1" + on_a_sphere);
+  EXPECT_EQ(refusal_of_cut(test::octahedron(), {0, 1, 2, 3, 4}), "5" + on_a_sphere);
 }
 
 TEST(Cut, ADiskWithoutMarksIsRefused) {
-  EXPECT_EQ(refusal(test::round_disk(1), {}),
+  EXPECT_EQ(refusal_of_cut(test::round_disk(1), {}),
             "no vertex is marked on the boundary of the disk; mark one or more");
 }
 
 TEST(Cut, MarksOnSeparateSpheresAreRefused) {
   const Mesh two = test::united(test::octahedron(), test::tetrahedron());
-  EXPECT_EQ(refusal(two, {0, 7}), "no edge path joins the marked vertices 0 and 7; mark others");
-  EXPECT_NE(refusal(two, {0, 1, 7}), "");
+  EXPECT_EQ(refusal_of_cut(two, {0, 7}), "no edge path joins the marked vertices 0 and 7; mark others");
+  EXPECT_NE(refusal_of_cut(two, {0, 1, 7}), "");
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ double difference(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
 }
 
 // The sentence with which a mesh is refused.
-std::string refusal(const Mesh& mesh, const std::string& signature, const std::vector<int>& marks) {
+std::string refusal_to_embed(const Mesh& mesh, const std::string& signature, const std::vector<int>& marks) {
   try {
     embedded(mesh, signature, marks);
   } catch (const MeshError& error) {
@@ -146,13 +146,15 @@ TEST(Embed, OppositeMarksThatAnEdgeJoinsAreRefused) {
     return AllOf(HasSubstr(std::to_string(v)), HasSubstr(std::to_string(w)));
   };
   for (const char* signature : {"22", "33", "12,12"}) {
-    EXPECT_THAT(refusal(sphere, signature, {a, b}), names_both(a, b)) << signature;
-    EXPECT_THAT(refusal(test::tetrahedron(), signature, {0, 2}), names_both(0, 2)) << signature;
+    EXPECT_THAT(refusal_to_embed(sphere, signature, {a, b}), names_both(a, b)) << signature;
+    EXPECT_THAT(refusal_to_embed(test::tetrahedron(), signature, {0, 2}), names_both(0, 2)) << signature;
   }
   const Mesh disk = test::round_disk(5), grid = test::grid_disk(5, 5);
   for (const char* signature : {"*22", "*33", "*12,12"}) {
-    EXPECT_THAT(refusal(disk, signature, {70, 71}), names_both(70, 71)) << signature;  // on the boundary
-    EXPECT_THAT(refusal(grid, signature, {4, 11}), names_both(4, 11)) << signature;    // across the inside
+    EXPECT_THAT(refusal_to_embed(disk, signature, {70, 71}), names_both(70, 71))
+        << signature;  // on the boundary
+    EXPECT_THAT(refusal_to_embed(grid, signature, {4, 11}), names_both(4, 11))
+        << signature;  // across the inside
   }
 }
 
@@ -472,18 +474,18 @@ RC_GTEST_PROP(Embed, AnyConeOfAnyProjectivePlaneIsEmbedded, (std::uint32_t seed)
 
 TEST(Embed, WrongTopologyIsNamed) {
   const Mesh sphere = test::icosphere(1), disk = test::round_disk(3);
-  EXPECT_THAT(refusal(disk, "532", {20, 25, 30}),
+  EXPECT_THAT(refusal_to_embed(disk, "532", {20, 25, 30}),
               AllOf(HasSubstr("disk"), HasSubstr("532"), HasSubstr("sphere")));
-  EXPECT_THAT(refusal(sphere, "*22", {0, 1}),
+  EXPECT_THAT(refusal_to_embed(sphere, "*22", {0, 1}),
               AllOf(HasSubstr("sphere"), HasSubstr("*22"), HasSubstr("disk")));
-  EXPECT_THAT(refusal(test::projective_plane(1), "532", {0, 1, 2}),
+  EXPECT_THAT(refusal_to_embed(test::projective_plane(1), "532", {0, 1, 2}),
               AllOf(HasSubstr("projective-plane"), HasSubstr("532"), HasSubstr("sphere")));
-  EXPECT_THAT(refusal(sphere, "3x", {0}),
+  EXPECT_THAT(refusal_to_embed(sphere, "3x", {0}),
               AllOf(HasSubstr("sphere"), HasSubstr("3x"), HasSubstr("projective-plane")));
   for (const Mesh& mesh :
        {test::torus(5, 5), test::annulus(6), test::moebius_strip(6), test::klein_bottle(5, 5),
         test::united(sphere, sphere), test::with_vertices_merged(sphere, 0, 11)}) {
-    const std::string sentence = refusal(mesh, "532", {1, 2, 3});
+    const std::string sentence = refusal_to_embed(mesh, "532", {1, 2, 3});
     EXPECT_NE(sentence, "accepted");
     EXPECT_GT(sentence.size(), 20u);
   }
@@ -491,40 +493,42 @@ TEST(Embed, WrongTopologyIsNamed) {
 
 TEST(Embed, DefectiveMeshesAreRefused) {
   const Mesh sphere = test::icosphere(1);
-  EXPECT_NE(refusal(Mesh(), "532", {0, 1, 2}), "accepted");
+  EXPECT_NE(refusal_to_embed(Mesh(), "532", {0, 1, 2}), "accepted");
   Mesh broken = sphere;
   broken.V(5, 1) = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THAT(refusal(broken, "532", {0, 1, 2}), HasSubstr("5"));
+  EXPECT_THAT(refusal_to_embed(broken, "532", {0, 1, 2}), HasSubstr("5"));
   broken = sphere;
   broken.F(7, 0) = 1000;
-  EXPECT_THAT(refusal(broken, "532", {0, 1, 2}), AllOf(HasSubstr("7"), HasSubstr("1000")));
+  EXPECT_THAT(refusal_to_embed(broken, "532", {0, 1, 2}), AllOf(HasSubstr("7"), HasSubstr("1000")));
   broken.F(7, 0) = -3;
-  EXPECT_THAT(refusal(broken, "532", {0, 1, 2}), HasSubstr("-3"));
-  EXPECT_NE(refusal(test::with_face_turned(sphere, 4), "532", {0, 1, 2}), "accepted");
+  EXPECT_THAT(refusal_to_embed(broken, "532", {0, 1, 2}), HasSubstr("-3"));
+  EXPECT_NE(refusal_to_embed(test::with_face_turned(sphere, 4), "532", {0, 1, 2}), "accepted");
 }
 
 TEST(Embed, WrongMarksAreNamed) {
   const Mesh sphere = test::icosphere(1), disk = test::round_disk(3);
-  EXPECT_THAT(refusal(sphere, "532", {0, 1}), AllOf(HasSubstr("532"), HasSubstr("3"), HasSubstr("2")));
-  EXPECT_THAT(refusal(sphere, "532", {}), HasSubstr("not 0"));
-  EXPECT_THAT(refusal(sphere, "33", {0, 1, 2}), HasSubstr("not 3"));
-  EXPECT_THAT(refusal(sphere, "532", {0, 1, 42}),
+  EXPECT_THAT(refusal_to_embed(sphere, "532", {0, 1}),
+              AllOf(HasSubstr("532"), HasSubstr("3"), HasSubstr("2")));
+  EXPECT_THAT(refusal_to_embed(sphere, "532", {}), HasSubstr("not 0"));
+  EXPECT_THAT(refusal_to_embed(sphere, "33", {0, 1, 2}), HasSubstr("not 3"));
+  EXPECT_THAT(refusal_to_embed(sphere, "532", {0, 1, 42}),
               AllOf(HasSubstr("42"), HasSubstr("out of range"), HasSubstr("41")));
-  EXPECT_THAT(refusal(sphere, "532", {0, -1, 2}), AllOf(HasSubstr("-1"), HasSubstr("out of range")));
-  EXPECT_THAT(refusal(sphere, "532", {0, 5, 5}), AllOf(HasSubstr("5"), HasSubstr("twice")));
-  EXPECT_THAT(refusal(disk, "*532", {20, 0, 30}), AllOf(HasSubstr("0"), HasSubstr("inside the disk")));
-  EXPECT_THAT(refusal(disk, "*22", {36, 37}), HasSubstr("out of range"));
+  EXPECT_THAT(refusal_to_embed(sphere, "532", {0, -1, 2}), AllOf(HasSubstr("-1"), HasSubstr("out of range")));
+  EXPECT_THAT(refusal_to_embed(sphere, "532", {0, 5, 5}), AllOf(HasSubstr("5"), HasSubstr("twice")));
+  EXPECT_THAT(refusal_to_embed(disk, "*532", {20, 0, 30}),
+              AllOf(HasSubstr("0"), HasSubstr("inside the disk")));
+  EXPECT_THAT(refusal_to_embed(disk, "*22", {36, 37}), HasSubstr("out of range"));
   const std::string outside = " is on the boundary of the disk; mark a vertex inside";
-  EXPECT_EQ(refusal(disk, "3*2", {20, 0}), "the marked vertex 20" + outside);
-  EXPECT_EQ(refusal(disk, "5*", {30}), "the marked vertex 30" + outside);
-  EXPECT_EQ(refusal(disk, "2*3", {0, 1}),
+  EXPECT_EQ(refusal_to_embed(disk, "3*2", {20, 0}), "the marked vertex 20" + outside);
+  EXPECT_EQ(refusal_to_embed(disk, "5*", {30}), "the marked vertex 30" + outside);
+  EXPECT_EQ(refusal_to_embed(disk, "2*3", {0, 1}),
             "the marked vertex 1 is inside the disk; mark a vertex on its boundary");
-  EXPECT_THAT(refusal(disk, "5*", {0, 20}), AllOf(HasSubstr("5*"), HasSubstr("not 2")));
-  EXPECT_THAT(refusal(disk, "3*2", {0, 37}), HasSubstr("out of range"));
+  EXPECT_THAT(refusal_to_embed(disk, "5*", {0, 20}), AllOf(HasSubstr("5*"), HasSubstr("not 2")));
+  EXPECT_THAT(refusal_to_embed(disk, "3*2", {0, 37}), HasSubstr("out of range"));
   Mesh spare = sphere;
   spare.V.conservativeResize(43, 3);
   spare.V.row(42).setZero();
-  EXPECT_THAT(refusal(spare, "532", {0, 1, 42}), AllOf(HasSubstr("42"), HasSubstr("no face")));
+  EXPECT_THAT(refusal_to_embed(spare, "532", {0, 1, 42}), AllOf(HasSubstr("42"), HasSubstr("no face")));
 }
 
 TEST(Embed, OptionsOutOfRangeAreRefused) {

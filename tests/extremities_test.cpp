@@ -99,6 +99,21 @@ TEST(Extremities, OfADiskAreOnItsBoundary) {
   }
 }
 
+TEST(Extremities, OfADiskStandInAnOrderInWhichItsBoundaryMeetsThem) {
+  const Mesh mesh = test::round_disk(3);  // its boundary is 19, 20, ..., 36
+  const std::vector<int> first = extremities_of(mesh, 3);
+  for (const int count : {4, 5, 8}) {
+    const std::vector<int> marks = extremities_of(mesh, count);
+    EXPECT_EQ(std::set<int>(marks.begin(), marks.end()).size(), static_cast<std::size_t>(count));
+    EXPECT_EQ(marks.front(), first.front());
+    std::vector<int> places;  // from the first, in either direction
+    for (const int v : marks) places.push_back((v - marks.front() + 18) % 18);
+    if (places[1] > places[2])
+      std::transform(places.begin() + 1, places.end(), places.begin() + 1, [](int k) { return 18 - k; });
+    EXPECT_TRUE(std::is_sorted(places.begin(), places.end())) << testing::PrintToString(marks);
+  }
+}
+
 TEST(Extremities, InsideADiskAreFarFromItsBoundary) {
   for (const Mesh& mesh : {test::grid_disk(6, 4), test::round_disk(5)}) {
     const std::vector<int> chosen = choose_extremities(test::unjudged(mesh), {1, 1});

@@ -18,7 +18,7 @@
 namespace orbitutte {
 namespace {
 
-Neighbors graph_of(const Mesh& mesh) {
+Neighbors neighbors_of(const Mesh& mesh) {
   const int n = test::vertex_count(mesh);
   return vertex_neighbors(connectivity_of(mesh.F, n).edges, n);
 }
@@ -79,12 +79,12 @@ INSTANTIATE_TEST_SUITE_P(Meshes, Dissected,
 
 TEST_P(Dissected, NothingIsPrinted) {
   testing::internal::CaptureStdout();
-  dissect(graph_of(GetParam()()));
+  dissect(neighbors_of(GetParam()()));
   EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
 }
 
 TEST_P(Dissected, OrderNamesEveryVertexOnce) {
-  std::vector<int> order = dissect(graph_of(GetParam()())).order;
+  std::vector<int> order = dissect(neighbors_of(GetParam()())).order;
   std::sort(order.begin(), order.end());
   std::vector<int> all(order.size());
   std::iota(all.begin(), all.end(), 0);
@@ -92,7 +92,7 @@ TEST_P(Dissected, OrderNamesEveryVertexOnce) {
 }
 
 TEST_P(Dissected, NodesTileTheOrderAndComeBeforeTheirParents) {
-  const Dissection dissection = dissect(graph_of(GetParam()()));
+  const Dissection dissection = dissect(neighbors_of(GetParam()()));
   int at = 0;
   for (std::size_t k = 0; k < dissection.nodes.size(); ++k) {
     const Dissection::Node& node = dissection.nodes[k];
@@ -112,7 +112,7 @@ TEST_P(Dissected, NodesTileTheOrderAndComeBeforeTheirParents) {
 }
 
 TEST_P(Dissected, EverySetSeparatesTheSubtreesBelowIt) {
-  const Neighbors graph = graph_of(GetParam()());
+  const Neighbors graph = neighbors_of(GetParam()());
   const Dissection dissection = dissect(graph);
   std::vector<int> node_of(dissection.order.size());
   for (std::size_t k = 0; k < dissection.nodes.size(); ++k)
@@ -130,7 +130,8 @@ TEST_P(Dissected, EverySetSeparatesTheSubtreesBelowIt) {
 }
 
 TEST(Dissection, SeparatorsOfASphereAreShort) {
-  const Dissection dissection = dissect(graph_of(test::icosphere(5)));  // 10242 vertices, 5 edges long, about
+  const Dissection dissection =
+      dissect(neighbors_of(test::icosphere(5)));  // 10242 vertices, 5 edges long, about
   const Dissection::Node& root = dissection.nodes.back();
   EXPECT_GT(dissection.nodes.size(), 7u);
   EXPECT_LT(root.end - root.begin, 3 * 101);
@@ -212,7 +213,7 @@ struct Structure {
 };
 
 Structure structure(const Mesh& mesh, int behind) {
-  const Neighbors graph = graph_of(mesh);
+  const Neighbors graph = neighbors_of(mesh);
   const Dissection dissection = dissect(graph);
   const int n = static_cast<int>(dissection.order.size());
   std::vector<int> place(n);

@@ -47,7 +47,7 @@ class File : public testing::Test {
 };
 
 template <class Action>
-std::string refusal(Action action) {
+std::string refusal_by(Action action) {
   try {
     action();
   } catch (const FileError& error) {
@@ -101,7 +101,7 @@ TEST_F(File, ALongNameLeavesRoomForTheTemporaryFile) {
 
 TEST_F(File, AFailedWriteLeavesTheOldFileAndNothingElse) {
   fs::create_directory(path("folder"));
-  EXPECT_THAT(refusal([&] { write_file(path("folder"), "bytes"); }), EndsWith("Is a directory"));
+  EXPECT_THAT(refusal_by([&] { write_file(path("folder"), "bytes"); }), EndsWith("Is a directory"));
   EXPECT_THAT(names(), testing::ElementsAre("folder"));
 }
 
@@ -144,7 +144,7 @@ TEST_F(File, ALinkToNothingCreatesItsTarget) {
 TEST_F(File, LinksInACircleAreRefused) {
   fs::create_symlink("b", path("a"));
   fs::create_symlink("a", path("b"));
-  EXPECT_THAT(refusal([&] { write_file(path("a"), "bytes"); }),
+  EXPECT_THAT(refusal_by([&] { write_file(path("a"), "bytes"); }),
               StartsWith(path("a") + ": cannot be written"));
   EXPECT_TRUE(fs::is_symlink(path("a")));
 }
@@ -180,22 +180,22 @@ TEST_F(File, StandardOutputIsContinuedWhereItStands) {
 
 TEST_F(File, AFullDeviceIsReported) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
-  EXPECT_EQ(refusal([] { write_file("/dev/full", "bytes"); }),
+  EXPECT_EQ(refusal_by([] { write_file("/dev/full", "bytes"); }),
             "/dev/full: cannot be written: No space left on device");
 }
 
 TEST_F(File, AMissingFileIsNamedWithTheSystemsReason) {
-  EXPECT_EQ(refusal([&] { read_file(path("none")); }),
+  EXPECT_EQ(refusal_by([&] { read_file(path("none")); }),
             path("none") + ": cannot be read: No such file or directory");
 }
 
 TEST_F(File, AFolderIsNoFileToRead) {
-  EXPECT_EQ(refusal([&] { read_file(folder_.string()); }),
+  EXPECT_EQ(refusal_by([&] { read_file(folder_.string()); }),
             folder_.string() + ": cannot be read: Is a directory");
 }
 
 TEST_F(File, AMissingFolderIsNamedWithTheSystemsReason) {
-  EXPECT_EQ(refusal([&] { write_file(path("none/file"), "bytes"); }),
+  EXPECT_EQ(refusal_by([&] { write_file(path("none/file"), "bytes"); }),
             path("none/file") + ": cannot be written: No such file or directory");
 }
 
@@ -203,8 +203,8 @@ TEST_F(File, MissingPermissionsAreRespected) {
   if (::geteuid() == 0) GTEST_SKIP() << "root may read and write everything";
   write_file(path("a"), "bytes");
   ::chmod(path("a").c_str(), 0);
-  EXPECT_EQ(refusal([&] { read_file(path("a")); }), path("a") + ": cannot be read: Permission denied");
-  EXPECT_EQ(refusal([&] { write_file(path("a"), "new"); }),
+  EXPECT_EQ(refusal_by([&] { read_file(path("a")); }), path("a") + ": cannot be read: Permission denied");
+  EXPECT_EQ(refusal_by([&] { write_file(path("a"), "new"); }),
             path("a") + ": cannot be written: Permission denied");
 }
 

@@ -23,10 +23,6 @@ namespace {
 using std::numbers::pi;
 using test::vertex_count;
 
-Connectivity connectivity_of(const Mesh& mesh) {
-  return orbitutte::connectivity_of(mesh.F, vertex_count(mesh));
-}
-
 IntrinsicTriangulation unflipped(const Mesh& mesh) { return intrinsic_triangulation(test::unjudged(mesh)); }
 
 IntrinsicTriangulation delaunay(const Mesh& mesh, const std::vector<int>& kept_faces = {}) {
@@ -96,8 +92,7 @@ void expect_sound(const IntrinsicTriangulation& T, const Mesh& mesh) {
     EXPECT_EQ(halfedge_origin(T.F, g), halfedge_target(T.F, h));
   }
   // What connects the faces anew finds the same surface.
-  const Connectivity anew = orbitutte::connectivity_of(T.F, vertex_count(mesh)),
-                     before = connectivity_of(mesh);
+  const Connectivity anew = connectivity_of(T.F, vertex_count(mesh)), before = test::edges_of(mesh);
   EXPECT_EQ(anew.edges.size(), before.edges.size());
   EXPECT_EQ(std::count(anew.opposite.begin(), anew.opposite.end(), -1),
             std::count(before.opposite.begin(), before.opposite.end(), -1));
@@ -216,7 +211,7 @@ TEST(IntrinsicDelaunay, KeptFacesStayFaces) {
 
 TEST(MollifiedLengths, AreThoseInSpaceWhereNoTriangleIsThin) {
   const Mesh mesh = test::icosphere(2);
-  const Connectivity connectivity = connectivity_of(mesh);
+  const Connectivity connectivity = test::edges_of(mesh);
   const std::vector<double> length = mollified_lengths(test::unjudged(mesh));
   const auto in_space = [&](int e) {
     const auto [i, j] = connectivity.edges[e];
@@ -300,7 +295,7 @@ TEST(MeanValueWeights, AreTheMeanOfThoseThatReproduceLinearFunctions) {
   const Mesh mesh = test::perturbed(test::grid_disk(8, 6), 0.3, 2);
   Mesh flat = mesh;
   flat.V.col(2).setZero();
-  const Connectivity connectivity = connectivity_of(flat);
+  const Connectivity connectivity = test::edges_of(flat);
   const int n = vertex_count(flat);
   const auto at = [&](int v) -> Vector3 { return flat.V.row(v); };
   const auto half_tangent = [&](int v, int a, int b) {
@@ -408,7 +403,7 @@ Mesh flat_bipyramid() {
 TEST(Cones, AtOppositePointsAreJoinedByNoEdgeOfTheTriangulation) {
   int joined_by_flips = 0;
   for (const Mesh& mesh : {bar(), flat_bipyramid()}) {
-    const Connectivity connectivity = connectivity_of(mesh);
+    const Connectivity connectivity = test::edges_of(mesh);
     const EdgeWeights weights = delaunay_weights(mesh);
     const int n = static_cast<int>(mesh.V.rows());
     for (int pair = 0; pair < n * n; ++pair) {
@@ -429,7 +424,7 @@ TEST(Cones, AtOppositePointsAreJoinedByNoEdgeOfTheTriangulation) {
 
 TEST(Cones, AtOppositePointsThatNoEdgeJoinsAreEmbeddedAndTheOthersAreNot) {
   const Mesh mesh = bar();
-  const Connectivity connectivity = connectivity_of(mesh);
+  const Connectivity connectivity = test::edges_of(mesh);
   for (int v = 0; v < 8; ++v) {
     for (int w = v + 1; w < 8; ++w) {
       for (const WeightKind kind : {WeightKind::delaunay, WeightKind::cotan}) {
@@ -686,7 +681,7 @@ TEST(IntrinsicEmbedding, AngleDistortionFallsUnderRefinement) {
     EXPECT_LT(delaunay, cotan);
     EXPECT_LT(delaunay - 1, 0.75 * (before - 1));
     before = delaunay;
-    mesh = test::subdivided(mesh);
+    mesh = subdivided(mesh);
   }
 }
 

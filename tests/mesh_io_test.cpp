@@ -32,10 +32,10 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::StartsWith;
 
-using Polygons = std::vector<std::vector<int>>;
+using CornerLists = std::vector<std::vector<int>>;
 
-Polygons faces(const PolygonMesh& mesh) {
-  Polygons result(mesh.face_count());
+CornerLists faces(const PolygonMesh& mesh) {
+  CornerLists result(mesh.face_count());
   for (int f = 0; f < mesh.face_count(); ++f) {
     result[f].assign(mesh.corners.begin() + mesh.face_start[f],
                      mesh.corners.begin() + mesh.face_start[f + 1]);
@@ -48,7 +48,7 @@ std::vector<double> coordinates(const PolygonMesh& mesh) {
 }
 
 const std::vector<double> corner_points = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
-const Polygons corner_faces = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+const CornerLists corner_faces = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
 
 /// The tetrahedron of corner_points and corner_faces.
 void expect_corner(const PolygonMesh& mesh) {
@@ -108,21 +108,21 @@ TEST(Obj, FurtherColumnsOfVerticesDoNotMoveThem) {
 TEST(Obj, CornersMayHaveTexturesAndNormals) {
   EXPECT_EQ(
       faces(obj(obj_points + "f 1/1 2/2 3/3\nf 1//1 2//2 3//3\nf 1/1/1 2/2/2 3/3/3\nf 1/ 2// 3/-1/+1\n")),
-      Polygons(4, {0, 1, 2}));
+      CornerLists(4, {0, 1, 2}));
 }
 
 TEST(Obj, NegativeIndicesCountBackFromTheLatestVertex) {
   EXPECT_EQ(faces(obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\nv 0 0 1\nf -3//-1 -2 -1\n")),
-            (Polygons{{0, 1, 2}, {1, 2, 3}}));
+            (CornerLists{{0, 1, 2}, {1, 2, 3}}));
 }
 
 TEST(Obj, FacesMayNameVerticesThatFollow) {
-  EXPECT_EQ(faces(obj("f 1 2 3\n" + obj_points)), (Polygons{{0, 1, 2}}));
+  EXPECT_EQ(faces(obj("f 1 2 3\n" + obj_points)), (CornerLists{{0, 1, 2}}));
 }
 
 TEST(Obj, PolygonsOfAnyDegreeAndIndicesOutOfRangeAreLeftToTheInspection) {
   EXPECT_EQ(faces(obj(obj_points + "f 1 2 3 4\nf 1 2\nf\nf 1 2 9\nf 2147483648 1 1\n")),
-            (Polygons{{0, 1, 2, 3}, {0, 1}, {}, {0, 1, 8}, {std::numeric_limits<int>::max(), 0, 0}}));
+            (CornerLists{{0, 1, 2, 3}, {0, 1}, {}, {0, 1, 8}, {std::numeric_limits<int>::max(), 0, 0}}));
 }
 
 TEST(Obj, NumbersAreReadInEveryNotation) {
@@ -181,7 +181,7 @@ TEST(Off, LinesMayEndInAnyWayAndTheLastNeedNot) {
 
 TEST(Off, PolygonsOfAnyDegreeAndIndicesOutOfRangeAreLeftToTheInspection) {
   EXPECT_EQ(faces(off("OFF\n4 4 0\n" + off_points + "4 0 1 2 3\n2 0 1\n0\n3 -1 9 0\n")),
-            (Polygons{{0, 1, 2, 3}, {0, 1}, {}, {-1, 9, 0}}));
+            (CornerLists{{0, 1, 2, 3}, {0, 1}, {}, {-1, 9, 0}}));
 }
 
 TEST(Off, AMeshMayBeEmpty) {
@@ -224,7 +224,7 @@ TEST(PlyMesh, OtherElementsAndPropertiesArePassedOver) {
                                "2 .5 .5 4 0 1 2 3 1\n"
                                "1e3\n");
   EXPECT_EQ(coordinates(mesh), corner_points);
-  EXPECT_EQ(faces(mesh), (Polygons{{0, 1, 2, 3}}));
+  EXPECT_EQ(faces(mesh), (CornerLists{{0, 1, 2, 3}}));
 }
 
 TEST(PlyMesh, CoordinatesMayBeIntegersAndStandInAnyOrder) {
@@ -239,20 +239,20 @@ const std::string strips = "property list int int vertex_indices\n";
 TEST(PlyMesh, EveryOtherTriangleOfAStripIsTurned) {
   EXPECT_EQ(faces(ply(ply_header("ascii", "element vertex 0\n" + xyz + "element tristrips 1\n" + strips) +
                       "6 0 1 2 3 4 5\n")),
-            (Polygons{{0, 1, 2}, {2, 1, 3}, {2, 3, 4}, {4, 3, 5}}));
+            (CornerLists{{0, 1, 2}, {2, 1, 3}, {2, 3, 4}, {4, 3, 5}}));
 }
 
 TEST(PlyMesh, MinusOneBeginsAStripAnewAndSoDoesEveryList) {
   EXPECT_EQ(faces(ply(ply_header("ascii", "element vertex 0\n" + xyz + "element tristrips 4\n" + strips) +
                       "9 0 1 2 3 -1 4 5 6 -1\n2 7 8\n0\n8 -1 -1 7 -1 6 7 8 9\n")),
-            (Polygons{{0, 1, 2}, {2, 1, 3}, {4, 5, 6}, {6, 7, 8}, {8, 7, 9}}));
+            (CornerLists{{0, 1, 2}, {2, 1, 3}, {4, 5, 6}, {6, 7, 8}, {8, 7, 9}}));
 }
 
 TEST(PlyMesh, FacesStandBeforeStrips) {
   const std::string elements = four_points + "element tristrips 1\n" + strips +
                                "element face 1\nproperty list uchar int vertex_indices\n";
   EXPECT_EQ(faces(ply(ply_header("ascii", elements) + off_points + "3 1 2 3\n3 0 1 2\n")),
-            (Polygons{{0, 1, 2}, {1, 2, 3}}));
+            (CornerLists{{0, 1, 2}, {1, 2, 3}}));
 }
 
 TEST(PlyMesh, PointsWithoutFacesAreLeftToTheInspection) {
@@ -330,7 +330,7 @@ TEST(PlyMesh, BinaryTrianglesAndQuadranglesMayBeMixed) {
                                  "element vertex 0\n" + xyz +
                                      "element face 2\nproperty list uchar int vertex_indices\n") +
                       bytes)),
-            (Polygons{{0, 1}, {0, 1, 2, 3}}));
+            (CornerLists{{0, 1}, {0, 1, 2, 3}}));
 }
 
 // STL
@@ -348,7 +348,7 @@ const std::string stl_facets = facet(o, y, x) + facet(o, x, z) + facet(x, y, z) 
 /// The corner's tetrahedron with its vertices in the order of their first use.
 void expect_welded_corner(const PolygonMesh& mesh) {
   EXPECT_EQ(coordinates(mesh), (std::vector<double>{0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1}));
-  EXPECT_EQ(faces(mesh), (Polygons{{0, 1, 2}, {0, 2, 3}, {2, 1, 3}, {1, 0, 3}}));
+  EXPECT_EQ(faces(mesh), (CornerLists{{0, 1, 2}, {0, 2, 3}, {2, 1, 3}, {1, 0, 3}}));
 }
 
 std::string binary_stl(std::string title, std::uint32_t count,
@@ -404,15 +404,15 @@ TEST(Stl, MinusZeroIsZeroAndNotANumberIsItself) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const PolygonMesh mesh =
       stl(binary_stl("", 2, {{0, 0, 0, 0, 1, -0.f, nan, 0, 0}, {nan, -0.f, 0, 1, 0, 0, -0.f, 0, 0}}));
-  EXPECT_EQ(faces(mesh), (Polygons{{0, 1, 2}, {2, 3, 0}}));
+  EXPECT_EQ(faces(mesh), (CornerLists{{0, 1, 2}, {2, 3, 0}}));
   const std::string text =
       "solid\n" + facet("-0 0 0", "0 1 0", "1 0 0") + facet("0 -0.0 0", "1 0 0", "0 0 1");
-  EXPECT_EQ(faces(stl(text + "endsolid\n")), (Polygons{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(faces(stl(text + "endsolid\n")), (CornerLists{{0, 1, 2}, {0, 2, 3}}));
 }
 
 TEST(Stl, TheSmallestDifferenceKeepsVerticesApart) {
   EXPECT_EQ(faces(stl("solid\n" + facet("1 0 0", "1.0000000000000002 0 0", "0 0 4.9e-324") + "endsolid\n")),
-            (Polygons{{0, 1, 2}}));
+            (CornerLists{{0, 1, 2}}));
 }
 
 TEST(Stl, AMeshMayBeEmpty) {
@@ -422,7 +422,7 @@ TEST(Stl, AMeshMayBeEmpty) {
 
 // Refusals
 
-std::string refusal(const std::string& bytes, MeshFormat format) {
+std::string refusal_of_mesh(const std::string& bytes, MeshFormat format) {
   try {
     parse_mesh(bytes, format);
   } catch (const MeshError& error) {
@@ -446,7 +446,7 @@ const std::string mend = "; mend the file or export it again";
 class ObjRefusal : public testing::TestWithParam<Refusal> {};
 
 TEST_P(ObjRefusal, NamesTheLineAndTheElement) {
-  EXPECT_EQ(refusal(GetParam().bytes, MeshFormat::obj), GetParam().sentence);
+  EXPECT_EQ(refusal_of_mesh(GetParam().bytes, MeshFormat::obj), GetParam().sentence);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -497,7 +497,7 @@ INSTANTIATE_TEST_SUITE_P(
 class OffRefusal : public testing::TestWithParam<Refusal> {};
 
 TEST_P(OffRefusal, NamesTheLineAndTheElement) {
-  EXPECT_EQ(refusal(GetParam().bytes, MeshFormat::off), GetParam().sentence);
+  EXPECT_EQ(refusal_of_mesh(GetParam().bytes, MeshFormat::off), GetParam().sentence);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -577,10 +577,10 @@ TEST(MeshFiles, InUtf16AreNamedWithTheRemedy) {
                                      std::pair("OFF\n4 4 6\n" + off_points + off_faces, MeshFormat::off),
                                      std::pair(std::string("ply\nformat ascii 1.0\n"), MeshFormat::ply),
                                      std::pair(std::string("solid\nendsolid\n"), MeshFormat::stl)}) {
-    EXPECT_EQ(refusal(wide(text, false), format), sentence);
-    EXPECT_EQ(refusal(wide(text, true), format), sentence);
-    EXPECT_EQ(refusal("\xFF\xFE" + wide(text, false), format), sentence);
-    EXPECT_EQ(refusal("\xFE\xFF" + wide(text, true), format), sentence);
+    EXPECT_EQ(refusal_of_mesh(wide(text, false), format), sentence);
+    EXPECT_EQ(refusal_of_mesh(wide(text, true), format), sentence);
+    EXPECT_EQ(refusal_of_mesh("\xFF\xFE" + wide(text, false), format), sentence);
+    EXPECT_EQ(refusal_of_mesh("\xFE\xFF" + wide(text, true), format), sentence);
   }
 }
 
@@ -607,7 +607,7 @@ TEST(Stl, FacetsWithTwoEqualCornersAreLeftOutWithAWarning) {
 class PlyMeshRefusal : public testing::TestWithParam<Refusal> {};
 
 TEST_P(PlyMeshRefusal, NamesTheElement) {
-  EXPECT_EQ(refusal(GetParam().bytes, MeshFormat::ply), GetParam().sentence);
+  EXPECT_EQ(refusal_of_mesh(GetParam().bytes, MeshFormat::ply), GetParam().sentence);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -658,7 +658,7 @@ INSTANTIATE_TEST_SUITE_P(
 class StlRefusal : public testing::TestWithParam<Refusal> {};
 
 TEST_P(StlRefusal, NamesTheLineOrByteAndTheElement) {
-  EXPECT_EQ(refusal(GetParam().bytes, MeshFormat::stl), GetParam().sentence);
+  EXPECT_EQ(refusal_of_mesh(GetParam().bytes, MeshFormat::stl), GetParam().sentence);
 }
 
 const std::string whole_stl = binary_stl("", 4, stl_triangles);

@@ -112,7 +112,7 @@ bool share_only_the_first(const std::array<Path, 2>& paths) {
   return std::none_of(paths[1].begin() + 1, paths[1].end(), [&](int v) { return first.count(v) > 0; });
 }
 
-Graph graph_of(const Mesh& mesh) {
+Graph graph_with_lengths(const Mesh& mesh) {
   const Connectivity connectivity = connectivity_of(mesh.F, test::vertex_count(mesh));
   return {connectivity.edges, edge_length_graph(test::unjudged(mesh))};
 }
@@ -133,7 +133,7 @@ bool has_disjoint_paths(const Graph& graph, int from) {
 
 /// The first of the vertices without them, or nothing.
 std::optional<int> without_disjoint_paths(const Mesh& mesh) {
-  const Graph graph = graph_of(mesh);
+  const Graph graph = graph_with_lengths(mesh);
   for (int from = 0; from < graph.size(); ++from)
     if (!has_disjoint_paths(graph, from)) return from;
   return {};
@@ -207,7 +207,7 @@ RC_GTEST_PROP(Paths, PassThroughNoDeadEnd, ()) {
 }
 
 TEST(Paths, TheShortestPathToItselfIsTheVertex) {
-  EXPECT_EQ(shortest_path(graph_of(test::octahedron()).graph, 3, {3}), Path{3});
+  EXPECT_EQ(shortest_path(graph_with_lengths(test::octahedron()).graph, 3, {3}), Path{3});
 }
 
 // ------------------------------------------------------------------------------------------ disjoint paths
@@ -248,7 +248,7 @@ TEST(Paths, DisjointPathsExistWhereAllFacesAreSplit) {
 }
 
 RC_GTEST_PROP(Paths, DisjointPathsExistOnEveryTriangulatedSphere, (std::uint32_t seed)) {
-  const Graph graph = graph_of(test::random_sphere(seed, static_cast<int>(seed % 13)));
+  const Graph graph = graph_with_lengths(test::random_sphere(seed, static_cast<int>(seed % 13)));
   RC_ASSERT(has_disjoint_paths(graph, static_cast<int>(seed % graph.size())));
 }
 
@@ -262,7 +262,7 @@ TEST(Paths, DisjointPathsDoNotExistThroughOneVertex) {
 }
 
 TEST(Paths, DisjointPathsAreTheSameEveryTime) {
-  const Graph graph = graph_of(test::icosphere(2));
+  const Graph graph = graph_with_lengths(test::icosphere(2));
   EXPECT_EQ(disjoint_paths(graph.graph, 0, {5, 11}), disjoint_paths(graph.graph, 0, {5, 11}));
 }
 

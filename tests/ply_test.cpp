@@ -49,7 +49,7 @@ std::string header(const std::string& format, const std::string& elements) {
   return "ply\nformat " + format + " 1.0\n" + elements + "end_header\n";
 }
 
-std::string refusal(const std::string& bytes) {
+std::string refusal_of_ply(const std::string& bytes) {
   try {
     parse_ply(bytes);
   } catch (const MeshError& error) {
@@ -177,7 +177,7 @@ void PrintTo(const Refusal& refusal, std::ostream* out) { *out << refusal.name; 
 class PlyRefusal : public testing::TestWithParam<Refusal> {};
 
 TEST_P(PlyRefusal, NamesTheLineOrByteAndTheElement) {
-  EXPECT_EQ(refusal(GetParam().bytes), GetParam().sentence);
+  EXPECT_EQ(refusal_of_ply(GetParam().bytes), GetParam().sentence);
 }
 
 const std::string mend = "; mend the file or export it again";

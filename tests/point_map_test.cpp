@@ -348,7 +348,7 @@ TEST(PointMap, PlacementMakesNoDifference) {
   }
 }
 
-std::string refusal(const Embedding& embedding, const SurfacePoints& points) {
+std::string refusal_of_points(const Embedding& embedding, const SurfacePoints& points) {
   try {
     map_points(embedding, points);
   } catch (const ArgumentError& error) {
@@ -360,18 +360,19 @@ std::string refusal(const Embedding& embedding, const SurfacePoints& points) {
 TEST(PointMap, PointsThatAreNoneAreNamed) {
   const Embedding& embedding = sample_embedding("432").embedding();
   const Points middle = Points::Constant(1, 3, 1.0 / 3);
-  EXPECT_EQ(refusal(embedding, {{0}, middle, {23}}), "accepted");
-  EXPECT_EQ(refusal(embedding, {{-1}, Points::Constant(1, 3, NAN), {-1}}), "accepted");
-  EXPECT_THAT(refusal(embedding, {{320}, middle, {}}),
+  EXPECT_EQ(refusal_of_points(embedding, {{0}, middle, {23}}), "accepted");
+  EXPECT_EQ(refusal_of_points(embedding, {{-1}, Points::Constant(1, 3, NAN), {-1}}), "accepted");
+  EXPECT_THAT(refusal_of_points(embedding, {{320}, middle, {}}),
               HasSubstr("point 0 names the triangle 320; there are 320"));
-  EXPECT_THAT(refusal(embedding, {{-2}, middle, {}}), HasSubstr("triangle -2"));
-  EXPECT_THAT(refusal(embedding, {{0}, middle, {24}}), HasSubstr("the copy 24; there are 24"));
-  EXPECT_THAT(refusal(embedding, {{0}, 2 * middle, {}}), HasSubstr("add up to 1"));
-  EXPECT_THAT(refusal(embedding, {{0}, Vector3(1.5, -0.5, 0).transpose(), {}}), HasSubstr("not negative"));
-  EXPECT_THAT(refusal(embedding, {{0, 1}, middle, {}}), HasSubstr("2 triangles, 1 rows"));
+  EXPECT_THAT(refusal_of_points(embedding, {{-2}, middle, {}}), HasSubstr("triangle -2"));
+  EXPECT_THAT(refusal_of_points(embedding, {{0}, middle, {24}}), HasSubstr("the copy 24; there are 24"));
+  EXPECT_THAT(refusal_of_points(embedding, {{0}, 2 * middle, {}}), HasSubstr("add up to 1"));
+  EXPECT_THAT(refusal_of_points(embedding, {{0}, Vector3(1.5, -0.5, 0).transpose(), {}}),
+              HasSubstr("not negative"));
+  EXPECT_THAT(refusal_of_points(embedding, {{0, 1}, middle, {}}), HasSubstr("2 triangles, 1 rows"));
   Embedding broken = embedding;
   broken.triangles(5, 1) = 100000;
-  EXPECT_THAT(refusal(broken, {{0}, middle, {}}), HasSubstr("does not exist"));
+  EXPECT_THAT(refusal_of_points(broken, {{0}, middle, {}}), HasSubstr("does not exist"));
   EXPECT_THROW(PointLocator{broken}, ArgumentError);
   broken = embedding;
   broken.target.group_order = 60;

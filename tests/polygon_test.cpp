@@ -104,7 +104,7 @@ void expect_certified(const EmbedResult& result) {
 }
 
 // The sentence with which the polygon, or the mesh with it, is refused.
-std::string refusal(const Corners& corners) {
+std::string refusal_of_corners(const Corners& corners) {
   try {
     embedded(bent_disk(), corners);
   } catch (const MeshError& error) {
@@ -253,21 +253,22 @@ TEST(Polygon, ItHasNoTiling) {
 TEST(Polygon, NonConvexPolygonsAreRefused) {
   Corners corners = regular_polygon(6, 1.0);
   corners[4].position = around_pole(0.3, 2 * pi * 4 / 6);
-  EXPECT_THAT(refusal(corners), AllOf(HasSubstr("not convex"), names(corners[4].vertex)));
+  EXPECT_THAT(refusal_of_corners(corners), AllOf(HasSubstr("not convex"), names(corners[4].vertex)));
 }
 
 TEST(Polygon, ClockwisePolygonsAreRefused) {
   Corners corners = regular_polygon(5, 1.0);
   std::reverse(corners.begin(), corners.end());
-  EXPECT_THAT(refusal(corners), AllOf(HasSubstr("clockwise"), names(corners[0].vertex)));
+  EXPECT_THAT(refusal_of_corners(corners), AllOf(HasSubstr("clockwise"), names(corners[0].vertex)));
   std::rotate(corners.begin(), corners.begin() + 3, corners.end());
-  EXPECT_THAT(refusal(corners), AllOf(HasSubstr("clockwise"), names(corners[0].vertex)));
+  EXPECT_THAT(refusal_of_corners(corners), AllOf(HasSubstr("clockwise"), names(corners[0].vertex)));
 }
 
 TEST(Polygon, PolygonsLargerThanAHemisphereAreRefused) {
   for (const double colatitude : {pi / 2 + 0.2, pi / 2 + 1e-6, pi / 2}) {
     const Corners corners = regular_polygon(5, colatitude);
-    EXPECT_THAT(refusal(corners), AllOf(HasSubstr("hemisphere"), HasSubstr("vertex"))) << colatitude;
+    EXPECT_THAT(refusal_of_corners(corners), AllOf(HasSubstr("hemisphere"), HasSubstr("vertex")))
+        << colatitude;
   }
   expect_certified(embedded(bent_disk(), regular_polygon(5, pi / 2 - 0.01)));
 }
@@ -275,46 +276,49 @@ TEST(Polygon, PolygonsLargerThanAHemisphereAreRefused) {
 TEST(Polygon, StarsThatGoAroundTwiceAreRefused) {
   Corners corners = regular_polygon(5, 0.8);
   for (int k = 0; k < 5; ++k) corners[k].position = around_pole(0.8, 4 * pi * k / 5);
-  EXPECT_THAT(refusal(corners), AllOf(HasSubstr("more than once"), HasSubstr("vertex")));
+  EXPECT_THAT(refusal_of_corners(corners), AllOf(HasSubstr("more than once"), HasSubstr("vertex")));
 }
 
 TEST(Polygon, RepeatedAndOppositeCornersAreRefused) {
   Corners corners = regular_polygon(4, 0.8);
   corners[2].vertex = corners[0].vertex;
-  EXPECT_THAT(refusal(corners), AllOf(HasSubstr("two corners"), names(corners[0].vertex)));
+  EXPECT_THAT(refusal_of_corners(corners), AllOf(HasSubstr("two corners"), names(corners[0].vertex)));
   corners = regular_polygon(4, 0.8);
   corners[2].position = corners[1].position;
-  EXPECT_THAT(refusal(corners), AllOf(HasSubstr("same point"), HasSubstr(std::to_string(corners[2].vertex))));
+  EXPECT_THAT(refusal_of_corners(corners),
+              AllOf(HasSubstr("same point"), HasSubstr(std::to_string(corners[2].vertex))));
   corners[2].position = -corners[1].position;
-  EXPECT_THAT(refusal(corners), AllOf(HasSubstr("opposite"), HasSubstr(std::to_string(corners[2].vertex))));
-  EXPECT_THAT(refusal({corners[0], corners[1]}), HasSubstr("2 corners"));
-  EXPECT_THAT(refusal({}), HasSubstr("0 corners"));
+  EXPECT_THAT(refusal_of_corners(corners),
+              AllOf(HasSubstr("opposite"), HasSubstr(std::to_string(corners[2].vertex))));
+  EXPECT_THAT(refusal_of_corners({corners[0], corners[1]}), HasSubstr("2 corners"));
+  EXPECT_THAT(refusal_of_corners({}), HasSubstr("0 corners"));
 }
 
 TEST(Polygon, CornersThatAreNotOnTheBoundaryAreRefused) {
   Corners corners = regular_polygon(4, 0.8);
   corners[1].vertex = 0;
-  EXPECT_THAT(refusal(corners), AllOf(HasSubstr("inside"), names(0)));
+  EXPECT_THAT(refusal_of_corners(corners), AllOf(HasSubstr("inside"), names(0)));
   corners[1].vertex = 5000;
-  EXPECT_THAT(refusal(corners), AllOf(HasSubstr("out of range"), names(5000)));
+  EXPECT_THAT(refusal_of_corners(corners), AllOf(HasSubstr("out of range"), names(5000)));
 }
 
 TEST(Polygon, CornersInAnotherOrderThanTheBoundaryAreRefused) {
   Corners corners = regular_polygon(5, 0.8);
   std::swap(corners[2].vertex, corners[3].vertex);
-  EXPECT_THAT(refusal(corners), AllOf(HasSubstr("boundary"), names(corners[2].vertex)));
+  EXPECT_THAT(refusal_of_corners(corners),
+              AllOf(HasSubstr("boundary"), HasSubstr(std::to_string(corners[2].vertex))));
   corners = regular_polygon(5, 0.8);
   std::vector<int> vertices = corner_vertices(polygon_target(corners));
   for (int k = 0; k < 5; ++k) corners[k].vertex = vertices[4 - k];
-  EXPECT_THAT(refusal(corners), AllOf(HasSubstr("boundary"), HasSubstr("vertex")));
+  EXPECT_THAT(refusal_of_corners(corners), AllOf(HasSubstr("boundary"), HasSubstr("vertex")));
 }
 
 TEST(Polygon, PositionsOffTheSphereAreRefused) {
   Corners corners = regular_polygon(5, 0.8);
   corners[3].position *= 1.001;
-  EXPECT_THAT(refusal(corners), AllOf(HasSubstr("unit sphere"), names(corners[3].vertex)));
+  EXPECT_THAT(refusal_of_corners(corners), AllOf(HasSubstr("unit sphere"), names(corners[3].vertex)));
   corners[3].position[0] = NAN;
-  EXPECT_THAT(refusal(corners), AllOf(HasSubstr("unit sphere"), names(corners[3].vertex)));
+  EXPECT_THAT(refusal_of_corners(corners), AllOf(HasSubstr("unit sphere"), names(corners[3].vertex)));
 }
 
 TEST(Polygon, SpheresAreRefused) {

@@ -105,7 +105,7 @@ class EveryFamilyMended : public testing::TestWithParam<std::string> {};
 
 TEST_P(EveryFamilyMended, StarsGoOnceAroundEveryVertex) {
   MinimumCase c(GetParam());
-  const PlainPositions positions(c.gluing, c.positions);
+  const MovablePositions positions(c.gluing, c.positions);
   for (int v = 0; v < static_cast<int>(c.may_move.size()); ++v) {
     if (c.of->boundary.basis_of[v] != in_space) continue;
     double angle = 0;
@@ -126,7 +126,7 @@ TEST_P(EveryFamilyMended, ALocalMinimumIsThatOfAllVertices) {
   std::vector<int> vertices = {v};
   for (const StarTriangle& at : c.stars.around(v)) vertices.push_back(at.a);
   std::sort(vertices.begin(), vertices.end());
-  PlainPositions positions(c.gluing, c.positions);
+  MovablePositions positions(c.gluing, c.positions);
   std::vector<Neighbourhood> neighbourhoods;
   for (const int u : vertices) {
     positions.move(u, Vector3(0.01, -0.02, 0.01));
@@ -145,7 +145,7 @@ TEST_P(EveryFamilyMended, ATurnedStarIsRepairedAndNothingElseMoves) {
   MinimumCase c(GetParam());
   const int v = c.vertex_inside();
   ASSERT_GE(v, 0);
-  PlainPositions positions(c.gluing, c.positions);
+  MovablePositions positions(c.gluing, c.positions);
   const StarTriangle first = c.stars.around(v).front();
   positions.move(v, 1.5 * positions.difference(v, first.a, first.element_a));
   const Points before = c.positions;

@@ -59,7 +59,7 @@ Json sample_report(const std::string& signature = "532") {
 Report read(const std::string& text) { return read_report(TemporaryFile(text).path()); }
 
 // The sentence with which a report is refused.
-std::string refusal(const std::string& text) {
+std::string refusal_of_report(const std::string& text) {
   try {
     read(text);
   } catch (const MeshError& error) {
@@ -68,10 +68,10 @@ std::string refusal(const std::string& text) {
   return "accepted";
 }
 
-std::string refusal(const std::function<void(Json&)>& plant) {
+std::string refusal_of_report(const std::function<void(Json&)>& plant) {
   Json json = sample_report();
   plant(json);
-  return refusal(json.dump());
+  return refusal_of_report(json.dump());
 }
 
 void expect_same(const std::vector<Seam>& a, const std::vector<Seam>& b) {
@@ -305,7 +305,7 @@ TEST(Verify, TheOffsetsOfAFileAreJudged) {
 }
 
 TEST(Report, AngleThatContradictsTheOrderIsRefused) {
-  EXPECT_THAT(refusal([](Json& json) { json["cones"][0]["angle"] = 1.0; }),
+  EXPECT_THAT(refusal_of_report([](Json& json) { json["cones"][0]["angle"] = 1.0; }),
               AllOf(HasSubstr("'order'"), HasSubstr("'angle'")));
 }
 
@@ -330,16 +330,16 @@ TEST(Report, AnyPathIsWrittenAsJson) {
 TEST(Report, CutShortItIsRefused) {
   const std::string text = report_json(test::sample_embedding("33").result, run);
   for (std::size_t length = 0; length + 2 < text.size(); length += 1 + text.size() / 200)
-    EXPECT_THAT(refusal(text.substr(0, length)), HasSubstr("not JSON")) << length;
+    EXPECT_THAT(refusal_of_report(text.substr(0, length)), HasSubstr("not JSON")) << length;
 }
 
 TEST(Report, WhatIsNoReportIsRefused) {
   for (const char* text :
        {"", " ", "nonsense", "ply\n", "{", "[1, 2", "{\"schema\": }", "\x00\xff", "{\"energy\": 1e999}"})
-    EXPECT_NE(refusal(text), "accepted") << text;
+    EXPECT_NE(refusal_of_report(text), "accepted") << text;
   for (const char* text : {"{}", "[]", "null", "7", "\"text\"", "true"})
-    EXPECT_THAT(refusal(text), HasSubstr("'schema'")) << text;
-  EXPECT_NE(refusal(std::string(100000, '[')), "accepted");
+    EXPECT_THAT(refusal_of_report(text), HasSubstr("'schema'")) << text;
+  EXPECT_NE(refusal_of_report(std::string(100000, '[')), "accepted");
 }
 
 TEST(Report, MissingKeysAreNamed) {
@@ -368,7 +368,7 @@ TEST(Report, MissingKeysAreNamed) {
                               "/certificate/nonpositive_faces"}) {
     const Json::json_pointer path(pointer);
     const std::string sentence =
-        refusal([&](Json& json) { json.at(path.parent_pointer()).erase(path.back()); });
+        refusal_of_report([&](Json& json) { json.at(path.parent_pointer()).erase(path.back()); });
     EXPECT_THAT(sentence, HasSubstr("'" + path.back() + "'")) << pointer;
     EXPECT_THAT(sentence, Not(HasSubstr("json.exception"))) << pointer;
     EXPECT_THAT(sentence, Not(HasSubstr("\n"))) << pointer;
@@ -411,18 +411,20 @@ TEST(Report, ValuesOfTheWrongTypeAreNamed) {
   for (const auto& [pointer, values] : faults) {
     const Json::json_pointer path(pointer);
     for (const Json& value : values) {
-      const std::string sentence = refusal([&](Json& json) { json.at(path) = value; });
+      const std::string sentence = refusal_of_report([&](Json& json) { json.at(path) = value; });
       EXPECT_THAT(sentence, HasSubstr("'" + path.back() + "'")) << pointer << " = " << value;
       EXPECT_THAT(sentence, Not(HasSubstr("json.exception"))) << pointer << " = " << value;
     }
   }
   // Elements of lists that are no objects: the first key that they ought to have is named.
-  EXPECT_THAT(refusal([](Json& json) { json["seams"][0] = 1; }), HasSubstr("'left'"));
-  EXPECT_THAT(refusal([](Json& json) { json["cones"][0] = nullptr; }), ContainsRegex("'kind'|'vertex'"));
+  EXPECT_THAT(refusal_of_report([](Json& json) { json["seams"][0] = 1; }), HasSubstr("'left'"));
+  EXPECT_THAT(refusal_of_report([](Json& json) { json["cones"][0] = nullptr; }),
+              ContainsRegex("'kind'|'vertex'"));
 }
 
 TEST(Report, BanksOfDifferentLengthsAreRefused) {
-  EXPECT_THAT(refusal([](Json& json) { json["seams"][0]["left"].push_back(0); }), HasSubstr("'left'"));
+  EXPECT_THAT(refusal_of_report([](Json& json) { json["seams"][0]["left"].push_back(0); }),
+              HasSubstr("'left'"));
 }
 
 TEST(Report, MissingFileIsAFileError) { EXPECT_THROW(read_report("/nowhere/report.json"), FileError); }

@@ -43,7 +43,7 @@ const std::string after_cross = " has orders after the cross; rotations come bef
 const std::string empty_place = " has an empty place between commas; give every order once";
 
 /// The sentence with which a text is refused; empty where it is accepted.
-std::string refusal(const std::string& text) {
+std::string refusal_of_symbol(const std::string& text) {
   try {
     parse_orbifold(text);
     return {};
@@ -53,7 +53,7 @@ std::string refusal(const std::string& text) {
 }
 
 void expect_refused(const std::vector<std::string>& texts, const std::string& reason) {
-  for (const std::string& text : texts) EXPECT_EQ(refusal(text), "'" + text + "'" + reason);
+  for (const std::string& text : texts) EXPECT_EQ(refusal_of_symbol(text), "'" + text + "'" + reason);
 }
 
 std::vector<int> orders(const Target& orbifold) {
@@ -253,7 +253,7 @@ TEST(Signature, OrdersOfOneAreRefused) {
 }
 
 TEST(Signature, TheEmptyTextIsRefused) {
-  EXPECT_EQ(refusal(""), "the signature is empty; see 'orbitutte types'");
+  EXPECT_EQ(refusal_of_symbol(""), "the signature is empty; see 'orbitutte types'");
 }
 
 TEST(Signature, AStarAloneMarksNothing) {
@@ -298,7 +298,7 @@ TEST(Signature, ALoneOrderOfTwoDigitsOrMoreNeedsNoComma) {
 }
 
 TEST(Signature, OrdersOfMixedFamiliesDoNotChangeSides) {
-  for (const char* text : {"2*", "3*2", "2*3"}) EXPECT_EQ(refusal(text), "");
+  for (const char* text : {"2*", "3*2", "2*3"}) EXPECT_EQ(refusal_of_symbol(text), "");
   expect_refused({"4*2", "3*3"}, euclidean);
   expect_refused({"*2", "*3"}, bad);
 }
@@ -344,17 +344,17 @@ TEST(Signature, AmbiguousTextsAreRefusedWithAllReadingsNamed) {
     }
     std::string named;
     for (const std::string& other : expected.others) named += " or as " + other;
-    EXPECT_EQ(refusal(expected.text), "'" + expected.text + "' could be read as " + expected.by_digits +
-                                          named + "; separate the orders by commas, as in '" +
-                                          expected.others[0] + "'");
+    EXPECT_EQ(refusal_of_symbol(expected.text),
+              "'" + expected.text + "' could be read as " + expected.by_digits + named +
+                  "; separate the orders by commas, as in '" + expected.others[0] + "'");
   }
 }
 
 TEST(Signature, EveryReadingThatIsNamedCanBeTypedAsItStands) {
   for (const Ambiguity& ambiguity : ambiguities()) {
-    EXPECT_THAT(refusal(ambiguity.by_digits), Not(HasSubstr("could be read")));
+    EXPECT_THAT(refusal_of_symbol(ambiguity.by_digits), Not(HasSubstr("could be read")));
     for (const std::string& reading : ambiguity.others) {
-      EXPECT_EQ(refusal(reading), "");
+      EXPECT_EQ(refusal_of_symbol(reading), "");
     }
   }
 }
@@ -399,7 +399,7 @@ RC_GTEST_PROP(Signature, OrdersBetweenCommasAreReadAsTheyStand, ()) {
   const bool star = *rc::gen::arbitrary<bool>();
   const std::string text = test::symbol(star, wanted, true);
   const bool accepted = spherical(wanted) || planar(wanted);
-  RC_ASSERT(refusal(text).empty() == accepted);
+  RC_ASSERT(refusal_of_symbol(text).empty() == accepted);
   if (accepted) {
     RC_ASSERT(orders(parse_orbifold(text)) == wanted);
   }
@@ -414,7 +414,7 @@ TEST(Signature, DigitsWithoutCommasAreOneOrderEach) {
       for (const char digit : digits) expected.push_back(digit - '0');
       const std::string text = (star ? "*" : "") + digits;
       const bool accepted = spherical(expected) || planar(expected);
-      ASSERT_EQ(refusal(text).empty(), accepted) << text;
+      ASSERT_EQ(refusal_of_symbol(text).empty(), accepted) << text;
       if (accepted) {
         ASSERT_EQ(orders(parse_orbifold(text)), expected);
       }
@@ -423,11 +423,11 @@ TEST(Signature, DigitsWithoutCommasAreOneOrderEach) {
 }
 
 TEST(Signature, LongTextsAreJudgedAtOnce) {
-  EXPECT_THAT(refusal("111111111111*111111111111"), HasSubstr("order of 1"));
-  EXPECT_THAT(refusal("222222222222*222222222222"), HasSubstr("hyperbolic"));
+  EXPECT_THAT(refusal_of_symbol("111111111111*111111111111"), HasSubstr("order of 1"));
+  EXPECT_THAT(refusal_of_symbol("222222222222*222222222222"), HasSubstr("hyperbolic"));
   std::string many = "2";
   for (int k = 0; k < 10000; ++k) many += ",2";
-  EXPECT_THAT(refusal(many), HasSubstr("hyperbolic"));
+  EXPECT_THAT(refusal_of_symbol(many), HasSubstr("hyperbolic"));
 }
 
 }  // namespace

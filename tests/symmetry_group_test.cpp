@@ -22,7 +22,7 @@ using hand_made::symmetry;
 using hand_made::Triangle;
 using Generators = std::vector<Isometry>;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Generators symmetries(const std::vector<Matrix3>& matrices) {
   Generators generators;

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "orbitutte/mesh/subdivision.h"
 #include "orbitutte/mesh/surface.h"
 #include "orbitutte/mesh/triangulation.h"
 
@@ -31,6 +32,7 @@ inline Mesh mesh(const std::vector<Vector3>& points, const std::vector<std::vect
 
 inline int vertex_count(const Mesh& mesh) { return static_cast<int>(mesh.V.rows()); }
 inline int face_count(const Mesh& mesh) { return static_cast<int>(mesh.F.rows()); }
+inline Connectivity edges_of(const Mesh& mesh) { return connectivity_of(mesh.F, vertex_count(mesh)); }
 
 /// The mesh as a surface that nobody has judged: for planted faults, which make_surface would refuse.
 inline Surface unjudged(const Mesh& mesh) {
@@ -84,26 +86,6 @@ inline Mesh icosahedron() {
                       {5, 7, 9}, {11, 6, 8}, {11, 8, 9}, {11, 9, 7}, {11, 7, 10}, {11, 10, 6}});
   result.V.rowwise().normalize();
   return result;
-}
-
-/// Every triangle in four by its edges' midpoints, which follow the old vertices; face f becomes 4 f .. 4 f
-/// + 3.
-inline Mesh subdivided(const Mesh& coarse) {
-  std::vector<Vector3> points;
-  for (int v = 0; v < vertex_count(coarse); ++v) points.push_back(coarse.V.row(v));
-  std::map<std::pair<int, int>, int> midpoints;
-  const auto midpoint = [&](int v, int w) {
-    const auto [at, is_new] = midpoints.try_emplace(std::minmax(v, w), static_cast<int>(points.size()));
-    if (is_new) points.push_back((points[v] + points[w]) / 2);
-    return at->second;
-  };
-  std::vector<std::vector<int>> triangles;
-  for (int f = 0; f < face_count(coarse); ++f) {
-    const int a = coarse.F(f, 0), b = coarse.F(f, 1), c = coarse.F(f, 2);
-    const int ab = midpoint(a, b), bc = midpoint(b, c), ca = midpoint(c, a);
-    triangles.insert(triangles.end(), {{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}});
-  }
-  return mesh(points, triangles);
 }
 
 inline Mesh sphere_from(Mesh solid, int levels) {

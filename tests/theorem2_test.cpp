@@ -24,10 +24,6 @@ using std::numbers::pi;
 using testing::HasSubstr;
 using Status = Theorem2::Status;
 
-Connectivity connectivity_of(const Mesh& mesh) {
-  return orbitutte::connectivity_of(mesh.F, test::vertex_count(mesh));
-}
-
 Theorem2 theorem2_of(const Mesh& mesh, const EdgeWeights& weights, const Embedding& embedding,
                      const Theorem2Options& options = {}) {
   return check_theorem2(test::unjudged(mesh), weights, embedding, options);
@@ -98,7 +94,7 @@ std::array<int, 2> undirected(int i, int j) { return {std::min(i, j), std::max(i
 
 // By source edge. On the cover an edge on a mirror has the halves of both its sides.
 std::map<std::array<int, 2>, double> cover_weights(const Mesh& mesh, const EdgeWeights& weights) {
-  const Connectivity connectivity = connectivity_of(mesh);
+  const Connectivity connectivity = test::edges_of(mesh);
   std::map<std::array<int, 2>, double> result;
   for (std::size_t e = 0; e < connectivity.edges.size(); ++e) result[connectivity.edges[e]] = weights.w[e];
   for (int h = 0; h < static_cast<int>(mesh.F.size()); ++h)
@@ -128,7 +124,7 @@ WholeCover whole_cover(const Mesh& mesh, const EdgeWeights& weights, const Embed
   std::vector<Eigen::Triplet<double>> entries;
   VectorXd diagonal = VectorXd::Zero(n), couplings = VectorXd::Zero(n);
   double energy = 0;
-  for (const auto& [i, j] : connectivity_of(tiling.mesh).edges) {
+  for (const auto& [i, j] : test::edges_of(tiling.mesh).edges) {
     const Vector3 p = tiling.mesh.V.row(i), q = tiling.mesh.V.row(j);
     const double d = std::atan2(p.cross(q).norm(), p.dot(q));
     const double w = weight_of.at(undirected(tiling.source_vertex[i], tiling.source_vertex[j]));

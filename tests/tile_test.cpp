@@ -21,7 +21,7 @@
 namespace orbitutte {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double rounding = 1e-12;
 
 struct Case {

@@ -27,10 +27,6 @@ namespace {
 
 using test::vertex_count;
 
-Connectivity connectivity_of(const Mesh& mesh) {
-  return orbitutte::connectivity_of(mesh.F, vertex_count(mesh));
-}
-
 EdgeWeights weights_of(const Mesh& mesh, const WeightOptions& options = {WeightKind::cotan}) {
   return edge_weights(test::unjudged(mesh), options);
 }
@@ -42,7 +38,7 @@ double angle_opposite(double a, double b, double c) {
 
 /// (cot a + cot b)/2 of every edge, before any clamp, from the lengths of the edges alone.
 std::vector<double> cotangents_from_lengths(const Mesh& mesh) {
-  const Connectivity connectivity = connectivity_of(mesh);
+  const Connectivity connectivity = test::edges_of(mesh);
   const auto length = [&](int h) {
     return (mesh.V.row(halfedge_origin(mesh.F, h)) - mesh.V.row(halfedge_target(mesh.F, h))).norm();
   };
@@ -106,7 +102,7 @@ TEST(Weights, OfABoundaryEdgeComeFromItsOneTriangle) {
 TEST(Weights, SumUpTheDirichletEnergyOfThePositionsToTwiceTheArea) {
   // Sum over edges of w |x_i - x_j|^2 = 2 area, where nothing is clamped.
   const Mesh mesh = test::icosphere(2);
-  const Connectivity connectivity = connectivity_of(mesh);
+  const Connectivity connectivity = test::edges_of(mesh);
   const EdgeWeights weights = weights_of(mesh);
   ASSERT_EQ(weights.clamped_edges, 0);
   double energy = 0, area = 0;
@@ -147,7 +143,7 @@ RC_GTEST_PROP(Weights, FollowTheEdgesWhenVerticesAreRelabelled, (std::uint32_t s
   const Mesh mesh = test::perturbed(test::grid_disk(4, 4), 0.3, seed);
   const std::vector<int> number = test::permutation(vertex_count(mesh), seed);
   const Mesh other = test::relabelled(mesh, number);
-  const Connectivity before = connectivity_of(mesh), after = connectivity_of(other);
+  const Connectivity before = test::edges_of(mesh), after = test::edges_of(other);
   const EdgeWeights expected = weights_of(mesh), weights = weights_of(other);
   for (std::size_t e = 0; e < before.edges.size(); ++e) {
     const auto [i, j] = before.edges[e];
@@ -162,7 +158,7 @@ RC_GTEST_PROP(Weights, FollowTheEdgesWhenVerticesAreRelabelled, (std::uint32_t s
 TEST(Weights, OfRightAnglesAreExactZerosThatAreClampedAndCounted) {
   const int columns = 5, rows = 3;
   const Mesh mesh = test::grid_disk(columns, rows);
-  const Connectivity connectivity = connectivity_of(mesh);
+  const Connectivity connectivity = test::edges_of(mesh);
   for (const double clamp : {0.01, 0.25}) {
     const EdgeWeights weights = weights_of(mesh, {WeightKind::cotan, clamp});
     EXPECT_EQ(weights.clamp, clamp);
@@ -209,7 +205,7 @@ TEST(Weights, OfTrianglesWithoutAreaAreFiniteAndPositive) {
 TEST(Weights, TrianglesWithoutAreaAddNothing) {
   const Mesh without = test::mesh({{0, 0, 0}, {1, 0, 0}, {0.4, 0.8, 0}, {0.5, 0, 0}}, {{0, 1, 2}});
   const Mesh with = test::with_face(without, 1, 0, 3);
-  const Connectivity connectivity = connectivity_of(with);
+  const Connectivity connectivity = test::edges_of(with);
   EXPECT_EQ(connectivity.edges[0], (std::array<int, 2>{0, 1}));
   EXPECT_EQ(weights_of(with).w[0], weights_of(without).w[0]);
 }
@@ -218,7 +214,7 @@ TEST(Weights, UniformOnesAreOne) {
   for (const Mesh& mesh : {test::icosphere(1), test::grid_disk(3, 2)}) {
     const EdgeWeights weights = weights_of(mesh, {WeightKind::uniform, 0.01});
     EXPECT_EQ(weights.kind, WeightKind::uniform);
-    EXPECT_EQ(weights.w.size(), static_cast<Eigen::Index>(connectivity_of(mesh).edges.size()));
+    EXPECT_EQ(weights.w.size(), static_cast<Eigen::Index>(test::edges_of(mesh).edges.size()));
     EXPECT_TRUE((weights.w.array() == 1).all());
     EXPECT_EQ(weights.clamped_edges, 0);
   }
@@ -261,15 +257,15 @@ std::string written(const std::string& text) {
 }
 
 EdgeWeights read(const std::string& text) {
-  return read_weights(written(text), connectivity_of(test::tetrahedron()));
+  return read_weights(written(text), test::edges_of(test::tetrahedron()));
 }
 
 /// The sentence with which a file is refused, less the path that it begins with; empty where the file is
 /// accepted.
-std::string refusal(const std::string& text) {
+std::string refusal_of_weights(const std::string& text) {
   const std::string path = written(text);
   try {
-    read_weights(path, connectivity_of(test::tetrahedron()));
+    read_weights(path, test::edges_of(test::tetrahedron()));
     return {};
   } catch (const MeshError& error) {
     const std::string sentence = error.what();
@@ -322,7 +318,7 @@ RC_GTEST_PROP(WeightFile, ReadsBackEveryDoubleThatWasWritten, (std::uint32_t see
   std::mt19937_64 random(seed);
   std::string text;
   std::vector<double> expected;
-  for (const auto& [i, j] : connectivity_of(test::tetrahedron()).edges) {
+  for (const auto& [i, j] : test::edges_of(test::tetrahedron()).edges) {
     expected.push_back(
         std::ldexp(static_cast<double>(random() >> 11), static_cast<int>(random() % 200) - 150));
     char number[40];
@@ -334,29 +330,33 @@ RC_GTEST_PROP(WeightFile, ReadsBackEveryDoubleThatWasWritten, (std::uint32_t see
 }
 
 TEST(WeightFile, LinesForNoEdgeAreRefused) {
-  EXPECT_EQ(refusal(six_lines + "0 4 1\n"), "line 7: the mesh has no edge (0, 4); leave it out");
-  EXPECT_EQ(refusal("# i j w\n2 2 1\n" + six_lines), "line 2: the mesh has no edge (2, 2); leave it out");
-  EXPECT_EQ(refusal("0 -1 1\n"), "line 1: the mesh has no edge (0, -1); leave it out");
+  EXPECT_EQ(refusal_of_weights(six_lines + "0 4 1\n"), "line 7: the mesh has no edge (0, 4); leave it out");
+  EXPECT_EQ(refusal_of_weights("# i j w\n2 2 1\n" + six_lines),
+            "line 2: the mesh has no edge (2, 2); leave it out");
+  EXPECT_EQ(refusal_of_weights("0 -1 1\n"), "line 1: the mesh has no edge (0, -1); leave it out");
 }
 
 TEST(WeightFile, EdgesGivenTwiceAreRefused) {
-  EXPECT_EQ(refusal(six_lines + "1 2 4\n"), "line 7: edge (1, 2) is given twice; give every edge once");
-  EXPECT_EQ(refusal(six_lines + "\n2 1 9\n"), "line 8: edge (2, 1) is given twice; give every edge once");
+  EXPECT_EQ(refusal_of_weights(six_lines + "1 2 4\n"),
+            "line 7: edge (1, 2) is given twice; give every edge once");
+  EXPECT_EQ(refusal_of_weights(six_lines + "\n2 1 9\n"),
+            "line 8: edge (2, 1) is given twice; give every edge once");
 }
 
 TEST(WeightFile, MissingEdgesAreRefused) {
-  EXPECT_EQ(refusal("0 1 1\n0 2 2\n0 3 3\n1 3 5\n2 3 6\n"),
+  EXPECT_EQ(refusal_of_weights("0 1 1\n0 2 2\n0 3 3\n1 3 5\n2 3 6\n"),
             "edge (1, 2) has no line; give every edge of the mesh once");
-  EXPECT_EQ(refusal(""), "edge (0, 1) has no line; give every edge of the mesh once");
+  EXPECT_EQ(refusal_of_weights(""), "edge (0, 1) has no line; give every edge of the mesh once");
 }
 
 TEST(WeightFile, WeightsThatAreNegativeOrNotFiniteAreRefused) {
   const std::string reason = "; weights must be finite and not negative";
-  EXPECT_EQ(refusal("0 1 -1\n"), "line 1: edge (0, 1) has the weight -1" + reason);
-  EXPECT_EQ(refusal("0 1 1\n0 2 -1e-300\n"), "line 2: edge (0, 2) has the weight -1e-300" + reason);
-  EXPECT_EQ(refusal("0 1 nan\n"), "line 1: edge (0, 1) has the weight nan" + reason);
-  EXPECT_EQ(refusal("0 1 inf\n"), "line 1: edge (0, 1) has the weight inf" + reason);
-  EXPECT_EQ(refusal("0 1 -inf\n"), "line 1: edge (0, 1) has the weight -inf" + reason);
+  EXPECT_EQ(refusal_of_weights("0 1 -1\n"), "line 1: edge (0, 1) has the weight -1" + reason);
+  EXPECT_EQ(refusal_of_weights("0 1 1\n0 2 -1e-300\n"),
+            "line 2: edge (0, 2) has the weight -1e-300" + reason);
+  EXPECT_EQ(refusal_of_weights("0 1 nan\n"), "line 1: edge (0, 1) has the weight nan" + reason);
+  EXPECT_EQ(refusal_of_weights("0 1 inf\n"), "line 1: edge (0, 1) has the weight inf" + reason);
+  EXPECT_EQ(refusal_of_weights("0 1 -inf\n"), "line 1: edge (0, 1) has the weight -inf" + reason);
 }
 
 TEST(WeightFile, LinesThatAreNotTwoVerticesAndAWeightAreRefused) {
@@ -364,17 +364,17 @@ TEST(WeightFile, LinesThatAreNotTwoVerticesAndAWeightAreRefused) {
                                  "0 1 0x1", "99999999999 1 1", "0 1 #", "v 0 1 1",
                                  "\xef\xbb\xbf"
                                  "0 1 1"}) {
-    EXPECT_EQ(refusal("# i j w\n" + line + "\n" + six_lines),
+    EXPECT_EQ(refusal_of_weights("# i j w\n" + line + "\n" + six_lines),
               "line 2 is not 'i j w' (two vertices and a weight); mend it")
         << line;
   }
 }
 
 TEST(WeightFile, ThatDoesNotExistIsAFileError) {
-  EXPECT_THROW(read_weights(testing::TempDir() + "orbitutte_no_such_weights.txt",
-                            connectivity_of(test::tetrahedron())),
-               FileError);
-  EXPECT_THROW(read_weights(testing::TempDir(), connectivity_of(test::tetrahedron())), FileError);
+  EXPECT_THROW(
+      read_weights(testing::TempDir() + "orbitutte_no_such_weights.txt", test::edges_of(test::tetrahedron())),
+      FileError);
+  EXPECT_THROW(read_weights(testing::TempDir(), test::edges_of(test::tetrahedron())), FileError);
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ families() -> list of dict              the families of orbifolds
 choose_cones(V, F, signature) -> list   well separated vertices to be marked
 verify(embedding[, V, F]) -> dict       the certificate again, from the data alone
 distortion(embedding[, V, F]) -> dict   area and angle distortion again
+distortion_floor(V, F, signature, cones="auto") -> dict    the distortion that no weights get below
 tile(embedding) -> (V, F, copy)         |G| copies, welded into one closed mesh
 sample_mesh(shape, faces) -> (V, F)     a mesh to try things with
 read_mesh(path) -> (V, F)               OBJ, OFF, PLY and STL
@@ -39,7 +40,8 @@ except ImportError as error:
                       "PYTHONPATH=build/python finds it; it belongs to the Python that it was built for") from error
 
 from ._api import (
-    Solver, Tiling, build, choose_cones, distortion, embed, families, info, keep_freed_memory, read_mesh, sample_mesh, signatures, tile, verify, write_mesh,
+    Solver, Tiling, build, choose_cones, distortion, distortion_floor, embed, families, info, keep_freed_memory, read_mesh, sample_mesh, signatures, tile, verify,
+    write_mesh,
 )
 from ._embedding import Cone, EdgeWeights, Embedding, Location, Offsets, Seam
 from ._orbitutte import __version__
@@ -47,6 +49,6 @@ from .errors import ArgumentError, Cancelled, EmbeddingWarning, Error, FileError
 
 __all__ = [
     "ArgumentError", "Cancelled", "Cone", "EdgeWeights", "Embedding", "EmbeddingWarning", "Error", "FileError",
-    "Location", "MeshError", "MeshWarning", "Offsets", "Seam", "Solver", "Tiling", "__version__", "build", "choose_cones", "distortion", "embed",
-    "families", "info", "keep_freed_memory", "read_mesh", "sample_mesh", "signatures", "tile", "verify", "write_mesh",
+    "Location", "MeshError", "MeshWarning", "Offsets", "Seam", "Solver", "Tiling", "__version__", "build", "choose_cones", "distortion",
+    "distortion_floor", "embed", "families", "info", "keep_freed_memory", "read_mesh", "sample_mesh", "signatures", "tile", "verify", "write_mesh",
 ]

@@ -165,6 +165,24 @@ def distortion(embedding: Embedding, V: npt.ArrayLike | None = None, F: Any = No
     return (core if mesh is None else core.with_mesh(mesh)).distortion()
 
 
+def distortion_floor(V: npt.ArrayLike, F: Any, signature: str, cones: Cones = "auto", *, progress: Progress | None = None, polygon: Any = None,
+                     **options: Any) -> dict[str, Any] | None:
+    """The distortion that no weights get below, because the mesh is as coarse as it is.
+
+    The vertices are where the embedding of the surface subdivided twice has them, whose faces are 16 times as many. Arguments are
+    those of `embed`; the weights do not matter.
+
+    Returns
+    -------
+    dict or None
+        As `distortion`. None if the finer map is not certified.
+    """
+    chosen = _options.options(**options)
+    target = _options.target(signature, cones, polygon, None)
+    mesh = _arrays.mesh(V, F)
+    return _orbitutte.distortion_floor(mesh, target, _options.marked_vertices(mesh, target, cones), chosen, _callable(progress))
+
+
 class Tiling(NamedTuple):
     """The whole sphere: |G| copies of an embedding, welded along its seams."""
 

@@ -12,6 +12,20 @@
 #include "orbitutte/report/verification.h"
 
 namespace orbitutte::python {
+
+py::dict to_dict(const Distortion& measured) {
+  using namespace py::literals;
+  const auto& [mean, std, median, max] = measured.area;
+  return py::dict(
+      "area"_a = py::dict("mean"_a = mean, "std"_a = std, "median"_a = median, "max"_a = max),
+      "angle"_a = py::dict("mean"_a = measured.angle.mean, "area_mean"_a = measured.angle.area_mean,
+                           "median"_a = measured.angle.median, "max"_a = measured.angle.max),
+      "sigma"_a = measured.sigma, "within_4"_a = measured.within_4, "below_64"_a = measured.below_64,
+      "histogram"_a = py::dict("quantity"_a = "log2 of the area ratio", "edges"_a = measured.histogram.edges,
+                               "counts"_a = measured.histogram.counts),
+      "measured_faces"_a = measured.measured_faces);
+}
+
 namespace {
 
 using Held = std::shared_ptr<HeldEmbedding>;
@@ -78,17 +92,7 @@ py::tuple face_distortion(const HeldEmbedding& held) {
 
 // With the keys of the report.
 py::dict distortion(const HeldEmbedding& held) {
-  using namespace py::literals;
-  const Distortion measured = measure_distortion(*held.source("distortion").surface(), held.embedding);
-  const auto& [mean, std, median, max] = measured.area;
-  return py::dict(
-      "area"_a = py::dict("mean"_a = mean, "std"_a = std, "median"_a = median, "max"_a = max),
-      "angle"_a = py::dict("mean"_a = measured.angle.mean, "area_mean"_a = measured.angle.area_mean,
-                           "median"_a = measured.angle.median, "max"_a = measured.angle.max),
-      "sigma"_a = measured.sigma, "within_4"_a = measured.within_4, "below_64"_a = measured.below_64,
-      "histogram"_a = py::dict("quantity"_a = "log2 of the area ratio", "edges"_a = measured.histogram.edges,
-                               "counts"_a = measured.histogram.counts),
-      "measured_faces"_a = measured.measured_faces);
+  return to_dict(measure_distortion(*held.source("distortion").surface(), held.embedding));
 }
 
 VerificationOptions verification_options(const HeldEmbedding& held, const std::string& weights_file,

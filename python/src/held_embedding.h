@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "bindings.h"
 #include "orbitutte/embed_types.h"
 #include "orbitutte/report/report.h"
 #include "source_mesh.h"
@@ -30,5 +31,8 @@ struct HeldEmbedding {
 
 /// Keeps everything of a result that Python may ask for.
 HeldEmbedding hold(EmbedResult result, std::shared_ptr<const SourceMesh> mesh, double total_seconds);
+
+/// As in the report.
+py::dict to_dict(const Distortion& measured);
 
 }  // namespace orbitutte::python

@@ -8,6 +8,7 @@
 
 #include "arrays.h"
 #include "held_embedding.h"
+#include "orbitutte/distortion_floor.h"
 #include "orbitutte/embed.h"
 
 namespace orbitutte::python {
@@ -115,20 +116,38 @@ class Solver {
   std::atomic<bool> busy_ = false;
 };
 
-// For one embedding: without what a solver keeps for the next.
-HeldEmbedding embed_once(const std::shared_ptr<SourceMesh>& mesh, const Target& target,
-                         const std::vector<int>& cones, EmbedOptions options, py::object listener) {
+// Runs compute(options) without the GIL, and tells the listener of its progress.
+template <typename Compute>
+auto with_listener(EmbedOptions options, py::object listener, const Compute& compute) {
   ProgressHook hook(std::move(listener));
   options.progress = [&](const Progress& progress) { return hook(progress); };
   try {
     const py::gil_scoped_release release;
-    const Clock::time_point start = Clock::now();
-    EmbedResult result = embed(*mesh->surface(), target, cones, options);
-    return hold(std::move(result), mesh, seconds_since(start));
+    return compute(options);
   } catch (const Cancelled&) {
     hook.rethrow();
     throw;
   }
+}
+
+// For one embedding: without what a solver keeps for the next.
+HeldEmbedding embed_once(const std::shared_ptr<SourceMesh>& mesh, const Target& target,
+                         const std::vector<int>& cones, const EmbedOptions& options, py::object listener) {
+  return with_listener(options, std::move(listener), [&](const EmbedOptions& heard) {
+    const Clock::time_point start = Clock::now();
+    EmbedResult result = embed(*mesh->surface(), target, cones, heard);
+    return hold(std::move(result), mesh, seconds_since(start));
+  });
+}
+
+// None if there is no floor.
+std::optional<py::dict> floor_of(const std::shared_ptr<SourceMesh>& mesh, const Target& target,
+                                 const std::vector<int>& cones, const EmbedOptions& options,
+                                 py::object listener) {
+  const std::optional<Distortion> floor = with_listener(
+      options, std::move(listener),
+      [&](const EmbedOptions& heard) { return distortion_floor(*mesh->surface(), target, cones, heard); });
+  return floor ? std::optional(to_dict(*floor)) : std::nullopt;
 }
 
 void set_weights(EmbedOptions& options, const std::string& text) {
@@ -177,6 +196,7 @@ void bind_solver(py::module_& module) {
       }))
       .def("embed", &Solver::embed);
   module.def("embed", &embed_once);
+  module.def("distortion_floor", &floor_of);
 }
 
 }  // namespace orbitutte::python

@@ -232,3 +232,12 @@ def test_pictures_are_drawn(embedding, tmp_path):
     assert header[:8] == b"\x89PNG\r\n\x1a\n" and header[16:24] == (96).to_bytes(4, "big") + (80).to_bytes(4, "big")
     with pytest.raises(orbitutte.ArgumentError, match="panel"):
         embedding.render(tmp_path / "x.png", panel="nothing")
+
+
+def test_floor_lies_below_the_map_and_does_not_depend_on_the_weights():
+    V, F = orbitutte.sample_mesh("figure", 2000)
+    embedding = orbitutte.embed(V, F, "432", "auto")
+    floor = orbitutte.distortion_floor(V, F, "432", "auto", weights="uniform")
+    assert floor["angle"]["median"] < embedding.distortion["angle"]["median"] + 0.01
+    assert floor["measured_faces"] == len(F)
+    assert floor == orbitutte.distortion_floor(V, F, "432", "auto")

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 
 #include "orbitutte/cut/cut.h"
 
@@ -78,6 +79,28 @@ class Separation {
   std::vector<char> may_be_marked_;
 };
 
+// How many vertices of the boundary come between `first` and each of them, the mesh on the left; `first` has
+// 0.
+std::vector<int> places_from(int first, const Surface& surface) {
+  std::vector<int> next(surface.vertex_count(), -1);
+  for (int h = 0; h < static_cast<int>(surface.triangles.size()); ++h)
+    if (surface.connectivity.opposite[h] < 0)
+      next[halfedge_origin(surface.triangles, h)] = halfedge_target(surface.triangles, h);
+  std::vector<int> place(surface.vertex_count(), 0);
+  for (int v = next[first], k = 1; v != first; v = next[v]) place[v] = k++;
+  return place;
+}
+
+// Brings vertices of the boundary into an order in which it meets them, from the first on, in the direction
+// that comes to the second before the third.
+void order_around(const Surface& surface, std::span<int> marks) {
+  if (marks.size() < 4) return;  // in whichever order, they go around
+  std::vector<int> place = places_from(marks[0], surface);
+  if (place[marks[1]] > place[marks[2]])
+    for (const int v : marks.subspan(1)) place[v] = -place[v];
+  std::sort(marks.begin() + 1, marks.end(), [&](int a, int b) { return place[a] < place[b]; });
+}
+
 }  // namespace
 
 std::vector<int> choose_extremities(const Surface& surface, const WantedExtremities& wanted) {
@@ -96,6 +119,7 @@ std::vector<int> choose_extremities(const Surface& surface, const WantedExtremit
   for (int k = 0; k < wanted.inner; ++k)
     add(place.inside, place.on_boundary.empty() ? std::vector<int>{place.inside.front()} : place.on_boundary);
   for (int k = 0; k < wanted.outer; ++k) add(place.on_boundary, {place.on_boundary.front()});
+  order_around(surface, std::span(result).subspan(wanted.inner));
   return result;
 }
 

@@ -19,8 +19,9 @@ struct WantedExtremities {
 };
 
 /// The inner vertices, then the outer ones: each the farthest from those before, along the edges; the first,
-/// from the boundary where it lies inside of one, otherwise from a vertex anywhere. O((inner + outer) n log
-/// n). Throws MeshError if the mesh has fewer such vertices.
+/// from the boundary where it lies inside of one, otherwise from a vertex anywhere. The outer ones stand in
+/// an order in which the boundary meets them. O((inner + outer) n log n). Throws MeshError if the mesh has
+/// fewer such vertices.
 std::vector<int> choose_extremities(const Surface& surface, const WantedExtremities& wanted);
 
 }  // namespace orbitutte

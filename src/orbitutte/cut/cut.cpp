@@ -2,6 +2,7 @@
 #include "orbitutte/cut/cut.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <unordered_map>
@@ -311,6 +312,27 @@ std::vector<int> order_met(const std::vector<int>& boundary, const std::vector<i
   return order;
 }
 
+// Do the marks go around in their order, in one direction or the other?
+bool goes_around(const std::vector<int>& arrangement) {
+  const int count = static_cast<int>(arrangement.size());
+  const auto follows = [count](int mark, int next) { return next == (mark + 1) % count; };
+  const auto precedes = [count](int mark, int next) { return mark == (next + 1) % count; };
+  const auto all = [&](const auto& related) {
+    return std::adjacent_find(arrangement.begin(), arrangement.end(),
+                              [&](int mark, int next) { return !related(mark, next); }) == arrangement.end();
+  };
+  return all(follows) || all(precedes);
+}
+
+void check_order_met(const std::vector<int>& arrangement, const std::vector<int>& marks) {
+  if (goes_around(arrangement)) return;
+  std::vector<int> met;
+  for (const int mark : arrangement) met.push_back(marks[mark]);
+  throw MeshError(
+      fmt::format("the boundary meets the marked vertices in the order {}, not {}; mark them in that order",
+                  fmt::join(met, ","), fmt::join(marks, ",")));
+}
+
 }  // namespace
 
 EdgeGraph edge_length_graph(const Surface& surface) {
@@ -352,6 +374,7 @@ CutMesh cut_to_disk(const Surface& surface, const std::vector<int>& marks, int i
   cut.marks = marks;
   if (!closed && inner_marks > 0) cut.marks.push_back(path.vertices.back());
   cut.arrangement = order_met(cut.boundary, cut.source_vertex, cut.marks);
+  if (!closed) check_order_met(cut.arrangement, cut.marks);
   return cut;
 }
 

@@ -42,8 +42,9 @@ struct CutMesh {
 /// path meets the boundary only at its end. A projective plane with one mark is cut along a one-sided loop
 /// through the mark, and its faces are turned so that those of the disk agree (see one_sided_loop).
 ///
-/// Throws MeshError if a mark is not a vertex of a face, is given twice or lies in the wrong place, or if
-/// there are too few or too many marks.
+/// Throws MeshError if a mark is not a vertex of a face, is given twice or lies in the wrong place, if there
+/// are too few or too many marks, or if a boundary meets its marks in another order than the given one, in
+/// whichever direction.
 CutMesh cut_to_disk(const Surface& surface, const std::vector<int>& marks, int inner_marks,
                     const CutOptions& options = {});
 

@@ -302,6 +302,7 @@ std::string report_json(const EmbedResult& result, const RunRecord& run) {
                {"timings", timings_json(result.timings, run)},
                {"peak_memory_bytes", run.peak_memory_bytes},
                {"environment", environment_json(result, run)}};
+  if (result.floor) json["floor"] = to_json(*result.floor);
   if (!result.moved_vertices.empty()) json["moved_vertices"] = result.moved_vertices;
   if (result.intrinsic_certificate) json["intrinsic_certificate"] = to_json(*result.intrinsic_certificate);
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -21,54 +21,49 @@ struct Gluing {
   const Elements& elements;
 };
 
-/// The positions of the input vertices. What is read are differences, which keep their digits however near
-/// two vertices are to each other.
+/// The positions of the input vertices, in doubles. What is read are differences, which keep their digits
+/// however near two vertices are to each other.
 class MovablePositions {
  public:
+  /// positions: n x 3. Both must outlive it.
+  MovablePositions(Gluing gluing, Points& positions) : gluing_(gluing), positions_(positions) {}
   virtual ~MovablePositions() = default;
+  MovablePositions(const MovablePositions&) = delete;
+  MovablePositions& operator=(const MovablePositions&) = delete;
 
   /// elements[element] * p_u - p_v.
-  virtual Vector3 difference(int v, int u, int element) const = 0;
+  virtual Vector3 difference(int v, int u, int element) const;
 
   /// The tangential part of the sum of factors[k] * (elements[e_k] * p_k - p_v) over the neighbours of v,
   /// with all digits that there are.
   virtual Vector3 pull(int v, const std::vector<Neighbour>& neighbours,
-                       const std::vector<double>& factors) const = 0;
+                       const std::vector<double>& factors) const;
 
   /// p_v in doubles.
-  virtual Vector3 rounded(int v) const = 0;
+  Vector3 rounded(int v) const { return positions_.row(v); }
 
   /// Adds a step, and takes the vertex back to its room (onto its mirror) and to the space.
-  virtual void move(int v, const Vector3& step) = 0;
+  virtual void move(int v, const Vector3& step);
 
   /// Adds a step, and nothing else.
-  virtual void shift(int v, const Vector3& step) = 0;
+  virtual void shift(int v, const Vector3& step);
 
   /// Is the face of the cut mesh positively oriented, exactly as its corners will be stored?
-  virtual bool is_positive(int face) const = 0;
+  virtual bool is_positive(int face) const;
 
   /// How many moves and shifts there were that have not been taken back.
-  virtual std::size_t moves() const = 0;
+  std::size_t moves() const { return journal_.size(); }
 
   /// Takes all but the first so many back.
-  virtual void take_back(std::size_t moves) = 0;
-};
+  virtual void take_back(std::size_t moves);
 
-/// In doubles.
-class PlainPositions final : public MovablePositions {
- public:
-  /// positions: n x 3. Both must outlive it.
-  PlainPositions(Gluing gluing, Points& positions) : gluing_(gluing), positions_(positions) {}
+ protected:
+  const Gluing& gluing() const { return gluing_; }
+  const Points& positions() const { return positions_; }
+  void set_rounded(int v, const Vector3& p) { positions_.row(v) = p; }
 
-  Vector3 difference(int v, int u, int element) const override;
-  Vector3 pull(int v, const std::vector<Neighbour>& neighbours,
-               const std::vector<double>& factors) const override;
-  Vector3 rounded(int v) const override { return positions_.row(v); }
-  void move(int v, const Vector3& step) override;
-  void shift(int v, const Vector3& step) override;
-  bool is_positive(int face) const override;
-  std::size_t moves() const override { return journal_.size(); }
-  void take_back(std::size_t moves) override;
+  /// Notes where a vertex is before it moves.
+  void remember(int v) { journal_.emplace_back(v, positions_.row(v)); }
 
  private:
   Gluing gluing_;
@@ -76,21 +71,19 @@ class PlainPositions final : public MovablePositions {
   std::vector<std::pair<int, Vector3>> journal_;  // where vertices were before their moves
 };
 
-/// Doubles, and more digits for the vertices that are refined. The map must lie in the canonical frame of its
-/// target.
+/// The same, with more digits for the vertices that are refined. The map must lie in the canonical frame of
+/// its target.
 template <typename Real>
 class PrecisePositions final : public MovablePositions {
  public:
-  PrecisePositions(Gluing gluing, const Points& positions, const Target& target);
+  PrecisePositions(Gluing gluing, Points& positions, const Target& target);
 
   Vector3 difference(int v, int u, int element) const override;
   Vector3 pull(int v, const std::vector<Neighbour>& neighbours,
                const std::vector<double>& factors) const override;
-  Vector3 rounded(int v) const override { return positions_.row(v); }
   void move(int v, const Vector3& step) override;
   void shift(int v, const Vector3& step) override;
   bool is_positive(int face) const override;
-  std::size_t moves() const override { return journal_.size(); }
   void take_back(std::size_t moves) override;
 
   /// Gives a vertex more digits where it is: where it is held, on its mirror, in its space.
@@ -104,18 +97,25 @@ class PrecisePositions final : public MovablePositions {
   using Vector = Vector3Of<Real>;
   using Matrix = Matrix3Of<Real>;
 
+  /// Where a refined vertex was before a move.
+  struct Entry {
+    std::size_t move;
+    int vertex;
+    Vector position;
+  };
+
+  bool is_refined(int v) const { return slot_[v] >= 0; }
   Vector precise(int v) const;
   Vector feasible(int v, Vector p) const;
   Vector cut_position(int cut_vertex) const;
   const Matrix& element(int k) const;
+  void remember_digits(int v);
   void store(int v, const Vector& p);
 
-  Gluing gluing_;
   PreciseGroup<Real> group_;
-  Points positions_;
   std::vector<int> slot_;  // n: an index into digits_, or -1
   std::vector<Vector> digits_;
-  std::vector<std::pair<int, Vector>> journal_;
+  std::vector<Entry> journal_;
   mutable std::vector<std::optional<Matrix>> elements_;
   std::vector<Matrix> transforms_, mirrors_;  // BoundaryConditions::transforms and mirrors
 };

@@ -121,7 +121,8 @@ template <typename Real>
 std::optional<SpreadMap> refined(const GluingProblem& problem, const Placement& placed, double finest,
                                  bool& too_coarse) {
   Site site(problem, placed);
-  PrecisePositions<Real> positions(site.gluing, placed.minimum.positions, problem.target);
+  SpreadMap result = {placed, {}, {}, {}};
+  PrecisePositions<Real> positions(site.gluing, result.placed.minimum.positions, problem.target);
   const std::vector<int> limbs = vertices_of_limbs(site, positions);
   if (limbs.empty()) return std::nullopt;
   for (const int v : limbs) positions.refine(v);
@@ -134,7 +135,7 @@ std::optional<SpreadMap> refined(const GluingProblem& problem, const Placement& 
   const std::optional<std::vector<int>> moved = finish(site, positions);
   if (!moved) return std::nullopt;
   for (const int v : limbs) shortest[v] = shortest_edge(site, positions, v);
-  SpreadMap result = {placed, {}, {}, *moved};
+  result.moved_vertices = *moved;
   result.positions = positions.spread(shortest, result.offsets);
   result.placed.minimum.positions = result.positions.topRows(placed.minimum.positions.rows());
   return result;
@@ -157,7 +158,7 @@ SpreadMap spread_map(const GluingProblem& problem, const Placement& placed) {
 std::optional<SpreadMap> with_faces_repaired(const GluingProblem& problem, const Placement& placed) {
   Placement result = placed;
   Site site(problem, placed);
-  PlainPositions positions(site.gluing, result.minimum.positions);
+  MovablePositions positions(site.gluing, result.minimum.positions);
   if (any_in_limbs(site, positions, nonpositive_faces(site, positions))) return std::nullopt;
   std::optional<std::vector<int>> moved = finish(site, positions);
   if (!moved) return std::nullopt;
@@ -173,7 +174,7 @@ std::optional<SpreadMap> with_limbs_resolved(const GluingProblem& problem, const
   const Placement there = moved(problem, frame, placed);
   Placement result = there;
   Site site(problem, there);
-  PlainPositions positions(site.gluing, result.minimum.positions);
+  MovablePositions positions(site.gluing, result.minimum.positions);
   if (!settle_limbs(site, vertices_of_limbs(site, positions), positions)) return std::nullopt;
   std::optional<std::vector<int>> moved_vertices = finish(site, positions);
   if (!moved_vertices) return std::nullopt;

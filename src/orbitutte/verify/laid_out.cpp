@@ -1,175 +1,82 @@
 // SPDX-License-Identifier: MIT
 #include "orbitutte/verify/laid_out.h"
 
-#include <array>
-#include <map>
-#include <optional>
-#include <unordered_map>
+#include <queue>
 
-#include "orbitutte/orbifold/exact_positions.h"
-#include "orbitutte/orbifold/precise_group.h"
+#include "orbitutte/verify/corner_layout.h"
 
 namespace orbitutte {
 namespace {
 
-using Pair = std::array<int, 2>;  // cut vertices, ascending
-Pair ascending(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
+using Corner = CornerLayout::Corner;
 
-// The transforms that continue the map beyond the edges of the banks.
-std::map<Pair, Isometry> continuations(const std::vector<Seam>& seams) {
-  std::map<Pair, Isometry> result;
-  for (const Seam& seam : seams) {
-    if (seam.is_mirror()) continue;
-    for (std::size_t k = 1; k < seam.left.size(); ++k) {
-      result[ascending(seam.left[k - 1], seam.left[k])] = seam.transform;
-      result[ascending(seam.right[k - 1], seam.right[k])] = seam.transform.inverse();
-    }
-  }
-  return result;
-}
-
-// Faces whose corners have positions of their own; across some half-edges the map goes on in another frame.
-class Layout {
+// The corners of a coarse triangle f: those of the fine triangles count f .. count (f + 1) - 1 that lie at
+// its vertices, all in the frame of the last of these, which lies in the middle.
+class CoarseTriangles {
  public:
-  Layout(const Surface& surface, const Embedding& embedding)
-      : F_(surface.triangles), opposite_(surface.connectivity.opposite), positions_(F_.size(), 3) {
-    std::vector<int> copy(F_.size());  // of the vertex where each half-edge begins: its cut vertex
-    for (int h = 0; h < static_cast<int>(F_.size()); ++h) {
-      for (const int v : embedding.triangles.row(h / 3))
-        if (embedding.source_vertex[v] == halfedge_origin(F_, h)) copy[h] = v;
-      positions_.row(h) = embedding.positions.row(copy[h]);
-    }
-    take_offsets(embedding, copy);
-    const std::map<Pair, Isometry> beyond = continuations(embedding.seams);
-    if (beyond.empty()) return;
-    for (int h = 0; h < static_cast<int>(F_.size()); ++h) {
-      const int g = opposite_[h];
-      if (g < 0) continue;
-      const Pair here = ascending(copy[h], copy[next_halfedge(h)]);
-      if (here != ascending(copy[g], copy[next_halfedge(g)])) beyond_[h] = beyond.at(here);
-    }
-  }
+  CoarseTriangles(const Triangles& coarse, const CornerLayout& layout)
+      : coarse_(coarse),
+        layout_(layout),
+        count_(static_cast<int>(layout.triangles().rows() / coarse.rows())) {}
 
-  // Replaces the edge of h, between (a, b, k) and (a, b, l), by the one from l to k.
-  void flip(int h) {
-    const int g = opposite_[h], bk = next_halfedge(h), ka = previous_halfedge(h);
-    const int lh = previous_halfedge(g);  // begins at l
-    const bool turned = halfedge_origin(F_, g) == halfedge_origin(F_, h);
-    const int al = turned ? lh : next_halfedge(g), lb = turned ? next_halfedge(g) : lh;
-    const Isometry into = beyond(h);
-    const Corner a = corner(h), b = corner(bk), k = corner(ka), l = moved(into, corner(lh));
-    const std::array<Side, 4> sides = {
-        Side{opposite_[ka], beyond(ka)}, Side{opposite_[al], into * beyond(al)},
-        Side{opposite_[lb], into * beyond(lb)}, Side{opposite_[bk], beyond(bk)}};
-    for (const int s : {1, 2})
-      if (sides[s].opposite >= 0) set_beyond(sides[s].opposite, beyond(sides[s].opposite) * into.inverse());
-    set_corner(h, l), set_corner(bk, k), set_corner(ka, a);
-    set_corner(g, k), set_corner(next_halfedge(g), l), set_corner(previous_halfedge(g), b);
-    set_beyond(h, {});
-    set_beyond(g, {});
-    const std::array<int, 4> places = {next_halfedge(h), previous_halfedge(h), next_halfedge(g),
-                                       previous_halfedge(g)};
-    for (int s = 0; s < 4; ++s) {
-      opposite_[places[s]] = sides[s].opposite;
-      if (sides[s].opposite >= 0) opposite_[sides[s].opposite] = places[s];
-      set_beyond(places[s], sides[s].beyond);
+  std::array<Corner, 3> corners(int f) const {
+    std::array<Corner, 3> found;
+    std::vector<char> seen(count_, 0);
+    std::queue<std::pair<int, Isometry>> open;
+    const auto enter = [&](int fine, const Isometry& into) {
+      if (fine / count_ != f || seen[fine % count_]) return;
+      seen[fine % count_] = 1;
+      open.emplace(fine, into);
+    };
+    for (enter(count_ * f + count_ - 1, {}); !open.empty(); open.pop()) {
+      const auto [fine, into] = open.front();
+      for (int h = 3 * fine; h < 3 * fine + 3; ++h) {
+        for (int k = 0; k < 3; ++k)
+          if (halfedge_origin(layout_.triangles(), h) == coarse_(f, k))
+            found[k] = layout_.moved(into, layout_.corner(h));
+        if (const int g = layout_.opposite(h); g >= 0) enter(g / 3, into * layout_.beyond(h));
+      }
     }
-  }
-
-  const Triangles& triangles() const { return F_; }
-
-  // Gives the embedding the positions of the corners.
-  void store_positions(Embedding& result) const {
-    result.positions = positions_;
-    for (const auto& [h, exact] : exact_) store(result, h, exact.position, exact.offsets);
+    return found;
   }
 
  private:
-  // A position with offsets, and how many.
-  struct ExactPosition {
-    Vector3Of<MostPrecise> position;
-    int offsets = 0;
-  };
-  struct Corner {
-    int vertex;
-    Vector3 position;
-    std::optional<ExactPosition> exact;
-  };
-  struct Side {
-    int opposite;
-    Isometry beyond;
-  };
-
-  void take_offsets(const Embedding& embedding, const std::vector<int>& copy) {
-    const ExactPositions positions(embedding);
-    if (!positions.has_offsets()) return;
-    group_.emplace(embedding.target);
-    for (int h = 0; h < static_cast<int>(F_.size()); ++h)
-      if (positions.has_offsets(copy[h]))
-        exact_[h] = {positions.exact(copy[h]), positions.offset_count(copy[h])};
-  }
-
-  Corner corner(int h) const {
-    const auto at = exact_.find(h);
-    return {F_.data()[h], positions_.row(h), at == exact_.end() ? std::nullopt : std::optional(at->second)};
-  }
-
-  Corner moved(const Isometry& into, Corner corner) const {
-    corner.position = into * corner.position;
-    if (corner.exact) corner.exact->position = group_->element(into) * corner.exact->position;
-    return corner;
-  }
-  void set_corner(int h, const Corner& corner) {
-    F_.data()[h] = corner.vertex;
-    positions_.row(h) = corner.position;
-    if (corner.exact) {
-      exact_[h] = *corner.exact;
-    } else if (!exact_.empty()) {
-      exact_.erase(h);
-    }
-  }
-
-  Isometry beyond(int h) const {
-    const auto at = beyond_.find(h);
-    return at == beyond_.end() ? Isometry() : at->second;
-  }
-  void set_beyond(int h, const Isometry& transform) {
-    if (transform.is_identity()) {
-      beyond_.erase(h);
-    } else {
-      beyond_[h] = transform;
-    }
-  }
-
-  Triangles F_;
-  std::vector<int> opposite_;
-  Points positions_;                                // of the corner where each half-edge begins
-  std::optional<PreciseGroup<MostPrecise>> group_;  // if there are offsets
-  std::map<int, ExactPosition> exact_;              // of corners that have offsets
-  std::unordered_map<int, Isometry> beyond_;  // takes the face beyond a half-edge to where its own goes on
+  const Triangles& coarse_;
+  const CornerLayout& layout_;
+  int count_;  // of the fine triangles in a coarse one
 };
+
+// Is triangle f turned over in the cut mesh, its second and third vertex exchanged?
+bool is_turned(const Surface& surface, const Embedding& embedding, int f) {
+  const auto cut = embedding.triangles.row(f);
+  const auto source = [&](int k) { return embedding.source_vertex[cut[k % 3]]; };
+  int k = 0;
+  while (source(k) != surface.triangles(f, 0)) ++k;
+  return source(k + 1) != surface.triangles(f, 1);
+}
 
 }  // namespace
 
 Embedding laid_out(const Surface& surface, const Embedding& embedding,
                    const IntrinsicTriangulation& triangulation) {
-  Layout layout(surface, embedding);
+  CornerLayout layout(surface, embedding);
   for (const Flip& flip : triangulation.flips) layout.flip(flip.h);
-  Embedding result;
-  result.target = embedding.target;
-  result.placement = embedding.placement;
-  layout.store_positions(result);
-  result.triangles.resize(surface.triangles.rows(), 3);
-  for (int h = 0; h < static_cast<int>(result.triangles.size()); ++h) result.triangles.data()[h] = h;
-  result.source_vertex.assign(layout.triangles().data(),
-                              layout.triangles().data() + layout.triangles().size());
-  result.cones = embedding.cones;
-  for (ConeCopies& cone : result.cones) {
-    cone.copies.clear();
-    for (std::size_t h = 0; h < result.source_vertex.size(); ++h)
-      if (result.source_vertex[h] == cone.vertex) cone.copies.push_back(static_cast<int>(h));
+  std::vector<Corner> corners;
+  for (int h = 0; h < static_cast<int>(surface.triangles.size()); ++h) corners.push_back(layout.corner(h));
+  return embedding_of_corners(embedding, corners);
+}
+
+Embedding sampled_on(const Triangles& coarse, const Surface& fine, const Embedding& embedding) {
+  const CornerLayout layout(fine, embedding);
+  const CoarseTriangles triangles(coarse, layout);
+  const int count = static_cast<int>(fine.triangles.rows() / coarse.rows());
+  std::vector<Corner> corners;
+  for (int f = 0; f < coarse.rows(); ++f) {
+    std::array<Corner, 3> at = triangles.corners(f);
+    if (is_turned(fine, embedding, count * (f + 1) - 1)) std::swap(at[1], at[2]);
+    corners.insert(corners.end(), at.begin(), at.end());
   }
-  return result;
+  return embedding_of_corners(embedding, corners);
 }
 
 }  // namespace orbitutte

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An embedding's images of the faces of an intrinsic triangulation.
+// An embedding's images of other triangles than its own, each laid out in one piece.
 #pragma once
 
 #include "orbitutte/mesh/intrinsic_triangulation.h"
@@ -16,5 +16,10 @@ namespace orbitutte {
 /// throws ArgumentError if a transform is no element of the target's group in its canonical frame then.
 Embedding laid_out(const Surface& surface, const Embedding& embedding,
                    const IntrinsicTriangulation& triangulation);
+
+/// The triangles of a coarse mesh as the embedding of the mesh subdivided has their vertices (subdivided,
+/// mesh/subdivision.h, any number of times), each on three positions of its own, as above.
+/// coarse: T x 3. `embedding` is of the fine surface, which is subdivided from it.
+Embedding sampled_on(const Triangles& coarse, const Surface& fine, const Embedding& embedding);
 
 }  // namespace orbitutte
