@@ -176,7 +176,7 @@ class Collapse {
       if (collapse_beyond(cut, mirror, halfedge)) end = cut.to;
     }
     for (int f = 0; f < surface().face_count(); ++f)
-      if (lies_on_the_mirror(f)) collapsing_[f] = 1;
+      if (lies_on_the_mirror(f) && !spans_the_corner(f, mirror, halfedge)) collapsing_[f] = 1;
     for (const int v : mirror) place_[v] = -1;
   }
 
@@ -236,14 +236,22 @@ class Collapse {
   // If no mark holds the part in its place. At its two ends marks hold nothing.
   bool collapse(const std::vector<int>& part, const std::array<int, 2>& ends) {
     const auto holds = [&](int v) {
-      return v != ends[0] && v != ends[1] && std::find(marks_.begin(), marks_.end(), v) != marks_.end();
+      return v != ends[0] && v != ends[1] && is_marked(v);
     };
-    for (const int f : part)
-      for (int c = surface().face_start[f]; c < surface().face_start[f + 1]; ++c)
-        if (holds(surface().origin[c])) return false;
+    if (any_vertex(part, holds)) return false;
     for (const int f : part) collapsing_[f] = 1;
     return true;
   }
+
+  template <typename Test>
+  bool any_vertex(const std::vector<int>& part, const Test& test) const {
+    for (const int f : part)
+      for (int c = surface().face_start[f]; c < surface().face_start[f + 1]; ++c)
+        if (test(surface().origin[c])) return true;
+    return false;
+  }
+
+  bool is_marked(int v) const { return std::find(marks_.begin(), marks_.end(), v) != marks_.end(); }
 
   bool meets_boundary(const std::vector<int>& part) const {
     return std::any_of(part.begin(), part.end(), [&](int f) { return boundary_edges(surface(), f) > 0; });
@@ -253,6 +261,21 @@ class Collapse {
     const auto begin = surface().origin.begin();
     return std::all_of(begin + surface().face_start[f], begin + surface().face_start[f + 1],
                        [&](int v) { return place_[v] >= 0; });
+  }
+
+  // A loop from a marked corner to itself bends there. Does the corner lie between the vertices of a face,
+  // and not with all other marks beyond it? Stretches have told of faces at the corner.
+  bool spans_the_corner(int f, const std::vector<int>& mirror, const std::vector<int>& halfedge) {
+    const int corner = mirror.front();
+    if (end_of_loop_ == 0 || !is_marked(corner)) return false;
+    int first = end_of_loop_, last = 0;
+    for (int c = surface().face_start[f]; c < surface().face_start[f + 1]; ++c) {
+      first = std::min(first, place_[surface().origin[c]]);
+      last = std::max(last, place_[surface().origin[c]]);
+    }
+    if (first == 0) return true;
+    const std::vector<int> beyond = parts_.reached(halfedge[last], {f, f}, collapsing_.size());
+    return !any_vertex(beyond, [&](int v) { return v != corner && is_marked(v); });
   }
 
   // For every place but the last, the half-edge to the next one.
