@@ -45,7 +45,14 @@ Json to_json(const Compared& compared) {
       {"energy", compared.result.minimum.energy},
       {"bijective", compared.result.certificate.bijective},
       {"area", {{"mean", d.area.mean}, {"std", d.area.std}, {"median", d.area.median}, {"max", d.area.max}}},
-      {"angle", {{"mean", d.angle.mean}, {"max", d.angle.max}}}};
+      {"angle",
+       {{"mean", d.angle.mean},
+        {"area_mean", d.angle.area_mean},
+        {"median", d.angle.median},
+        {"max", d.angle.max}}},
+      {"sigma", d.sigma},
+      {"within_4", d.within_4},
+      {"below_64", d.below_64}};
 }
 
 ComparedMap compared_map(const Surface& surface, const Compared& compared) {

@@ -68,7 +68,7 @@ struct MinimumCase {
       : of(solve_case(signature)),
         surface(test::unjudged(of->mesh)),
         energy(of->glued, of->weights, of->boundary),
-        stars(of->cut, of->boundary, elements),
+        stars(of->cut, of->boundary, {}, elements),
         may_move(of->boundary.basis_of.size()) {
     const LaplacianSolver laplacian(of->cut, of->glued, of->weights, of->boundary, {});
     LbfgsOptions options;

@@ -153,19 +153,22 @@ std::vector<WeightKind> other_weights(const Surface& surface) {
   return {WeightKind::cotan, WeightKind::mean_value, WeightKind::uniform};
 }
 
-// Were so many vertices moved that the weights are at fault, and not a few thin triangles?
+// Were so many vertices moved, or is so much of the surface sheared, that the weights are at fault, and not a
+// few thin triangles?
 bool is_suspect(const EmbedResult& result) {
-  return static_cast<int>(result.moved_vertices.size()) > result.minimum.positions.rows() / 20;
+  constexpr double sheared = 10;
+  return static_cast<int>(result.moved_vertices.size()) > result.minimum.positions.rows() / 20 ||
+         result.distortion.angle.area_mean > sheared;
 }
 
 // Is the second map so much better that it is taken in place of the first?
 bool is_better(const EmbedResult& first, const EmbedResult& second) {
   if (first.certificate.bijective != second.certificate.bijective) return second.certificate.bijective;
-  return second.distortion.angle.mean - 1 < 0.5 * (first.distortion.angle.mean - 1);
+  return second.distortion.angle.area_mean - 1 < 0.5 * (first.distortion.angle.area_mean - 1);
 }
 
-// Where no weights were asked for and the standard ones give no bijection, or one for which many vertices had
-// to be moved: the first others that give one without that, unless the first map is about as good.
+// Where no weights were asked for and the standard ones give no bijection, or one that is suspect: the first
+// others that give one that is not, unless the first map is about as good.
 EmbedResult embed_with_some_weights(const EmbedRequest& request, EmbeddingCache& cache) {
   const EmbedOptions& options = request.options;
   EmbedResult first = embed_once(request, cache);
@@ -181,7 +184,7 @@ EmbedResult embed_with_some_weights(const EmbedRequest& request, EmbeddingCache&
     first.timings.insert(first.timings.end(), next.timings.begin(), next.timings.end());
     if (!next.certificate.bijective) continue;
     const bool is_good = !is_suspect(next);
-    if (!best || is_good) best = std::move(next);
+    if (!best || is_good || is_better(*best, next)) best = std::move(next);
     if (is_good) break;
   }
   if (!best || !is_better(first, *best)) return first;

@@ -22,17 +22,15 @@ class EarSearch {
 
   void search(int s, const std::vector<int>& side, const Vector3& outward) {
     for (const int v : side) side_of_[v] = s;
-    int face = -1;
-    bool is_ear = false;
     for (std::size_t k = 1; k + 1 < side.size(); ++k) {
-      const int v = side[k];
-      if (faces_at_[v] != 1) continue;
-      if (last_face_[v] != face) {  // the tips of a face follow each other
-        face = last_face_[v];
-        is_ear =
-            std::all_of(faces_[face].begin(), faces_[face].end(), [&](int w) { return side_of_[w] == s; });
-      }
-      if (is_ear) ears.push_back({face, v, outward});
+      if (faces_at_[side[k]] != 1) continue;
+      const int face = last_face_[side[k]];
+      std::size_t end = k + 1;  // the tips of a face follow each other
+      while (end + 1 < side.size() && faces_at_[side[end]] == 1 && last_face_[side[end]] == face) ++end;
+      if (std::all_of(faces_[face].begin(), faces_[face].end(), [&](int w) { return side_of_[w] == s; }))
+        for (std::size_t tip = k; tip < end; ++tip)
+          ears.push_back({face, side[tip], {side[k - 1], side[end]}, outward});
+      k = end - 1;
     }
   }
 

@@ -2,6 +2,7 @@
 // Faces that a mirror or a held side flattens.
 #pragma once
 
+#include <array>
 #include <limits>
 #include <vector>
 
@@ -14,8 +15,12 @@ namespace orbitutte {
 /// whatever the weights.
 struct Ear {
   int face = -1;
-  int tip = -1;  ///< a vertex between two edges on the side, which belongs to no other face
-  Vector3 outward = Vector3::Zero();  ///< the side's unit normal, away from the tile
+  /// A vertex between two edges on the side, which belongs to no other face.
+  int tip = -1;
+  /// The face's vertices between which its tips lie, cut vertices.
+  std::array<int, 2> ends = {-1, -1};
+  /// The side's unit normal, away from the tile.
+  Vector3 outward = Vector3::Zero();
 };
 
 /// The tips of all such faces, side by side of the tile, and along each side. faces: those of the cut mesh.

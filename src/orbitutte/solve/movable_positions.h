@@ -42,6 +42,9 @@ class MovablePositions {
   /// p_v in doubles.
   Vector3 rounded(int v) const { return positions_.row(v); }
 
+  /// Has the vertex more digits than doubles?
+  virtual bool is_refined(int) const { return false; }
+
   /// Adds a step, and takes the vertex back to its room (onto its mirror) and to the space.
   virtual void move(int v, const Vector3& step);
 
@@ -81,6 +84,7 @@ class PrecisePositions final : public MovablePositions {
   Vector3 difference(int v, int u, int element) const override;
   Vector3 pull(int v, const std::vector<Neighbour>& neighbours,
                const std::vector<double>& factors) const override;
+  bool is_refined(int v) const override { return slot_[v] >= 0; }
   void move(int v, const Vector3& step) override;
   void shift(int v, const Vector3& step) override;
   bool is_positive(int face) const override;
@@ -104,7 +108,6 @@ class PrecisePositions final : public MovablePositions {
     Vector position;
   };
 
-  bool is_refined(int v) const { return slot_[v] >= 0; }
   Vector precise(int v) const;
   Vector feasible(int v, Vector p) const;
   Vector cut_position(int cut_vertex) const;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 
 #include "orbitutte/parallel.h"
 #include "orbitutte/solve/repair.h"
@@ -18,8 +19,8 @@ struct Site {
       : problem(the_problem),
         placed(the_placed),
         energy(glued_along(problem, placed.boundary), problem.weights, placed.boundary),
-        stars(problem.cut, placed.boundary, elements),
         ears(ears_of(problem, placed)),
+        stars(problem.cut, placed.boundary, ears, elements),
         may_move(placed.boundary.basis_of.size()) {
     for (std::size_t v = 0; v < may_move.size(); ++v)
       may_move[v] = placed.boundary.basis_of[v] != held_in_place;
@@ -30,8 +31,8 @@ struct Site {
   const Placement& placed;
   Elements elements;
   DirichletEnergy energy;
-  Stars stars;
   std::vector<Ear> ears;
+  Stars stars;
   std::vector<char> may_move;
   Gluing gluing = {problem.cut, placed.boundary, elements};
 };
@@ -65,11 +66,50 @@ bool settle_limbs(Site& site, const std::vector<int>& limbs, MovablePositions& p
   return LocalMinimum(site.gluing, positions, std::move(neighbourhoods)).settle(positions);
 }
 
-// A few units in the last place; where edges are shorter than that, a small part of them.
+// Where the tip of an ear lies between the face's ends: their differences from it, and the part of the way.
+struct BesideTip {
+  Vector3 to_first, to_second;
+
+  double part() const {
+    const double first = to_first.norm(), second = to_second.norm();
+    return first + second > 0 ? first / (first + second) : 0.5;
+  }
+};
+
+BesideTip beside_tip(Site& site, const MovablePositions& positions, const Ear& ear) {
+  const BoundaryConditions& boundary = site.placed.boundary;
+  const auto difference = [&](int end) {
+    const int element = site.elements.index(boundary.transform(ear.tip).inverse() * boundary.transform(end));
+    return positions.difference(ear.tip, site.problem.cut.source_vertex[end], element);
+  };
+  return {difference(ear.ends[0]), difference(ear.ends[1])};
+}
+
+// Takes tips along with ends of their faces that moved, to the same part of the way between them, and adds
+// them to those that moved.
+void take_along(Site& site, const std::vector<double>& parts, MovablePositions& positions,
+                std::vector<int>& moved) {
+  const std::set<int> before(moved.begin(), moved.end());
+  for (std::size_t k = 0; k < site.ears.size(); ++k) {
+    const Ear& ear = site.ears[k];
+    if (std::none_of(ear.ends.begin(), ear.ends.end(),
+                     [&](int end) { return before.contains(site.problem.cut.source_vertex[end]); }))
+      continue;
+    const auto [first, second] = beside_tip(site, positions, ear);
+    positions.move(ear.tip, first + parts[k] * (second - first));
+    moved.push_back(ear.tip);
+  }
+  std::sort(moved.begin(), moved.end());
+}
+
+// By a few units in the last place; where edges are shorter than that, or there are more digits, by a small
+// part of them, which in the latter case is below what the certificate notices.
 void round_ears(Site& site, MovablePositions& positions) {
+  constexpr double part = 1e-3, refined_part = 1e-10;
   for (const Ear& ear : site.ears) {
-    constexpr double part = 1e-3;
-    const double length = std::min(outward_rounding, part * shortest_edge(site, positions, ear.tip));
+    const double shortest = shortest_edge(site, positions, ear.tip);
+    const double length =
+        positions.is_refined(ear.tip) ? refined_part * shortest : std::min(outward_rounding, part * shortest);
     positions.shift(ear.tip, length * ear.outward);
   }
 }
@@ -86,6 +126,13 @@ std::vector<int> nonpositive_faces(const Site& site, const MovablePositions& pos
   return result;
 }
 
+// Those that are no ears, which always are between rounding errors.
+std::vector<int> turned_faces(Site& site, const MovablePositions& positions) {
+  std::vector<int> faces = nonpositive_faces(site, positions);
+  std::erase_if(faces, [&](int f) { return site.stars.leaves_out(f); });
+  return faces;
+}
+
 bool any_in_limbs(Site& site, const MovablePositions& positions, const std::vector<int>& faces) {
   const auto is_in_limb = [&](int v) { return shortest_edge(site, positions, v) < small; };
   return std::any_of(faces.begin(), faces.end(), [&](int f) {
@@ -99,15 +146,21 @@ bool may_be_repaired(const Site& site, const std::vector<int>& turned) {
   return static_cast<Eigen::Index>(turned.size()) <= 1 + site.problem.cut.F.rows() / 20;
 }
 
-// Rounds ears outward and repairs turned faces. The vertices that moved for it; nothing if faces remain.
+// Repairs turned faces, and takes ears along and rounds them outward. The vertices that moved for it; nothing
+// if faces remain.
 std::optional<std::vector<int>> finish(Site& site, MovablePositions& positions) {
-  round_ears(site, positions);
-  const std::vector<int> turned = nonpositive_faces(site, positions);
-  if (turned.empty()) return std::vector<int>();
+  const std::vector<int> turned = turned_faces(site, positions);
   if (!may_be_repaired(site, turned)) return std::nullopt;
-  std::vector<int> moved =
-      repair({site.problem.surface, site.gluing, site.stars, site.may_move}, turned, positions);
-  if (moved.empty()) return std::nullopt;
+  std::vector<int> moved;
+  if (!turned.empty()) {
+    std::vector<double> parts;
+    for (const Ear& ear : site.ears) parts.push_back(beside_tip(site, positions, ear).part());
+    moved = repair({site.problem.surface, site.gluing, site.stars, site.may_move}, turned, positions);
+    if (moved.empty()) return std::nullopt;
+    take_along(site, parts, positions, moved);
+  }
+  round_ears(site, positions);
+  if (!site.ears.empty() && !nonpositive_faces(site, positions).empty()) return std::nullopt;
   return moved;
 }
 
@@ -159,7 +212,7 @@ std::optional<SpreadMap> with_faces_repaired(const GluingProblem& problem, const
   Placement result = placed;
   Site site(problem, placed);
   MovablePositions positions(site.gluing, result.minimum.positions);
-  if (any_in_limbs(site, positions, nonpositive_faces(site, positions))) return std::nullopt;
+  if (any_in_limbs(site, positions, turned_faces(site, positions))) return std::nullopt;
   std::optional<std::vector<int>> moved = finish(site, positions);
   if (!moved) return std::nullopt;
   return spread_map(problem, std::move(result), std::move(*moved));

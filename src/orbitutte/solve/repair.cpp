@@ -15,7 +15,7 @@
 namespace orbitutte {
 namespace {
 
-constexpr int most_sweeps = 60, sweeps_per_ring = 6, smoothing_sweeps = 8, halvings = 6, most_rounds = 20;
+constexpr int most_sweeps = 60, sweeps_per_ring = 6, smoothing_sweeps = 8, halvings = 6, most_rounds = 60;
 constexpr int most_rings = 7;
 constexpr double clamp = 0.01;     // in place of weights that are not positive
 constexpr double enough = 0.3;     // of the largest margin that a star allows
@@ -168,17 +168,38 @@ class Repair {
       triangle.height = std::max(height, least);
       shape.radius = std::max({shape.radius, a.norm(), b.norm()});
     }
-    set_axes(v, p, shape);
+    set_axes(v, p, star, shape);
     return shape;
   }
 
-  void set_axes(int v, const Vector3& p, Shape& shape) const {
-    const Room& room = site_.gluing.boundary.basis(v);
-    shape.on_mirror = site_.gluing.boundary.basis_of[v] != in_space;
-    Vector3 first = Vector3::Zero();
-    for (Eigen::Index k = 0; k < room.cols(); ++k)
-      if (const Vector3 along = space_.tangent(p, room.col(k)); space_.norm(along) > space_.norm(first))
-        first = along;
+  // The direction to the neighbour with the lowest number that does not coincide with the vertex: a choice
+  // that no cut changes.
+  Vector3 direction_to_a_neighbour(const Shape& shape, const std::vector<StarTriangle>& star) const {
+    Vector3 direction = Vector3::Zero();
+    int lowest = std::numeric_limits<int>::max();
+    for (std::size_t k = 0; k < star.size(); ++k) {
+      const double size = shape.triangles[k].a.cwiseAbs().maxCoeff();
+      if (star[k].a >= lowest || !(size > 0)) continue;
+      lowest = star[k].a;
+      direction = shape.triangles[k].a / size;
+    }
+    return direction;
+  }
+
+  // The first axis points to a neighbour, or along the mirror to its side.
+  void set_axes(int v, const Vector3& p, const std::vector<StarTriangle>& star, Shape& shape) const {
+    const BoundaryConditions& boundary = site_.gluing.boundary;
+    shape.on_mirror = boundary.basis_of[v] != in_space;
+    Vector3 first = space_.tangent(p, direction_to_a_neighbour(shape, star));
+    if (shape.on_mirror) {
+      const Vector3 to_neighbour = first;
+      const Room& room = boundary.basis(v);
+      first.setZero();
+      for (Eigen::Index k = 0; k < room.cols(); ++k)
+        if (const Vector3 along = space_.tangent(p, room.col(k)); space_.norm(along) > space_.norm(first))
+          first = along;
+      if (space_.dot(first, to_neighbour) < 0) first = -first;
+    }
     first /= space_.norm(first);
     // The second makes det[p e1 e2] positive: along the cross product, made tangent.
     Vector3 second = space_.tangent(p, p.cross(first));
@@ -233,25 +254,30 @@ class Repair {
     return high;
   }
 
-  // The sum over the star of the ratios of singular values, were v moved by a tangent step; infinite unless
-  // all triangles are positive.
+  // s1/s2, were the star's vertex moved by a tangent step; infinite unless the triangle is positive then.
+  static double ratio_of_singular_values(const Shape::Triangle& triangle, const Vector3& step) {
+    const double twice_area = triangle.value + triangle.gradient.dot(step);
+    if (!(twice_area > 0)) return std::numeric_limits<double>::infinity();
+    // s1/s2 + s2/s1 from the squared lengths of both triangles (U. Pinkall, K. Polthier 1993): the
+    // Dirichlet energy of the linear map over the area of its image.
+    const double a2 = (triangle.a - step).squaredNorm(), b2 = (triangle.b - step).squaredNorm(),
+                 c2 = (triangle.b - triangle.a).squaredNorm();
+    const auto& [A2, B2, C2] = triangle.source;
+    const double area = 0.5 * triangle.height * triangle.base;  // of the source
+    // sum over edges of cot(opposite angle in the source) * squared length of the image
+    const double energy =
+        ((B2 + C2 - A2) * a2 + (A2 + C2 - B2) * b2 + (A2 + B2 - C2) * c2) / (8 * std::max(area, 1e-300));
+    const double sum = std::max(energy / (0.5 * twice_area), 2.0);
+    return 0.5 * (sum + std::sqrt(std::max(sum * sum - 4, 0.0)));
+  }
+
+  // The sum over the star, without triangles that are flat in the source, which must be positive all the
+  // same.
   static double distortion(const Shape& shape, const Vector3& step) {
     double sum = 0;
     for (const Shape::Triangle& triangle : shape.triangles) {
-      const double twice_area = triangle.value + triangle.gradient.dot(step);
-      if (!(twice_area > 0)) return std::numeric_limits<double>::infinity();
-      if (triangle.is_flat) continue;
-      // s1/s2 + s2/s1 from the squared lengths of both triangles (J. Pinkall, K. Polthier 1993): the
-      // Dirichlet energy of the linear map over the area of its image.
-      const double a2 = (triangle.a - step).squaredNorm(), b2 = (triangle.b - step).squaredNorm(),
-                   c2 = (triangle.b - triangle.a).squaredNorm();
-      const auto& [A2, B2, C2] = triangle.source;
-      const double area = 0.5 * triangle.height * triangle.base;  // of the source
-      // sum over edges of cot(opposite angle in the source) * squared length of the image
-      const double energy =
-          ((B2 + C2 - A2) * a2 + (A2 + C2 - B2) * b2 + (A2 + B2 - C2) * c2) / (8 * std::max(area, 1e-300));
-      const double ratio = std::max(energy / (0.5 * twice_area), 2.0);  // s1/s2 + s2/s1
-      sum += 0.5 * (ratio + std::sqrt(std::max(ratio * ratio - 4, 0.0)));
+      const double ratio = ratio_of_singular_values(triangle, step);
+      if (!triangle.is_flat || !std::isfinite(ratio)) sum += ratio;
     }
     return sum;
   }
@@ -263,9 +289,10 @@ class Repair {
     const double at_first = distortion(shape, Vector3::Zero());
     if (!std::isfinite(at_first)) return false;
     Eigen::Vector2d best(0, 0);
-    double least = at_first, length = 0.25 * shortest_edge(shape);
+    double least = at_first, length = 0.25 * shape.radius;
+    const double shortest = 0x1p-6 * shortest_edge(shape);
     const int directions = shape.on_mirror ? 2 : 8;
-    for (int k = 0, round = 0; k < halvings && round < most_rounds; ++round) {
+    for (int k = 0, round = 0; k < halvings && length > shortest && round < most_rounds; ++round) {
       const Eigen::Vector2d from = best;
       for (int d = 0; d < directions; ++d) {
         const double angle = 2 * std::numbers::pi * d / directions;
@@ -277,7 +304,7 @@ class Repair {
       }
       if (best == from) {
         length /= 2;
-        ++k;
+        if (least < at_first) ++k;
       }
     }
     if (!(least < 0.999 * at_first)) return false;

@@ -6,15 +6,35 @@
 #include "orbitutte/mesh/connectivity.h"
 
 namespace orbitutte {
+namespace {
 
-Stars::Stars(const CutMesh& cut, const BoundaryConditions& boundary, Elements& elements)
-    : cut_(cut), boundary_(boundary), start_(boundary.basis_of.size() + 1, 0), halfedges_(cut.F.size()) {
+// The triangles with a tip. All other vertices of their face are tips too, or its ends.
+std::vector<char> flat_triangles(const Triangles& F, int vertex_count, const std::vector<Ear>& ears) {
+  std::vector<char> is_flat(F.rows(), 0), is_tip(vertex_count, 0);
+  if (ears.empty()) return is_flat;
+  for (const Ear& ear : ears) is_tip[ear.tip] = 1;
+  for (int h = 0; h < static_cast<int>(F.size()); ++h)
+    if (const int v = halfedge_origin(F, h); v < vertex_count && is_tip[v]) is_flat[h / 3] = 1;
+  return is_flat;
+}
+
+}  // namespace
+
+Stars::Stars(const CutMesh& cut, const BoundaryConditions& boundary, const std::vector<Ear>& ears,
+             Elements& elements)
+    : cut_(cut),
+      boundary_(boundary),
+      is_flat_(flat_triangles(cut.F, static_cast<int>(boundary.basis_of.size()), ears)),
+      start_(boundary.basis_of.size() + 1, 0) {
   const int halfedges = static_cast<int>(cut.F.size());
   const auto vertex = [&](int h) { return cut.source_vertex[halfedge_origin(cut.F, h)]; };
-  for (int h = 0; h < halfedges; ++h) ++start_[vertex(h) + 1];
+  for (int h = 0; h < halfedges; ++h)
+    if (!is_flat_[h / 3]) ++start_[vertex(h) + 1];
   std::partial_sum(start_.begin(), start_.end(), start_.begin());
+  halfedges_.resize(start_.back());
   std::vector<int> fill(start_.begin(), start_.end() - 1);
-  for (int h = 0; h < halfedges; ++h) halfedges_[fill[vertex(h)]++] = h;
+  for (int h = 0; h < halfedges; ++h)
+    if (!is_flat_[h / 3]) halfedges_[fill[vertex(h)]++] = h;
   for (int h = 0; h < halfedges; ++h) {
     const int a = halfedge_origin(cut.F, h), b = halfedge_target(cut.F, h);
     for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)}) {

@@ -8,6 +8,7 @@
 
 #include "orbitutte/cut/cut.h"
 #include "orbitutte/solve/boundary_conditions.h"
+#include "orbitutte/solve/ears.h"
 #include "orbitutte/solve/elements.h"
 
 namespace orbitutte {
@@ -20,19 +21,24 @@ struct StarTriangle {
   int element_a = 0, element_b = 0;
 };
 
-/// The star of every input vertex, across all seams.
+/// The star of every input vertex, across all seams, without the faces that become arcs.
 class Stars {
  public:
-  /// Puts the elements that it needs into `elements`. All arguments must outlive it.
-  Stars(const CutMesh& cut, const BoundaryConditions& boundary, Elements& elements);
+  /// Puts the elements that it needs into `elements`. Cut mesh and boundary conditions must outlive it.
+  Stars(const CutMesh& cut, const BoundaryConditions& boundary, const std::vector<Ear>& ears,
+        Elements& elements);
 
   std::vector<StarTriangle> around(int vertex) const;
+
+  /// Does the triangle become an arc?
+  bool leaves_out(int triangle) const { return is_flat_[triangle] != 0; }
 
  private:
   int element_between(int from, int to) const;
 
   const CutMesh& cut_;
   const BoundaryConditions& boundary_;
+  std::vector<char> is_flat_;                      // those that are left out
   std::vector<int> start_, halfedges_;             // those that begin at copies of vertex v
   std::map<std::pair<int, int>, int> element_of_;  // by BoundaryConditions::transform_of of both ends
 };

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <utility>
 
 #include "orbitutte/geometry/geodesic_triangle.h"
 #include "orbitutte/parallel.h"
@@ -12,61 +14,59 @@
 namespace orbitutte {
 namespace {
 
-struct TriangleMeasures {
-  double area = 0;
-  std::array<double, 3> angle;
-};
+using Corners = std::array<Vector3, 3>;
+using Angles = std::array<double, 3>;
 
 template <int k>
-TriangleMeasures measure(Curvature<k> curvature, const std::array<Vector3, 3>& p,
-                         const std::array<Vector3, 3>& edge) {
-  TriangleMeasures result;
-  result.area = area_between(curvature, p[0], edge[0], -edge[2]);
-  for (int i = 0; i < 3; ++i) result.angle[i] = angle_between(curvature, p[i], edge[i], -edge[(i + 2) % 3]);
-  return result;
+double angle_at(Curvature<k> curvature, int i, const Corners& p, const Corners& edge) {
+  return angle_between(curvature, p[i], edge[i], -edge[(i + 2) % 3]);
+}
+
+// Those of a triangle that is positively oriented are positive, even where rounding turns a sliver over; the
+// third is what Gauss and Bonnet leave.
+template <int k>
+Angles positive_angles(Curvature<k> curvature, double area, const Corners& p, const Corners& edge) {
+  const double first = std::abs(angle_at(curvature, 0, p, edge)),
+               second = std::abs(angle_at(curvature, 1, p, edge));
+  return {first, second, std::numbers::pi + k * area - first - second};
+}
+
+template <int k>
+Angles signed_angles(Curvature<k> curvature, const Corners& p, const Corners& edge) {
+  return {angle_at(curvature, 0, p, edge), angle_at(curvature, 1, p, edge), angle_at(curvature, 2, p, edge)};
 }
 
 // The same power of two for all three, so that the products of differences of 1e-200 are no zeros.
-double scale_of(const std::array<Vector3, 3>& edge) {
+double scale_of(const Corners& edge) {
   const double longest =
       std::max({edge[0].cwiseAbs().maxCoeff(), edge[1].cwiseAbs().maxCoeff(), edge[2].cwiseAbs().maxCoeff()});
   return longest > 0 && longest < 1e-100 ? std::ldexp(1.0, std::min(-std::ilogb(longest), 1000)) : 1;
 }
 
-template <int k>
-TriangleMeasures measure_exactly(Curvature<k> curvature, const ExactPositions& positions,
-                                 const std::array<int, 3>& v) {
-  const std::array<Vector3, 3> p = {positions.rounded(v[0]), positions.rounded(v[1]),
-                                    positions.rounded(v[2])};
-  std::array<Vector3, 3> edge = positions.edges(v[0], v[1], v[2]);
-  const double scale = scale_of(edge);
-  TriangleMeasures result = measure(curvature, p, edge);
-  if (scale == 1) return result;
-  for (Vector3& e : edge) e *= scale;
-  result.angle = measure(curvature, p, edge).angle;  // of directions
-  return result;
+// The corners of a triangle and its edges, the first from corner 0 to corner 1.
+std::pair<Corners, Corners> corners_and_edges(const ExactPositions& positions, const std::array<int, 3>& v) {
+  return {{positions.rounded(v[0]), positions.rounded(v[1]), positions.rounded(v[2])},
+          positions.edges(v[0], v[1], v[2])};
 }
 
 }  // namespace
 
-TriangleSums sum_over_triangles(const Embedding& triangles, const ExactPositions& positions) {
-  const Points& X = triangles.positions;
+TriangleSums sum_over_triangles(const Embedding& triangles, const ExactPositions& positions,
+                                const std::vector<char>& positive) {
   const int m = static_cast<int>(triangles.triangles.rows());
-  std::vector<std::array<double, 3>> angles(m);
+  std::vector<Angles> angles(m);
   TriangleSums sums;
   visit_curvature(triangles.space(), [&](auto curvature) {
     sums.signed_area = parallel_sum(m, [&](int f) {
       const std::array<int, 3> v = {triangles.triangles(f, 0), triangles.triangles(f, 1),
                                     triangles.triangles(f, 2)};
-      TriangleMeasures measures;
-      if (positions.has_offsets(v[0]) || positions.has_offsets(v[1]) || positions.has_offsets(v[2])) {
-        measures = measure_exactly(curvature, positions, v);
-      } else {
-        const Vector3 a = X.row(v[0]), b = X.row(v[1]), c = X.row(v[2]);
-        measures = measure(curvature, {a, b, c}, {b - a, c - b, a - c});
-      }
-      angles[f] = measures.angle;
-      return measures.area;
+      auto [corners, edges] = corners_and_edges(positions, v);
+      const double area = area_between(curvature, corners[0], edges[0], -edges[2]);
+      if (const double scale = scale_of(edges); scale != 1)
+        for (Vector3& edge : edges) edge *= scale;  // angles are those of directions
+      angles[f] = positive[f] ? positive_angles(curvature, area, corners, edges)
+                              : signed_angles(curvature, corners, edges);
+      return area;
     });
   });
   sums.angle.assign(triangles.source_vertex.size(), 0.0);

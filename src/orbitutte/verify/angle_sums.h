@@ -23,7 +23,9 @@ struct TriangleSums {
   std::vector<double> angle;
 };
 
-TriangleSums sum_over_triangles(const Embedding& triangles, const ExactPositions& positions);
+/// positive: of every triangle, is it positively oriented? Rounding does not tell of slivers.
+TriangleSums sum_over_triangles(const Embedding& triangles, const ExactPositions& positions,
+                                const std::vector<char>& positive);
 
 /// By surface_vertex, of those marked in `is_asked`, otherwise 0: how much the rounding of positions may
 /// change the sum of the angles, 16 * sum of (rounding of the ends)/length over the edges of its corners, an

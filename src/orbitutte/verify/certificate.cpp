@@ -457,9 +457,8 @@ Check group_check(const Embedding& embedding) {
   }
 }
 
-// face_of: the input face of every triangle, where it is not the triangle itself.
-Check orientation_check(const Embedding& embedding, const ExactPositions& positions,
-                        const std::vector<int>& face_of, std::vector<int>& nonpositive) {
+// Of every triangle, exactly: is it positively oriented?
+std::vector<char> positive_triangles(const Embedding& embedding, const ExactPositions& positions) {
   std::vector<char> positive(embedding.triangles.rows());
   parallel_ranges(static_cast<int>(positive.size()), [&](int begin, int end) {
     for (int f = begin; f < end; ++f) {
@@ -467,6 +466,12 @@ Check orientation_check(const Embedding& embedding, const ExactPositions& positi
       positive[f] = positions.orientation(v[0], v[1], v[2]) > 0;
     }
   });
+  return positive;
+}
+
+// face_of: the input face of every triangle, where it is not the triangle itself.
+Check orientation_check(const std::vector<char>& positive, const std::vector<int>& face_of,
+                        std::vector<int>& nonpositive) {
   for (int f = 0; f < static_cast<int>(positive.size()); ++f)
     if (!positive[f]) nonpositive.push_back(face_of.empty() ? f : face_of[f]);
   nonpositive.erase(std::unique(nonpositive.begin(), nonpositive.end()), nonpositive.end());
@@ -574,10 +579,11 @@ void check_faces(const Judged& judged, const ExpectedAngles& expected, const std
                  Certificate& certificate) {
   const auto& [embedding, triangles, positions] = judged;
   std::vector<Check>& checks = certificate.checks;
-  checks.push_back(orientation_check(triangles, positions, face_of, certificate.nonpositive_faces));
+  const std::vector<char> positive = positive_triangles(triangles, positions);
+  checks.push_back(orientation_check(positive, face_of, certificate.nonpositive_faces));
   const Check lengths = edge_length_check(embedding, certificate.max_edge_length);
   if (std::isfinite(lengths.bound)) checks.push_back(lengths);
-  const TriangleSums sums = sum_over_triangles(triangles, positions);
+  const TriangleSums sums = sum_over_triangles(triangles, positions, positive);
   for (Check& check : angle_checks(triangles, positions, sums.angle, expected))
     checks.push_back(std::move(check));
   certificate.signed_area = sums.signed_area;
