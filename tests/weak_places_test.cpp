@@ -188,5 +188,28 @@ TEST(CollapsingFaces, EarsAndPartsBehindChordsCollapseOntoOneMirrorOnly) {
               ElementsAre(2, 3, 4));
 }
 
+// The faces at the tip of an ear, whose only face it is.
+std::vector<int> faces_at(const Mesh& mesh, const std::vector<int>& tips) {
+  std::vector<int> faces;
+  for (int f = 0; f < test::face_count(mesh); ++f)
+    for (const int v : mesh.F.row(f))
+      if (std::find(tips.begin(), tips.end(), v) != tips.end()) faces.push_back(f);
+  return faces;
+}
+
+TEST(CollapsingFaces, AMirrorThatLeadsAroundToAMarkedCornerBendsThere) {
+  const Mesh mesh = test::grid_disk(3, 3);  // 3 and 12 are tips of ears, 5 lies inside
+  const std::vector<int> around = {0, 1, 2, 3, 7, 11, 15, 14, 13, 12, 8, 4};
+  for (const int corner : around) {
+    std::vector<int> mirror = around;
+    std::rotate(mirror.begin(), std::find(mirror.begin(), mirror.end(), corner), mirror.end());
+    mirror.push_back(corner);
+    std::vector<int> tips;
+    for (const int tip : {3, 12})
+      if (tip != corner) tips.push_back(tip);
+    EXPECT_EQ(collapsing_faces(FaceView(mesh.F), {mirror}, {5, corner}), faces_at(mesh, tips)) << corner;
+  }
+}
+
 }  // namespace
 }  // namespace orbitutte

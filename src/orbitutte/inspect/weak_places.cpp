@@ -218,7 +218,12 @@ class Collapse {
       if (halfedge[k] < 0 || collapsing_[surface().face_of[halfedge[k]]]) continue;
       part = parts_.reached(halfedge[k], {cut.face, cut.face}, collapsing_.size());
       if (collapse(part, ends)) continue;
-      if (mirror.front() == mirror.back()) collapse(all_but(part), ends);
+      if (mirror.front() == mirror.back()) {
+        part.push_back(cut.face);  // where it has vertices inside, it is no arc
+        std::vector<int> rest = all_but(part);
+        if (lies_on_the_mirror(cut.face)) rest.push_back(cut.face);
+        collapse(rest, ends);
+      }
       return false;
     }
     return true;
