@@ -811,7 +811,8 @@ TEST(MeshFormat, OtherEndingsAreRefused) {
       mesh_format(path);
       FAIL() << "no ArgumentError for " << path;
     } catch (const ArgumentError& error) {
-      EXPECT_EQ(error.what(), path + ": the ending names no known mesh format; use .obj, .off, .ply or .stl");
+      EXPECT_EQ(error.what(),
+                path + ": the ending names no known mesh format; use one of .obj, .off, .ply, .stl");
     }
   }
 }

@@ -62,7 +62,8 @@ class FaceView {
 
  private:
   const int* corners_;
-  const int* start_ = nullptr;  // of polygons only
+  /// Of polygons only.
+  const int* start_ = nullptr;
   int count_;
 };
 

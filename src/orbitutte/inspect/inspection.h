@@ -89,9 +89,10 @@ struct Inspection {
   /// Of the referenced vertices, edges and faces; 0 if a face is not well-formed.
   int euler_characteristic = 0;
 
-  /// Of an orientable surface in one piece after its holes are closed; otherwise 0.
   // What is known of surfaces only. If an edge or a vertex is not manifold or a face is not well-formed, the
   // values stay as they are here.
+
+  /// Of an orientable surface in one piece after its holes are closed; otherwise 0.
   int genus = 0;
   bool orientable = true;
   /// Boundary curves as loops of vertices along the faces' half-edges. Each begins at its smallest vertex;
@@ -103,9 +104,10 @@ struct Inspection {
   /// sentence that says so, and what to do if a sphere is meant. Otherwise empty.
   std::string welding_advice;
 
-  /// Faces with no area but rounding errors. They are allowed unless all are like that.
   // Quality of the faces; faces without area are left out. All zero if a coordinate is not finite or out of
   // range. The area of a polygon is that of its vector, half the sum of its corners' cross products.
+
+  /// Faces with no area but rounding errors. They are allowed unless all are like that.
   int zero_area_faces = 0;
   double area = 0;
   /// Of a face at a corner: radians.

@@ -16,11 +16,14 @@ enum class FaceState : unsigned char { well_formed, malformed, duplicate };
 // The polygons with their half-edges: half-edge h runs from corner h to the next corner of the same face.
 struct InspectedMesh {
   const PolygonMesh& mesh;
-  std::vector<int> face_of;      // of every corner
-  std::vector<FaceState> state;  // of every face
-  std::vector<char> has_double;  // of every face: another one has the same vertices
-  Groups edges;  // half-edges of well-formed faces by undirected edge, in lexicographic order of (lower,
-                 // upper) vertex
+  /// Of every corner.
+  std::vector<int> face_of;
+  /// Of every face.
+  std::vector<FaceState> state;
+  /// Of every face: another one has the same vertices.
+  std::vector<char> has_double;
+  /// Half-edges of well-formed faces by undirected edge, in lexicographic order of (lower, upper) vertex.
+  Groups edges;
 
   explicit InspectedMesh(const PolygonMesh& polygons)
       : mesh(polygons),

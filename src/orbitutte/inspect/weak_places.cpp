@@ -209,8 +209,8 @@ class Collapse {
   }
 
  private:
-  // The part that a stretch of a mirror cuts off. If a mark holds it, and the mirror is all of the boundary,
-  // it is the rest that collapses. Did the part?
+  // Collapses the part that a stretch of a mirror cuts off. If a mark holds it, and the mirror is all of the
+  // boundary, the rest collapses instead. Returns whether the part collapsed.
   bool collapse_beyond(const CutOff& cut, const std::vector<int>& mirror, const std::vector<int>& halfedge) {
     const std::array<int, 2> ends = {mirror[cut.from], mirror[cut.to]};
     std::vector<int> part;
@@ -240,9 +240,7 @@ class Collapse {
 
   // If no mark holds the part in its place. At its two ends marks hold nothing.
   bool collapse(const std::vector<int>& part, const std::array<int, 2>& ends) {
-    const auto holds = [&](int v) {
-      return v != ends[0] && v != ends[1] && is_marked(v);
-    };
+    const auto holds = [&](int v) { return v != ends[0] && v != ends[1] && is_marked(v); };
     if (any_vertex(part, holds)) return false;
     for (const int f : part) collapsing_[f] = 1;
     return true;

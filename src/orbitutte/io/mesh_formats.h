@@ -21,6 +21,12 @@ std::string write_ply(const Mesh& mesh);
 /// Throws MeshError if a face names a vertex that does not exist.
 std::string write_stl(const Mesh& mesh);
 
+// The same of meshes some of whose faces have more than three corners; STL has triangles only.
+std::string write_obj_polygons(const PolygonMesh& mesh);
+std::string write_off_polygons(const PolygonMesh& mesh);
+std::string write_ply_polygons(const PolygonMesh& mesh);
+std::string write_stl_polygons(const PolygonMesh& mesh);
+
 /// An empty text with room for a line of each vertex and face. Room that is not needed is never touched, so
 /// it takes no memory.
 std::string room_for_text(const Mesh& mesh);

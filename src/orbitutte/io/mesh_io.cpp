@@ -3,10 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 
 #include "orbitutte/io/file.h"
 #include "orbitutte/io/mesh_formats.h"
+#include "orbitutte/mesh/triangulation.h"
 
 namespace orbitutte {
 
@@ -17,14 +20,18 @@ struct FormatRow {
   std::string_view ending;
   PolygonMesh (*read)(std::string_view);
   std::string (*write)(const Mesh&);
+  std::string (*write_polygons)(const PolygonMesh&);
 };
 
-constexpr FormatRow formats[] = {{MeshFormat::obj, ".obj", read_obj, write_obj},
-                                 {MeshFormat::off, ".off", read_off, write_off},
-                                 {MeshFormat::ply, ".ply", read_ply, write_ply},
-                                 {MeshFormat::stl, ".stl", read_stl, write_stl}};
+constexpr FormatRow formats[] = {{MeshFormat::obj, ".obj", read_obj, write_obj, write_obj_polygons},
+                                 {MeshFormat::off, ".off", read_off, write_off, write_off_polygons},
+                                 {MeshFormat::ply, ".ply", read_ply, write_ply, write_ply_polygons},
+                                 {MeshFormat::stl, ".stl", read_stl, write_stl, write_stl_polygons}};
 
-const FormatRow& row(MeshFormat format) { return formats[static_cast<int>(format)]; }
+const FormatRow& row(MeshFormat format) {
+  return *std::find_if(std::begin(formats), std::end(formats),
+                       [format](const FormatRow& known) { return known.format == format; });
+}
 
 /// Does the text have two bytes per character, one of which is zero in all characters that the formats use?
 /// The byte order mark or the first two characters tell.
@@ -47,8 +54,10 @@ MeshFormat mesh_format(const std::string& path) {
   for (const FormatRow& known : formats) {
     if (ending == known.ending) return known.format;
   }
-  throw ArgumentError(
-      fmt::format("{}: the ending names no known mesh format; use .obj, .off, .ply or .stl", path));
+  std::string endings;
+  for (const FormatRow& known : formats)
+    endings += fmt::format("{}{}", endings.empty() ? "" : ", ", known.ending);
+  throw ArgumentError(fmt::format("{}: the ending names no known mesh format; use one of {}", path, endings));
 }
 
 PolygonMesh parse_mesh(std::string_view bytes, MeshFormat format) {
@@ -73,9 +82,17 @@ PolygonMesh read_mesh(const std::string& path) {
 
 std::string serialize_mesh(const Mesh& mesh, MeshFormat format) { return row(format).write(mesh); }
 
+std::string serialize_mesh(const PolygonMesh& mesh, MeshFormat format) {
+  if (is_triangle_mesh(mesh)) return serialize_mesh(to_triangle_mesh(mesh), format);
+  return row(format).write_polygons(mesh);
+}
+
 void write_mesh(const std::string& path, const Mesh& mesh) {
-  const MeshFormat format = mesh_format(path);
-  write_file(path, serialize_mesh(mesh, format));
+  write_file(path, serialize_mesh(mesh, mesh_format(path)));
+}
+
+void write_mesh(const std::string& path, const PolygonMesh& mesh) {
+  write_file(path, serialize_mesh(mesh, mesh_format(path)));
 }
 
 }  // namespace orbitutte

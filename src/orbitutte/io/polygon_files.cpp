@@ -4,8 +4,7 @@
 
 #include <algorithm>
 
-#include "orbitutte/io/file.h"
-#include "orbitutte/io/mesh_io.h"
+#include "orbitutte/io/mesh_formats.h"
 #include "orbitutte/io/ply_triangles.h"
 #include "orbitutte/mesh/triangulation.h"
 
@@ -26,14 +25,16 @@ void append_line(std::string& text, const std::string& keyword, std::span<const 
   text += '\n';
 }
 
-std::string obj_text(const PolygonMesh& mesh) {
+}  // namespace
+
+std::string write_obj_polygons(const PolygonMesh& mesh) {
   std::string text;
   for (const auto& position : mesh.V.rowwise()) append_line(text, "v ", position);
   for (int f = 0; f < mesh.face_count(); ++f) append_line(text, "f", faces_of(mesh)[f], 1);
   return text;
 }
 
-std::string off_text(const PolygonMesh& mesh) {
+std::string write_off_polygons(const PolygonMesh& mesh) {
   std::string text = fmt::format("OFF\n{} {} 0\n", mesh.vertex_count(), mesh.face_count());
   for (const auto& position : mesh.V.rowwise()) append_line(text, "", position);
   for (int f = 0; f < mesh.face_count(); ++f)
@@ -41,19 +42,10 @@ std::string off_text(const PolygonMesh& mesh) {
   return text;
 }
 
-}  // namespace
-
-std::string serialize_mesh(const PolygonMesh& mesh, MeshFormat format) {
-  if (is_triangle_mesh(mesh) || format == MeshFormat::stl)
-    return serialize_mesh(to_triangle_mesh(mesh), format);
-  if (format == MeshFormat::obj) return obj_text(mesh);
-  if (format == MeshFormat::off) return off_text(mesh);
+std::string write_ply_polygons(const PolygonMesh& mesh) {
   return write_ply_faces(mesh.V, faces_of(mesh), {}, {});
 }
 
-void write_mesh(const std::string& path, const PolygonMesh& mesh) {
-  const MeshFormat format = mesh_format(path);
-  write_file(path, serialize_mesh(mesh, format));
-}
+std::string write_stl_polygons(const PolygonMesh& mesh) { return write_stl(to_triangle_mesh(mesh)); }
 
 }  // namespace orbitutte

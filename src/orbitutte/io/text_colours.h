@@ -29,7 +29,8 @@ class TextColours {
   double channel(const TextScanner& in, const TextItem& vertex, std::string_view word);
 
   std::vector<double> channels_;
-  std::string problem_;  // the first word that is no number
+  /// The first word that is no number.
+  std::string problem_;
 };
 
 }  // namespace orbitutte

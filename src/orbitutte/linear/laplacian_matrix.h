@@ -16,9 +16,12 @@ using Block = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMa
 
 // The unknowns of all vertices, numbered in the order of elimination.
 struct Unknowns {
-  std::vector<int> order;   // the vertices that have unknowns
-  std::vector<long> first;  // the first unknown of each vertex; -1 if it has none
-  std::vector<int> count;   // the number of unknowns of each vertex: 0 to 3
+  /// The vertices that have unknowns.
+  std::vector<int> order;
+  /// The first unknown of each vertex; -1 if it has none.
+  std::vector<long> first;
+  /// The number of unknowns of each vertex: 0 to 3.
+  std::vector<int> count;
   long total = 0;
 };
 

@@ -51,8 +51,10 @@ class Substructure {
 
  private:
   struct Piece;
-  std::vector<Piece> pieces_;               // one for each block
-  std::vector<std::vector<int>> by_depth_;  // pieces by depth, the deepest first
+  /// One for each block.
+  std::vector<Piece> pieces_;
+  /// Pieces by depth, the deepest first.
+  std::vector<std::vector<int>> by_depth_;
   long border_begin_ = 0, border_ = 0;
   Eigen::MatrixXd schur_complement_;
 };

@@ -28,7 +28,8 @@ class SphereFigure {
   Triangles faces_;
   std::vector<float> relief_;
   std::vector<TileCopy> copies_;
-  double edge_length_ = 0;  // the mean, on the sphere
+  /// The mean, on the sphere.
+  double edge_length_ = 0;
   RayScene scene_;
 };
 

@@ -25,8 +25,10 @@ struct Comparison {
   /// The marked vertices, which should be visible.
   std::vector<int> cones;
   std::vector<ComparedMap> maps;
-  std::optional<Vector3> view;  ///< towards the viewer; without: whichever shows most
-  std::optional<Vector3> up;    ///< what points up; without: y or z, whichever the mesh stands on
+  /// Towards the viewer; without: whichever shows most.
+  std::optional<Vector3> view;
+  /// What points up; without: y or z, whichever the mesh stands on.
+  std::optional<Vector3> up;
 };
 
 /// Draws the maps next to each other: the mesh in the colours of area distortion and of angle distortion

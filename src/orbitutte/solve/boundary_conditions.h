@@ -22,13 +22,18 @@ struct BoundaryConditions {
       sides;  ///< of the tile: the cut vertices from each corner to the next, both included
   std::vector<Seam> seams;
   std::vector<ConeCopies> cones;
-  std::vector<Isometry> transforms;  ///< distinct; the first is the identity
-  std::vector<int> transform_of;     ///< n_cut: an index into transforms
-  std::vector<Room> bases;        ///< distinct; 0: that of the space (Space::room), 1: held in place (3 x 0),
-                                  ///< others: those of mirrors
-  std::vector<Isometry> mirrors;  ///< of every basis: the reflection that keeps it; the identity for 0 and 1
-  std::vector<int> basis_of;      ///< n: an index into bases
-  Points held;                    ///< n x 3: where the vertices of basis 1 are held; zero elsewhere
+  /// Distinct; the first is the identity.
+  std::vector<Isometry> transforms;
+  /// n_cut: an index into transforms.
+  std::vector<int> transform_of;
+  /// Distinct; 0: that of the space (Space::room), 1: held in place (3 x 0), others: those of mirrors.
+  std::vector<Room> bases;
+  /// Of every basis: the reflection that keeps it; the identity for 0 and 1.
+  std::vector<Isometry> mirrors;
+  /// n: an index into bases.
+  std::vector<int> basis_of;
+  /// n x 3: where the vertices of basis 1 are held; zero elsewhere.
+  Points held;
 
   const Isometry& transform(int cut_vertex) const { return transforms[transform_of[cut_vertex]]; }
   const Room& basis(int vertex) const { return bases[basis_of[vertex]]; }

@@ -17,13 +17,16 @@ namespace orbitutte {
 /// j).
 struct GluedEdge {
   int i = 0, j = 0;
-  int t = 0;  ///< an index into GluedEdges::transforms; 0 is the identity
+  /// An index into GluedEdges::transforms; 0 is the identity.
+  int t = 0;
 };
 
 /// The edges of the energy, each with the group element that is applied to its second end.
 struct GluedEdges {
-  std::vector<GluedEdge> edges;      ///< in the order of Connectivity::edges
-  std::vector<Isometry> transforms;  ///< distinct elements of G; the first is the identity
+  /// In the order of Connectivity::edges.
+  std::vector<GluedEdge> edges;
+  /// Distinct elements of G; the first is the identity.
+  std::vector<Isometry> transforms;
 };
 
 /// The group element of every edge: that of one of its images in the cut mesh.
@@ -38,7 +41,8 @@ class DirichletEnergy {
 
   struct Value {
     double energy = 0;
-    Points gradient;  ///< n x 3: tangential, and feasible (along mirrors; zero where held)
+    /// n x 3: tangential, and feasible (along mirrors; zero where held).
+    Points gradient;
   };
 
   /// positions: n x 3, points of the space. The same bits whatever the number of threads.
@@ -68,7 +72,8 @@ class DirichletEnergy {
  private:
   /// One end of an edge, seen from the other.
   struct Incidence {
-    int neighbor, transform;  ///< transform: 2 t for g, 2 t + 1 for its inverse
+    /// transform: 2 t for g, 2 t + 1 for its inverse.
+    int neighbor, transform;
     double w;
   };
 
@@ -77,16 +82,19 @@ class DirichletEnergy {
   // The tangential, feasible part of sum over j of w_ij d/sn d (g_ij p_j - p_i) at vertex i.
   struct Pull {
     Vector3 force;
-    double energy;  // sum of w d^2
+    /// Sum of w d^2.
+    double energy;
   };
   template <int k>
   Pull pull_at(const Points& p, int v) const;
 
   Space space_;
   std::vector<Isometry> transforms_;
-  std::vector<Matrix3> projectors_;  // onto the room of each vertex, by BoundaryConditions::basis_of
+  /// Onto the room of each vertex, by BoundaryConditions::basis_of.
+  std::vector<Matrix3> projectors_;
   std::vector<int> basis_of_;
-  std::vector<int> start_;  // incidences of vertex v: start_[v] .. start_[v + 1] - 1
+  /// Incidences of vertex v: start_[v] .. start_[v + 1] - 1.
+  std::vector<int> start_;
   std::vector<Incidence> incidences_;
   Eigen::VectorXd rounding_floor_;
 };

@@ -14,13 +14,20 @@ namespace orbitutte {
 /// where an edge crosses the cut between two others. So the vertices inside are nodes once, in place, and
 /// their three coordinates do not couple.
 struct DiskGraph {
-  std::vector<int> vertex;               ///< of every node; the first n nodes are the vertices in place
-  std::vector<int> transform_of;         ///< of every node: an index into transforms
-  std::vector<Isometry> transforms;      ///< distinct; the first is the identity
-  std::vector<std::array<int, 2>> ends;  ///< of every glued edge: the nodes of one of its images
-  std::vector<int> banks;                ///< the nodes of bank vertices that may move, vertex by vertex
-  std::vector<char> inside;              ///< n: does the vertex move, on no bank?
-  std::vector<char> given;               ///< n: is the vertex on the boundary of the cut, or held?
+  /// Of every node; the first n nodes are the vertices in place.
+  std::vector<int> vertex;
+  /// Of every node: an index into transforms.
+  std::vector<int> transform_of;
+  /// Distinct; the first is the identity.
+  std::vector<Isometry> transforms;
+  /// Of every glued edge: the nodes of one of its images.
+  std::vector<std::array<int, 2>> ends;
+  /// The nodes of bank vertices that may move, vertex by vertex.
+  std::vector<int> banks;
+  /// n: does the vertex move, on no bank?
+  std::vector<char> inside;
+  /// n: is the vertex on the boundary of the cut, or held?
+  std::vector<char> given;
 
   int node_count() const { return static_cast<int>(vertex.size()); }
   const Isometry& transform(int node) const { return transforms[transform_of[node]]; }

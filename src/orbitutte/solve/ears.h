@@ -32,9 +32,9 @@ int count_faces(const std::vector<Ear>& ears);
 /// How far round_outward moves a tip: a few units in the last place.
 constexpr double outward_rounding = 8 * std::numeric_limits<double>::epsilon();
 
-/// Rounds the tips of the ears outwards from their mirrors and sides, by a few units in the last place: as
-/// near to the great circle as any rounded point of it, and the stored face is positively oriented instead of
-/// by chance. positions: n x 3.
+/// Rounds the tips of the ears outwards from their mirrors and sides, by a few units in the last place. They
+/// stay as near to the great circle as rounding allows, and the stored faces are always positively oriented.
+/// positions: n x 3.
 void round_outward(const std::vector<Ear>& ears, Points& positions);
 
 }  // namespace orbitutte

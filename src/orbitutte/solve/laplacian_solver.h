@@ -48,8 +48,9 @@ class LaplacianSolver {
 
   /// The discrete harmonic map of the cut disk in space: of the positions (n x 3), those of vertices on the
   /// boundary of the cut mesh are given, and all others are completed so that each is the weighted mean of
-  /// its neighbours, seen through the gluing where these are given. What lies between two others and crosses
-  /// the cut ties nothing but the other neighbours of its end. Any projection of the result is as harmonic.
+  /// its neighbours, seen through the gluing where these are given. A node that is added where an edge
+  /// crosses the cut ties only the other neighbours of that edge's end. Any projection of the result is as
+  /// harmonic.
   Points extend_harmonically(const Points& positions) const;
 
   /// P g, where P is the inverse of 2 L, and L the Laplacian glued across the cut, on the unknowns of the

@@ -14,13 +14,16 @@ namespace orbitutte {
 
 class Substructure;
 
-/// What does not depend on cones and orders, or may turn out not to.
+/// What a later embedding of the same mesh, with other cones or orders, may use again.
 class LaplacianReuse {
  public:
   Kept kept = Kept::order;
-  std::vector<std::array<int, 2>> edges;         ///< of the graph that was dissected
-  std::shared_ptr<const Dissection> dissection;  ///< null: none was
-  SparseMatrix disk_laplacian;                   ///< of the last cut disk
+  /// Of the graph that was dissected.
+  std::vector<std::array<int, 2>> edges;
+  /// null: none was.
+  std::shared_ptr<const Dissection> dissection;
+  /// Of the last cut disk.
+  SparseMatrix disk_laplacian;
   std::shared_ptr<const Substructure> disk_factor;
 };
 
@@ -30,7 +33,8 @@ struct LaplacianProblem {
   const GluedEdges& glued;
   const Eigen::VectorXd& w;
   const BoundaryConditions& boundary;
-  const Dissection& dissection;  ///< of the graph of the vertices
+  /// Of the graph of the vertices.
+  const Dissection& dissection;
 };
 
 /// The two vertices of every edge.

@@ -18,7 +18,8 @@ struct LbfgsOptions {
   /// quasi-Newton step would move no vertex by more than max(tolerance, 1e-12) radians.
   double tolerance = 1e-9;
   int max_iterations = 2000;
-  int memory = 10;  ///< pairs of steps and gradient differences kept
+  /// Pairs of steps and gradient differences kept.
+  int memory = 10;
   IterationCallback callback;
 };
 

@@ -47,9 +47,12 @@ class LocalMinimum {
   Gluing gluing_;
   Space space_;
   std::vector<Neighbourhood> neighbourhoods_;
-  std::unordered_map<int, int> place_;  // of a vertex among them
-  std::vector<Basis> bases_;            // of the tangent plane and the room of each vertex
-  std::vector<int> first_;              // the first unknown of each vertex, and the number of all
+  /// Of a vertex among them.
+  std::unordered_map<int, int> place_;
+  /// Of the tangent plane and the room of each vertex.
+  std::vector<Basis> bases_;
+  /// The first unknown of each vertex, and the number of all.
+  std::vector<int> first_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
 };
 

@@ -71,7 +71,8 @@ class MovablePositions {
  private:
   Gluing gluing_;
   Points& positions_;
-  std::vector<std::pair<int, Vector3>> journal_;  // where vertices were before their moves
+  /// Where vertices were before their moves.
+  std::vector<std::pair<int, Vector3>> journal_;
 };
 
 /// The same, with more digits for the vertices that are refined. The map must lie in the canonical frame of
@@ -116,11 +117,13 @@ class PrecisePositions final : public MovablePositions {
   void store(int v, const Vector& p);
 
   PreciseGroup<Real> group_;
-  std::vector<int> slot_;  // n: an index into digits_, or -1
+  /// n: an index into digits_, or -1.
+  std::vector<int> slot_;
   std::vector<Vector> digits_;
   std::vector<Entry> journal_;
   mutable std::vector<std::optional<Matrix>> elements_;
-  std::vector<Matrix> transforms_, mirrors_;  // BoundaryConditions::transforms and mirrors
+  /// BoundaryConditions::transforms and mirrors.
+  std::vector<Matrix> transforms_, mirrors_;
 };
 
 }  // namespace orbitutte

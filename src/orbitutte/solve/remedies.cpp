@@ -102,8 +102,8 @@ void take_along(Site& site, const std::vector<double>& parts, MovablePositions& 
   std::sort(moved.begin(), moved.end());
 }
 
-// By a few units in the last place; where edges are shorter than that, or there are more digits, by a small
-// part of them, which in the latter case is below what the certificate notices.
+// Moves tips outward by a few units in the last place, or by a thousandth of the shortest edge if that is
+// less. Refined tips move by less than the certificate notices.
 void round_ears(Site& site, MovablePositions& positions) {
   constexpr double part = 1e-3, refined_part = 1e-10;
   for (const Ear& ear : site.ears) {
@@ -126,7 +126,7 @@ std::vector<int> nonpositive_faces(const Site& site, const MovablePositions& pos
   return result;
 }
 
-// Those that are no ears, which always are between rounding errors.
+// The faces that are not positive, without ears: the signs of these are rounding errors.
 std::vector<int> turned_faces(Site& site, const MovablePositions& positions) {
   std::vector<int> faces = nonpositive_faces(site, positions);
   std::erase_if(faces, [&](int f) { return site.stars.leaves_out(f); });

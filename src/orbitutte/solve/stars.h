@@ -38,9 +38,12 @@ class Stars {
 
   const CutMesh& cut_;
   const BoundaryConditions& boundary_;
-  std::vector<char> is_flat_;                      // those that are left out
-  std::vector<int> start_, halfedges_;             // those that begin at copies of vertex v
-  std::map<std::pair<int, int>, int> element_of_;  // by BoundaryConditions::transform_of of both ends
+  /// Those that are left out.
+  std::vector<char> is_flat_;
+  /// Those that begin at copies of vertex v.
+  std::vector<int> start_, halfedges_;
+  /// By BoundaryConditions::transform_of of both ends.
+  std::map<std::pair<int, int>, int> element_of_;
 };
 
 }  // namespace orbitutte

@@ -23,7 +23,7 @@ struct TriangleSums {
   std::vector<double> angle;
 };
 
-/// positive: of every triangle, is it positively oriented? Rounding does not tell of slivers.
+/// positive: of every triangle, is it positively oriented? The rounded area of a sliver does not tell.
 TriangleSums sum_over_triangles(const Embedding& triangles, const ExactPositions& positions,
                                 const std::vector<char>& positive);
 

@@ -13,12 +13,14 @@ namespace orbitutte {
 struct Distortion {
   struct Area {
     double mean = 0, std = 0, median = 0, max = 0;
-  } area;  ///< of max(A, 1/A), A the triangle's share of the tile's area over its share of the source's
+    /// Of max(A, 1/A), A the triangle's share of the tile's area over its share of the source's.
+  } area;
   struct Angle {
     double mean = 0, median = 0, max = 0;
-    double area_mean = 0;  ///< the mean weighted by the areas of the source
-  } angle;  ///< of the ratio of singular values of the map to the triangle with the same arc lengths laid out
-            ///< flat
+    /// The mean weighted by the areas of the source.
+    double area_mean = 0;
+    /// Of the ratio of singular values of the map to the triangle with the same arc lengths laid out flat.
+  } angle;
   /// The part of the source's area that lies in triangles with 1/4 <= A <= 4.
   double within_4 = 0;
   /// The part of the source's area that lies in triangles with A < 1/64.
@@ -27,17 +29,23 @@ struct Distortion {
   /// source.
   double sigma = 0;
   struct Histogram {
-    std::vector<double> edges;      ///< k + 1 bounds of log2 A, the first and last bins open to all beyond
-    std::vector<long long> counts;  ///< k
+    /// k + 1 bounds of log2 A, the first and last bins open to all beyond.
+    std::vector<double> edges;
+    /// k.
+    std::vector<long long> counts;
   } histogram;
-  int measured_faces = 0;  ///< those not left out
+  /// Those not left out.
+  int measured_faces = 0;
 };
 
 /// What measure_distortion gathers of a single triangle.
 struct FaceDistortion {
-  double share = 0;  ///< the triangle's share of the source's area
-  double area = 0;   ///< A, not max(A, 1/A); 0 where the triangle is left out
-  double angle = 0;  ///< the ratio of singular values; 0 where there is none
+  /// The triangle's share of the source's area.
+  double share = 0;
+  /// A, not max(A, 1/A); 0 where the triangle is left out.
+  double area = 0;
+  /// The ratio of singular values; 0 where there is none.
+  double angle = 0;
 };
 
 /// Of every face of the embedding (m).

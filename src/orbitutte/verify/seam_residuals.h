@@ -21,11 +21,11 @@ struct SeamResiduals {
   std::string failure;
 };
 
-/// A pair may be off by a thousandth of the shortest edge at its two vertices, a mirror's vertex by a
-/// hundredth, since ears are rounded to the outer side of their mirror; by the rounding of doubles in any
-/// case, and by no more than 1e-12 (in units of the position, where that is large). Where a position has
-/// offsets the exact positions are compared by the exact element of the target's group, which has to be known
-/// then: the embedding has to lie in the canonical frame. triangles: the embedding, its polygons divided.
+/// A pair may be off by a thousandth of the shortest edge at its two vertices. A mirror's vertex may be off
+/// by a hundredth, since ears are rounded to the outer side of their mirror. Rounding of doubles is always
+/// allowed, and more than 1e-12 never is (in units of the position, if that is large). If a position has
+/// offsets, exact positions are compared by the exact element of the target's group, so the embedding has to
+/// lie in the canonical frame. triangles: the embedding, its polygons divided.
 SeamResiduals judge_seams(const Embedding& triangles, const ExactPositions& positions);
 
 }  // namespace orbitutte
