@@ -93,9 +93,10 @@ std::vector<std::string> warnings_of_collapse(const FaceView& faces, const std::
 std::string warning_of_replaced_weights(const EmbedResult& standard, const EmbedResult& taken) {
   const std::string fault =
       standard.certificate.bijective
-          ? fmt::format("fit this mesh badly: {} vertices would have to be moved for a bijection, and angles "
-                        "would be distorted {:.3g}-fold in the mean over the surface",
-                        standard.moved_vertices.size(), standard.distortion.angle.area_mean)
+          ? fmt::format(
+                "fit this mesh badly: {} vertices would have to be moved for a bijection, and angles "
+                "would be distorted {:.3g}-fold in the mean over the surface",
+                standard.moved_vertices.size(), standard.distortion.angle.area_mean)
           : fmt::format("turn {} faces over", standard.certificate.nonpositive_faces.size());
   return fmt::format("the standard weights ('{}') {}; '{}' were taken instead; '--weights {}' insists",
                      name_of(standard.weights.kind), fault, name_of(taken.weights.kind),
