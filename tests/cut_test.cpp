@@ -558,8 +558,7 @@ TEST(Cut, NoMarkOrTwoOnAProjectivePlaneAreRefused) {
   };
   EXPECT_EQ(refusal({}), "0 marked vertices on a projective plane; mark one");
   EXPECT_EQ(refusal({1, 2}), "2 marked vertices on a projective plane; mark one");
-  EXPECT_EQ(refusal({100}),
-            "the marked vertex 100 is out of range; the mesh has the vertices 0 to 20");
+  EXPECT_EQ(refusal({100}), "the marked vertex 100 is out of range; the mesh has the vertices 0 to 20");
 }
 
 // ------------------------------------------------------------------------------------------------- lengths
