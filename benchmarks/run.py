@@ -6,7 +6,7 @@ Builds into build/benchmark, runs every case in a process of its own, and keeps 
 Figures are medians over the repetitions; ratios are formed within one run. If the folder with the real meshes (../shared) is missing,
 its cases are skipped, with a message. The plot needs gnuplot (./setup --benchmarks installs it).
 
-  run.py            everything, about 10 minutes on two cores and up to 8 GiB
+  run.py            everything, about 20 minutes on two cores and up to 8 GiB
   run.py --quick    up to 400K triangles, printed only
 """
 import argparse
@@ -27,18 +27,26 @@ BUILD = ROOT / 'build' / 'benchmark'
 MESHES = ROOT.parent / 'shared' / 'meshes'
 PAGE = ROOT / 'docs' / 'benchmarks.md'
 PLOT = ROOT / 'docs' / 'growth.svg'
-STAGES = ['validate', 'weights', 'cut', 'factorize', 'initialize', 'optimize', 'certify']
+WEIGHTS = ['standard', 'cotan']  # what users get first
+STAGES = ['validate', 'weights', 'cut', 'factorize', 'initialize', 'optimize', 'certify', 'mend']
 
 # (mesh, orbifold, midpoint subdivisions, repetitions)
-LADDER = [('figure:100000', '432', 0, 7), ('figure:400000', '432', 0, 5), ('figure:1600000', '432', 0, 4), ('figure:6400000', '432', 0, 5),
-          ('mask:100000', '*432', 0, 7), ('mask:400000', '*432', 0, 5), ('mask:1600000', '*432', 0, 4),
-          ('igea.ply', '432', 0, 5), ('igea.ply', '432', 1, 4), ('armadillo.obj', '432', 0, 7), ('armadillo.obj', '432', 2, 4),
-          ('cortex_icbm152_lh.off', '432', 0, 7), ('cortex_icbm152_lh.off', '432', 2, 4), ('face.obj', '*432', 2, 5)]
+LADDER = [('figure:100000', '432', 0, 7), ('figure:400000', '432', 0, 5), ('figure:1600000', '432', 0, 3), ('figure:6400000', '432', 0, 3),
+          ('mask:100000', '*432', 0, 7), ('mask:400000', '*432', 0, 5), ('mask:1600000', '*432', 0, 3),
+          ('david_50k.off', '432', 0, 7), ('david_50k.off', '432', 1, 5), ('david_50k.off', '432', 2, 3),
+          ('bunny.off', '432', 0, 7), ('bunny.off', '432', 1, 5), ('igea.ply', '432', 0, 5), ('igea.ply', '432', 1, 3),
+          ('armadillo.obj', '432', 0, 7), ('armadillo.obj', '432', 1, 5), ('armadillo.obj', '432', 2, 3),
+          ('cortex_icbm152_lh.off', '432', 0, 7), ('cortex_icbm152_lh.off', '432', 1, 5), ('cortex_icbm152_lh.off', '432', 2, 3),
+          ('face.obj', '*432', 0, 7), ('face.obj', '*432', 2, 5)]
 
-# The meshes that stand in for the models of the paper's Table 1. Of the paper's times we know only the longest (MATLAB, one thread).
-TABLE_1 = [('Moon', 'itokawa.off', '432', 0, None), ('Fandisk', 'fandisk.off', '*432', 0, None), ('David', 'david_50k.off', '432', 0, None),
-           ('Bunny', 'bunny.off', '432', 0, None), ('Armadillo', 'armadillo.obj', '432', 1, None),
-           ('2M triangles', 'figure:2000000', '432', 0, 362)]
+# The paper's Table 1 (MATLAB, one thread at 3.50 GHz): model, initialisation in seconds, iterations, optimisation in seconds; and what stands in
+# for the model here: mesh, orbifold, midpoint subdivisions.
+TABLE_1 = [('Moon', 0.25, 25, 0.86, 'itokawa.off', '432', 0), ('Fandisk', 0.80, 20, 2.72, 'fandisk.off', '*432', 0),
+           ('David', 0.97, 21, 3.66, 'david_50k.off', '432', 0), ('Bunny', 1.65, 19, 6.12, 'bunny.off', '432', 0),
+           ('Dragon', 2.04, 31, 9.09, 'figure:100000', '432', 0), ('Armadillo', 8.67, 24, 24.79, 'armadillo.obj', '432', 1),
+           ('Ramesses', 14.89, 23, 33.82, 'figure:386000', '432', 0), ('Frog', 13.50, 21, 29.66, 'figure:392000', '432', 0),
+           ('Lucy', 15.05, 30, 61.56, 'figure:526000', '432', 0), ('Nicola', 27.99, 22, 87.53, 'figure:1000000', '432', 0),
+           ('Crab', 66.95, 24, 295.42, 'figure:2000000', '332', 0)]
 
 
 def cones_of(mesh):
@@ -96,26 +104,43 @@ def embedding_rows(cases):
             if (rows := run_embedding(case[0], '--orbifold', case[1], '--subdivide', case[2], '--repeat', case[3]))]
 
 
+def of_weights(runs, weights):
+    """The embeddings of a case with one kind of weights, one a run."""
+    return [embedding for run in runs for embedding in run['embeddings'] if embedding['weights'] == weights]
+
+
+def stage_median(embeddings, stage):
+    return statistics.median(embedding['stages'].get(stage, 0.0) for embedding in embeddings)
+
+
 def ladder_table(measured):
     rows = []
     for (mesh, orbifold, subdivisions, _), runs in measured:
         name = mesh.split(':')[0] if ':' in mesh else f"{mesh}{', subdivided' * bool(subdivisions)}"
-        rows.append([name, size(runs[0]['faces']), orbifold, *(seconds(median(runs, 'stages', stage)) for stage in STAGES),
-                     seconds(median(runs, 'total')), seconds(median(runs, 'T0')), f"**{median(runs, 'ratio'):.2f}**",
-                     f"{runs[0]['iterations']}/{runs[0]['evaluations']}", f"{median(runs, 'peak_memory_bytes') / 2**30:.2f}",
-                     'yes' if all(run['certified'] for run in runs) else 'NO'])
-    return table(['mesh', 'triangles', 'orbifold', *STAGES, 'total', 'T0', 'total/T0', 'iterations/evaluations', 'GiB', 'certified'], rows)
+        for weights in WEIGHTS:
+            embeddings = of_weights(runs, weights)
+            rows.append([name, size(runs[0]['faces']), orbifold, weights, *(seconds(stage_median(embeddings, stage)) for stage in STAGES),
+                         seconds(median(embeddings, 'total')), seconds(median(runs, 'T0')), seconds(median(runs, 'T0_amd')),
+                         f"**{median(embeddings, 'ratio'):.2f}**", f"{embeddings[0]['iterations']}/{embeddings[0]['evaluations']}",
+                         f"{median(embeddings, 'peak_memory_bytes') / 2**30:.2f}",
+                         'yes' if all(embedding['certified'] for embedding in embeddings) else 'NO'])
+    return table(['mesh', 'triangles', 'orbifold', 'weights', *STAGES, 'total', 'T0', 'with AMD', 'total/T0', 'iterations/evaluations', 'GiB', 'certified'],
+                 rows)
 
 
 def table_1():
     rows = []
-    for model, mesh, orbifold, subdivisions, paper in TABLE_1:
-        runs = run_embedding(mesh, '--orbifold', orbifold, '--subdivide', subdivisions, '--repeat', 3)
-        if runs:
-            stands_for = mesh.split(':')[0] + (', subdivided once' if subdivisions else '')
-            rows.append([model, stands_for, f"{runs[0]['faces']:,}", orbifold, str(paper) if paper else '',
-                         seconds(median(runs, 'total')), str(runs[0]['iterations'])])
-    return table(['model', 'measured on', 'triangles', 'orbifold', 'the paper, s', 'here, s', 'iterations'], rows)
+    for model, paper_start, paper_iterations, paper_optimisation, mesh, orbifold, subdivisions in TABLE_1:
+        runs = run_embedding(mesh, '--orbifold', orbifold, '--subdivide', subdivisions, '--repeat', 3, '--weights', 'cotan')
+        if not runs:
+            continue
+        embeddings = of_weights(runs, 'cotan')
+        total, optimisation, certificate = (median(embeddings, 'total'), stage_median(embeddings, 'optimize'), stage_median(embeddings, 'certify'))
+        stands_for = mesh.split(':')[0] + (', subdivided once' if subdivisions else '')
+        rows.append([model, stands_for, f"{runs[0]['faces']:,}", orbifold, f'{paper_start:.2f}', str(paper_iterations), f'{paper_optimisation:.2f}',
+                     seconds(total - optimisation - certificate), str(embeddings[0]['iterations']), seconds(optimisation), seconds(certificate)])
+    return table(['model', 'measured on', 'triangles', 'orbifold', 'the paper: initialisation, s', 'iterations', 'optimisation, s',
+                  'here: initialisation, s', 'iterations', 'optimisation, s', 'certificate, s'], rows)
 
 
 def again_table(sizes):
@@ -143,7 +168,7 @@ def growth_exponents(measured):
         if len(runs) < 2:
             continue
         small, large = runs[0], runs[-1]
-        exponent = math.log(median(large, 'total') / median(small, 'total')) / math.log(large[0]['faces'] / small[0]['faces'])
+        exponent = math.log(median(of_weights(large, WEIGHTS[0]), 'total') / median(of_weights(small, WEIGHTS[0]), 'total')) / math.log(large[0]['faces'] / small[0]['faces'])
         lines.append(f"- {kind}: from {size(small[0]['faces'])} to {size(large[0]['faces'])} triangles time grows as n^{exponent:.2f}")
     return '\n'.join(lines)
 
@@ -155,9 +180,10 @@ def plot(measured):
     blocks, plots = [], []
     for kind, orbifold in [('figure', '432'), ('mask', '*432')]:
         runs = [rows for (mesh, *_), rows in measured if mesh.startswith(kind + ':')]
-        for key, label in [('total', f'embedding, {orbifold}'), ('T0', f'T0 of the same mesh ({kind})')]:
+        for seconds_of, label in [(lambda rows: median(of_weights(rows, WEIGHTS[0]), 'total'), f'embedding, {orbifold}'),
+                                  (lambda rows: median(rows, 'T0'), f'T0 of the same mesh ({kind})')]:
             index = len(blocks)
-            blocks.append('\n'.join(f"{rows[0]['faces']} {median(rows, key)}" for rows in runs))
+            blocks.append('\n'.join(f"{rows[0]['faces']} {seconds_of(rows)}" for rows in runs))
             plots.append(f'$data index {index} with linespoints title "{label}"')
     data = '$data << EOD\n' + '\n\n\n'.join(blocks) + '\nEOD\n'
     script = data + f'''set terminal svg size 720,480 background rgb "white"

@@ -327,6 +327,7 @@ bool goes_around(const std::vector<int>& arrangement) {
 void check_order_met(const std::vector<int>& arrangement, const std::vector<int>& marks) {
   if (goes_around(arrangement)) return;
   std::vector<int> met;
+  met.reserve(arrangement.size());
   for (const int mark : arrangement) met.push_back(marks[mark]);
   throw MeshError(
       fmt::format("the boundary meets the marked vertices in the order {}, not {}; mark them in that order",

@@ -13,7 +13,7 @@ namespace {
 constexpr int most_steps = 40;
 constexpr int patience = 4;  // steps without gain
 // Changes of an edge relative to its length: where no further step is needed, and where rounding may end it.
-constexpr double converged = 1e-9, settled = 1e-3;
+constexpr double converged_change = 1e-9, settled_change = 1e-3;
 
 }  // namespace
 
@@ -103,7 +103,7 @@ LocalMinimum::Change LocalMinimum::change_by(const MovablePositions& positions,
       const double length = positions.difference(neighbourhoods_[n].vertex, at.vertex, at.element).norm();
       const double relative = length > 0 ? change.norm() / length : std::numeric_limits<double>::max();
       if (change.norm() > 0) result.largest = std::max(result.largest, relative);
-      if (change.norm() > 0 && !(relative < settled)) ++result.unsettled;
+      if (change.norm() > 0 && !(relative < settled_change)) ++result.unsettled;
     }
   }
   return result;
@@ -115,7 +115,7 @@ bool LocalMinimum::settle(MovablePositions& positions) const {
   for (int k = 0, without_gain = 0; k < most_steps && without_gain < patience; ++k) {
     const Change change = step(positions);
     if (!std::isfinite(change.largest)) return false;
-    if (change.largest < converged) return true;
+    if (change.largest < converged_change) return true;
     const bool gains = change.largest < 0.5 * best.largest || change.unsettled < best.unsettled;
     without_gain = gains ? 0 : without_gain + 1;
     best = {std::min(best.largest, change.largest), std::min(best.unsettled, change.unsettled)};

@@ -178,7 +178,7 @@ Points PrecisePositions<Real>::spread(const std::vector<double>& shortest_edge,
     Vector rest = cut_position(c);
     // Takes away what a double holds of it.
     const auto split = [&rest] {
-      const Vector3 d = rest.template cast<double>();
+      Vector3 d = rest.template cast<double>();
       rest -= to_precise<Real>(d);
       return d;
     };

@@ -148,7 +148,7 @@ bool may_be_repaired(const Site& site, const std::vector<int>& turned) {
 
 // Repairs turned faces, and takes ears along and rounds them outward. The vertices that moved for it; nothing
 // if faces remain.
-std::optional<std::vector<int>> finish(Site& site, MovablePositions& positions) {
+std::optional<std::vector<int>> put_right(Site& site, MovablePositions& positions) {
   const std::vector<int> turned = turned_faces(site, positions);
   if (!may_be_repaired(site, turned)) return std::nullopt;
   std::vector<int> moved;
@@ -179,13 +179,13 @@ std::optional<SpreadMap> refined(const GluingProblem& problem, const Placement& 
   const std::vector<int> limbs = vertices_of_limbs(site, positions);
   if (limbs.empty()) return std::nullopt;
   for (const int v : limbs) positions.refine(v);
-  const bool settled = settle_limbs(site, limbs, positions);
+  const bool has_settled = settle_limbs(site, limbs, positions);
   std::vector<double> shortest(site.may_move.size(), std::numeric_limits<double>::infinity());
   double least = 1;
   for (const int v : limbs) least = std::min(least, shortest_edge(site, positions, v));
   too_coarse = least < finest;
-  if (!settled || too_coarse) return std::nullopt;
-  const std::optional<std::vector<int>> moved = finish(site, positions);
+  if (!has_settled || too_coarse) return std::nullopt;
+  const std::optional<std::vector<int>> moved = put_right(site, positions);
   if (!moved) return std::nullopt;
   for (const int v : limbs) shortest[v] = shortest_edge(site, positions, v);
   result.moved_vertices = *moved;
@@ -213,7 +213,7 @@ std::optional<SpreadMap> with_faces_repaired(const GluingProblem& problem, const
   Site site(problem, placed);
   MovablePositions positions(site.gluing, result.minimum.positions);
   if (any_in_limbs(site, positions, turned_faces(site, positions))) return std::nullopt;
-  std::optional<std::vector<int>> moved = finish(site, positions);
+  std::optional<std::vector<int>> moved = put_right(site, positions);
   if (!moved) return std::nullopt;
   return spread_map(problem, std::move(result), std::move(*moved));
 }
@@ -229,7 +229,7 @@ std::optional<SpreadMap> with_limbs_resolved(const GluingProblem& problem, const
   Site site(problem, there);
   MovablePositions positions(site.gluing, result.minimum.positions);
   if (!settle_limbs(site, vertices_of_limbs(site, positions), positions)) return std::nullopt;
-  std::optional<std::vector<int>> moved_vertices = finish(site, positions);
+  std::optional<std::vector<int>> moved_vertices = put_right(site, positions);
   if (!moved_vertices) return std::nullopt;
   return spread_map(problem, std::move(result), std::move(*moved_vertices));
 }
