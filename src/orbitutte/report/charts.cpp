@@ -44,11 +44,11 @@ ChartAxis share_axis(double highest) {
 }
 
 std::vector<ChartBar> area_bars(const std::vector<double>& shares, const HistogramAxes& axes) {
-  const double width = 2 * axes.range / static_cast<double>(shares.size());
+  const double bar_width = 2 * axes.range / static_cast<double>(shares.size());
   std::vector<ChartBar> bars;
   for (std::size_t k = 0; k < shares.size(); ++k) {
-    const double from = -axes.range + width * static_cast<double>(k);
-    bars.push_back({from, from + width, shares[k], (from + width / 2) / axes.colours});
+    const double from = -axes.range + bar_width * static_cast<double>(k);
+    bars.push_back({from, from + bar_width, shares[k], (from + bar_width / 2) / axes.colours});
   }
   return bars;
 }

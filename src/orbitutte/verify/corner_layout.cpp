@@ -118,6 +118,7 @@ Embedding embedding_of_corners(const Embedding& like, const std::vector<CornerLa
   result.placement = like.placement;
   result.positions.resize(count, 3);
   result.triangles.resize(count / 3, 3);
+  result.source_vertex.reserve(corners.size());
   for (int h = 0; h < count; ++h) {
     result.triangles.data()[h] = h;
     result.source_vertex.push_back(corners[h].vertex);

@@ -62,6 +62,7 @@ Embedding laid_out(const Surface& surface, const Embedding& embedding,
   CornerLayout layout(surface, embedding);
   for (const Flip& flip : triangulation.flips) layout.flip(flip.h);
   std::vector<Corner> corners;
+  corners.reserve(surface.triangles.size());
   for (int h = 0; h < static_cast<int>(surface.triangles.size()); ++h) corners.push_back(layout.corner(h));
   return embedding_of_corners(embedding, corners);
 }
@@ -71,6 +72,7 @@ Embedding sampled_on(const Triangles& coarse, const Surface& fine, const Embeddi
   const CoarseTriangles triangles(coarse, layout);
   const int count = static_cast<int>(fine.triangles.rows() / coarse.rows());
   std::vector<Corner> corners;
+  corners.reserve(coarse.size());
   for (int f = 0; f < coarse.rows(); ++f) {
     std::array<Corner, 3> at = triangles.corners(f);
     if (is_turned(fine, embedding, count * (f + 1) - 1)) std::swap(at[1], at[2]);
