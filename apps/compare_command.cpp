@@ -11,6 +11,7 @@
 #include "orbitutte/embed.h"
 #include "orbitutte/io/mesh_io.h"
 #include "orbitutte/report/comparison.h"
+#include "orbitutte/report/report.h"
 #include "page_pictures.h"
 
 namespace orbitutte::cli {
@@ -38,21 +39,12 @@ void print_row(const Compared& compared) {
 }
 
 Json to_json(const Compared& compared) {
-  const Distortion& d = compared.result.distortion;
-  return {
-      {"orbifold", compared.target.signature},
-      {"space", compared.target.space.name()},
-      {"energy", compared.result.minimum.energy},
-      {"bijective", compared.result.certificate.bijective},
-      {"area", {{"mean", d.area.mean}, {"std", d.area.std}, {"median", d.area.median}, {"max", d.area.max}}},
-      {"angle",
-       {{"mean", d.angle.mean},
-        {"area_mean", d.angle.area_mean},
-        {"median", d.angle.median},
-        {"max", d.angle.max}}},
-      {"sigma", d.sigma},
-      {"within_4", d.within_4},
-      {"below_64", d.below_64}};
+  Json row = {{"orbifold", compared.target.signature},
+              {"space", compared.target.space.name()},
+              {"energy", compared.result.minimum.energy},
+              {"bijective", compared.result.certificate.bijective}};
+  row.update(Json::parse(distortion_json(compared.result.distortion)));
+  return row;
 }
 
 ComparedMap compared_map(const Surface& surface, const Compared& compared) {

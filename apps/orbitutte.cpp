@@ -174,10 +174,10 @@ void add_embed(CLI::App& app, int& code) {
       ->capture_default_str();
   command.option("--threads", command->threads, "Use so many threads; 0: one for every core")
       ->capture_default_str();
-  command.flag(
-      "--floor", command->floor,
-      "Also measure the distortion that no weights get below, which is that of the same surface "
-      "subdivided twice at the vertices of this mesh; takes as long as a mesh with 16 times as many faces");
+  command.flag("--floor", command->floor,
+               "Also measure the distortion that the coarseness of the mesh costs: that of the map of the "
+               "same surface "
+               "subdivided twice, at the vertices of this mesh; embeds a mesh with 16 times as many faces");
   command.flag("--quiet", command->quiet, "Print no progress and no summary");
   command.flag("--json", command->json, "Print the report on standard output");
   command.runs(embed_command, code);

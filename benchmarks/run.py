@@ -6,7 +6,7 @@ Builds into build/benchmark, runs every case in a process of its own, and keeps 
 Figures are medians over the repetitions; ratios are formed within one run. If the folder with the real meshes (../shared) is missing,
 its cases are skipped, with a message. The plot needs gnuplot (./setup --benchmarks installs it).
 
-  run.py            everything, about 20 minutes on two cores and up to 8 GiB
+  run.py            everything, up to 8 GiB
   run.py --quick    up to 400K triangles, printed only
 """
 import argparse

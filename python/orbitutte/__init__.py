@@ -16,7 +16,7 @@ families() -> list of dict              the families of orbifolds
 choose_cones(V, F, signature) -> list   well separated vertices to be marked
 verify(embedding[, V, F]) -> dict       the certificate again, from the data alone
 distortion(embedding[, V, F]) -> dict   area and angle distortion again
-distortion_floor(V, F, signature, cones="auto") -> dict    the distortion that no weights get below
+distortion_floor(V, F, signature, cones="auto") -> dict    the distortion that the coarseness of the mesh costs
 tile(embedding) -> (V, F, copy)         |G| copies, welded into one closed mesh
 sample_mesh(shape, faces) -> (V, F)     a mesh to try things with
 read_mesh(path) -> (V, F)               OBJ, OFF, PLY and STL

@@ -167,7 +167,7 @@ def distortion(embedding: Embedding, V: npt.ArrayLike | None = None, F: Any = No
 
 def distortion_floor(V: npt.ArrayLike, F: Any, signature: str, cones: Cones = "auto", *, progress: Progress | None = None, polygon: Any = None,
                      **options: Any) -> dict[str, Any] | None:
-    """The distortion that no weights get below, because the mesh is as coarse as it is.
+    """The distortion that the coarseness of the mesh costs: no weights get far below it.
 
     The vertices are where the embedding of the surface subdivided twice has them, whose faces are 16 times as many. Arguments are
     those of `embed`; the weights do not matter.

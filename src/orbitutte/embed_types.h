@@ -57,7 +57,7 @@ struct EmbedResult {
   /// the input's, and the input's certificate says that the map is not bijective.
   std::optional<Certificate> intrinsic_certificate;
   Distortion distortion;
-  /// What no weights get below (distortion_floor.h); embed does not measure it.
+  /// What the coarseness of the mesh costs (distortion_floor.h); embed does not measure it.
   std::optional<Distortion> floor;
   Topology topology = Topology::sphere;
   int unreferenced_vertices = 0;

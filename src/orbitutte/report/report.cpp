@@ -308,6 +308,8 @@ std::string report_json(const EmbedResult& result, const RunRecord& run) {
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+std::string distortion_json(const Distortion& distortion) { return to_json(distortion).dump(); }
+
 Report parse_report(std::string_view text) {
   try {
     return to_report(Json::parse(text));

@@ -27,6 +27,9 @@ struct RunRecord {
 /// The report of an embedding, schema orbitutte.report/1; ends with a line break.
 std::string report_json(const EmbedResult& result, const RunRecord& run);
 
+/// The key `distortion` of a report, as JSON.
+std::string distortion_json(const Distortion& distortion);
+
 /// What a report says that can be checked against the files that it speaks of.
 struct Report {
   std::string signature;

@@ -146,10 +146,10 @@ bool may_be_repaired(const Site& site, const std::vector<int>& turned) {
   return static_cast<Eigen::Index>(turned.size()) <= 1 + site.problem.cut.F.rows() / 20;
 }
 
-// Repairs turned faces, and takes ears along and rounds them outward. The vertices that moved for it; nothing
-// if faces remain.
-std::optional<std::vector<int>> put_right(Site& site, MovablePositions& positions) {
-  const std::vector<int> turned = turned_faces(site, positions);
+// Repairs the turned faces, and takes ears along and rounds them outward. The vertices that moved for it;
+// nothing if faces remain.
+std::optional<std::vector<int>> put_right(Site& site, const std::vector<int>& turned,
+                                          MovablePositions& positions) {
   if (!may_be_repaired(site, turned)) return std::nullopt;
   std::vector<int> moved;
   if (!turned.empty()) {
@@ -185,7 +185,7 @@ std::optional<SpreadMap> refined(const GluingProblem& problem, const Placement& 
   for (const int v : limbs) least = std::min(least, shortest_edge(site, positions, v));
   too_coarse = least < finest;
   if (!has_settled || too_coarse) return std::nullopt;
-  const std::optional<std::vector<int>> moved = put_right(site, positions);
+  const std::optional<std::vector<int>> moved = put_right(site, turned_faces(site, positions), positions);
   if (!moved) return std::nullopt;
   for (const int v : limbs) shortest[v] = shortest_edge(site, positions, v);
   result.moved_vertices = *moved;
@@ -212,8 +212,9 @@ std::optional<SpreadMap> with_faces_repaired(const GluingProblem& problem, const
   Placement result = placed;
   Site site(problem, placed);
   MovablePositions positions(site.gluing, result.minimum.positions);
-  if (any_in_limbs(site, positions, turned_faces(site, positions))) return std::nullopt;
-  std::optional<std::vector<int>> moved = put_right(site, positions);
+  const std::vector<int> turned = turned_faces(site, positions);
+  if (any_in_limbs(site, positions, turned)) return std::nullopt;
+  std::optional<std::vector<int>> moved = put_right(site, turned, positions);
   if (!moved) return std::nullopt;
   return spread_map(problem, std::move(result), std::move(*moved));
 }
@@ -229,7 +230,7 @@ std::optional<SpreadMap> with_limbs_resolved(const GluingProblem& problem, const
   Site site(problem, there);
   MovablePositions positions(site.gluing, result.minimum.positions);
   if (!settle_limbs(site, vertices_of_limbs(site, positions), positions)) return std::nullopt;
-  std::optional<std::vector<int>> moved_vertices = put_right(site, positions);
+  std::optional<std::vector<int>> moved_vertices = put_right(site, turned_faces(site, positions), positions);
   if (!moved_vertices) return std::nullopt;
   return spread_map(problem, std::move(result), std::move(*moved_vertices));
 }

@@ -111,19 +111,21 @@ void CornerLayout::set_beyond(int h, const Isometry& transform) {
   }
 }
 
-Embedding embedding_of_corners(const Embedding& like, const std::vector<CornerLayout::Corner>& corners) {
-  const int count = static_cast<int>(corners.size());
+Embedding embedding_of_corners(const Embedding& like, int triangles,
+                               const std::function<CornerLayout::Corner(int)>& corner_at) {
+  const int count = 3 * triangles;
   Embedding result;
   result.target = like.target;
   result.placement = like.placement;
   result.positions.resize(count, 3);
-  result.triangles.resize(count / 3, 3);
-  result.source_vertex.reserve(corners.size());
+  result.triangles.resize(triangles, 3);
+  result.source_vertex.resize(count);
   for (int h = 0; h < count; ++h) {
+    const CornerLayout::Corner corner = corner_at(h);
     result.triangles.data()[h] = h;
-    result.source_vertex.push_back(corners[h].vertex);
-    result.positions.row(h) = corners[h].position;
-    if (const auto& exact = corners[h].exact) store(result, h, exact->position, exact->offsets);
+    result.source_vertex[h] = corner.vertex;
+    result.positions.row(h) = corner.position;
+    if (corner.exact) store(result, h, corner.exact->position, corner.exact->offsets);
   }
   result.cones = like.cones;
   for (ConeCopies& cone : result.cones) {

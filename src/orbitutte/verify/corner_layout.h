@@ -3,6 +3,7 @@
 // Private to verify/.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <unordered_map>
@@ -75,8 +76,9 @@ class CornerLayout {
   std::unordered_map<int, Isometry> beyond_;
 };
 
-/// An embedding into the target of another one whose triangle f has the corners 3 f, 3 f + 1, 3 f + 2 given,
-/// which nothing else shares.
-Embedding embedding_of_corners(const Embedding& like, const std::vector<CornerLayout::Corner>& corners);
+/// An embedding of so many triangles into the target of another one. Triangle f has the corners 3 f, 3 f + 1,
+/// 3 f + 2, which nothing else shares; corner_at is asked for them in this order.
+Embedding embedding_of_corners(const Embedding& like, int triangles,
+                               const std::function<CornerLayout::Corner(int)>& corner_at);
 
 }  // namespace orbitutte

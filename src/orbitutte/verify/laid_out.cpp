@@ -61,24 +61,21 @@ Embedding laid_out(const Surface& surface, const Embedding& embedding,
                    const IntrinsicTriangulation& triangulation) {
   CornerLayout layout(surface, embedding);
   for (const Flip& flip : triangulation.flips) layout.flip(flip.h);
-  std::vector<Corner> corners;
-  corners.reserve(surface.triangles.size());
-  for (int h = 0; h < static_cast<int>(surface.triangles.size()); ++h) corners.push_back(layout.corner(h));
-  return embedding_of_corners(embedding, corners);
+  return embedding_of_corners(embedding, surface.triangle_count(), [&](int h) { return layout.corner(h); });
 }
 
 Embedding sampled_on(const Triangles& coarse, const Surface& fine, const Embedding& embedding) {
   const CornerLayout layout(fine, embedding);
   const CoarseTriangles triangles(coarse, layout);
   const int count = static_cast<int>(fine.triangles.rows() / coarse.rows());
-  std::vector<Corner> corners;
-  corners.reserve(coarse.size());
-  for (int f = 0; f < coarse.rows(); ++f) {
-    std::array<Corner, 3> at = triangles.corners(f);
-    if (is_turned(fine, embedding, count * (f + 1) - 1)) std::swap(at[1], at[2]);
-    corners.insert(corners.end(), at.begin(), at.end());
-  }
-  return embedding_of_corners(embedding, corners);
+  std::array<Corner, 3> corners;  // of the triangle whose first corner was asked for last
+  return embedding_of_corners(embedding, static_cast<int>(coarse.rows()), [&](int h) {
+    if (h % 3 == 0) {
+      corners = triangles.corners(h / 3);
+      if (is_turned(fine, embedding, count * (h / 3 + 1) - 1)) std::swap(corners[1], corners[2]);
+    }
+    return corners[h % 3];
+  });
 }
 
 }  // namespace orbitutte
