@@ -173,9 +173,9 @@ std::string remedy(const EmbedArguments& arguments, const EmbedResult& result) {
   if (termination == Termination::max_iterations) ways.push_back("allow more iterations (--max-iterations)");
   if (termination == Termination::line_search_failed)
     ways.push_back("ask for less accuracy (--tolerance 1e-8)");
-  if (termination == Termination::converged && arguments.orbifold != polygon_signature)
+  if (termination == Termination::converged && result.embedding.target.corners.empty())
     ways.push_back("mark the tips of the longest limbs (--cones)");
-  if (arguments.orbifold == polygon_signature)
+  if (!result.embedding.target.corners.empty())
     ways.push_back("take an orbifold such as *432, along whose mirrors the boundary may slide");
   const bool were_tried = arguments.weights == name_of(WeightKind::standard);
   if (const std::string way = other_weights(result.weights.kind); !way.empty() && !were_tried)

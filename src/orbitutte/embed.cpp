@@ -123,11 +123,12 @@ EmbedResult embed_once(const EmbedRequest& request, EmbeddingCache& cache) {
   lbfgs.max_iterations = options.max_iterations;
   const Placement placed = place(problem, lbfgs, stage);  // (2)
   result.minimum = placed.minimum;
-  const auto needs_mending = [&] {
-    return !result.certificate.bijective && result.minimum.termination == Termination::converged;
-  };
+  const bool has_converged = placed.minimum.termination == Termination::converged;
+  const auto needs_mending = [&] { return has_converged && !result.certificate.bijective; };
   stage("certify", [&] {
-    take(problem, spread_map(problem, placed), result);
+    // A map that turns faces over is mended before it is certified.
+    const SpreadMap map = spread_map(problem, placed);
+    if (!has_converged || !turns_faces_over(problem, map)) take(problem, map, result);
     if (!needs_mending()) judge(request, result);
   });
   if (needs_mending()) {
@@ -136,7 +137,10 @@ EmbedResult embed_once(const EmbedRequest& request, EmbeddingCache& cache) {
       result.collapsing_faces = std::move(collapsing);
     else
       stage("mend", [&] { mend(problem, placed, result); });
-    stage("measure", [&] { judge(request, result); });
+    stage("certify", [&] {
+      if (result.certificate.checks.empty()) take(problem, spread_map(problem, placed), result);
+      judge(request, result);
+    });
   }
 
   result.warnings = warnings_of(request, problem, placed, result);

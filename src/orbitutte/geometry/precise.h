@@ -18,7 +18,10 @@ using PreciseNumber = boost::multiprecision::number<
 /// Enough for edges of 1e-60.
 using Precise = PreciseNumber<320>;
 
-/// Enough for the shortest edges that doubles can express, with their exact sums.
+/// Enough for edges of 1e-290.
+using MorePrecise = PreciseNumber<1152>;
+
+/// Enough for the exact sums of doubles.
 using MostPrecise = PreciseNumber<2304>;
 
 template <typename Real>

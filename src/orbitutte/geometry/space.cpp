@@ -96,6 +96,13 @@ double Space::defect(const Vector3& p) const {
              : std::numeric_limits<double>::infinity();
 }
 
+double Space::tangential_rounding(const Vector3& p) const {
+  Vector3 size = p.cwiseAbs();
+  if (k_ <= 0) size.z() = std::numeric_limits<double>::infinity();
+  std::sort(size.begin(), size.end());
+  return std::numeric_limits<double>::epsilon() * size[1];
+}
+
 double Space::area(const Vector3& a, const Vector3& b, const Vector3& c) const {
   const Vector3 ab = b - a, ac = c - a, bc = c - b;
   const double determinant = a.dot(ab.cross(ac));  // of differences: keeps the digits of small triangles

@@ -90,6 +90,11 @@ class Space {
   /// By how much a point is off the space: |sqrt(k (x^2 + y^2) + z^2) - 1|; infinite where that is no number.
   double defect(const Vector3& p) const;
 
+  /// By how much the rounding of doubles may move a point along the space: that of the larger of x and y, or,
+  /// on the sphere, of the second largest coordinate, since the rounding of the largest moves the point off
+  /// it.
+  double tangential_rounding(const Vector3& p) const;
+
   // -- Triangles --
 
   /// The signed area of the triangle a, b, c, positive if it is counterclockwise from outside: with the

@@ -158,6 +158,7 @@ Matrix3Of<Real> PreciseGroup<Real>::product(const std::vector<int>& sides) const
 
 template class PreciseGroup<double>;
 template class PreciseGroup<Precise>;
+template class PreciseGroup<MorePrecise>;
 template class PreciseGroup<MostPrecise>;
 
 }  // namespace orbitutte

@@ -16,7 +16,7 @@ namespace orbitutte {
 ///
 /// Rotations about (0, 0, 1), and half turns about x, take the tiles of NN, N* and Nx to other ones and their
 /// elements to elements: they may lie turned like that. A fixed polygon has no group but the identity.
-/// Real is double, Precise or MostPrecise.
+/// Real is double or one of the numbers of precise.h.
 template <typename Real>
 class PreciseGroup {
  public:
@@ -56,6 +56,7 @@ class PreciseGroup {
 
 extern template class PreciseGroup<double>;
 extern template class PreciseGroup<Precise>;
+extern template class PreciseGroup<MorePrecise>;
 extern template class PreciseGroup<MostPrecise>;
 
 }  // namespace orbitutte

@@ -126,7 +126,8 @@ std::string group_text(const Target& target) {
 // What the copies of the tile cover.
 std::string covering(const Target& target) {
   if (target.group_order == 1) return "the tile covers the sphere";
-  if (target.group_order == 0) return "its symmetric copies cover the plane";
+  if (target.group_order == 0)
+    return fmt::format("its symmetric copies cover the {} plane", target.space.name());
   return fmt::format("its {} symmetric copies cover the sphere", target.group_order);
 }
 

@@ -192,6 +192,6 @@ Points PrecisePositions<Real>::spread(const std::vector<double>& shortest_edge,
 }
 
 template class PrecisePositions<Precise>;
-template class PrecisePositions<MostPrecise>;
+template class PrecisePositions<MorePrecise>;
 
 }  // namespace orbitutte

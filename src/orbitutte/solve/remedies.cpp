@@ -2,9 +2,11 @@
 #include "orbitutte/solve/remedies.h"
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 #include <set>
 
+#include "orbitutte/geometry/orientation.h"
 #include "orbitutte/parallel.h"
 #include "orbitutte/solve/repair.h"
 
@@ -208,6 +210,18 @@ SpreadMap spread_map(const GluingProblem& problem, const Placement& placed) {
   return spread_map(problem, std::move(rounded), {});
 }
 
+bool turns_faces_over(const GluingProblem& problem, const SpreadMap& map) {
+  const Triangles& F = problem.cut.F;
+  std::atomic<bool> any = false;
+  parallel_ranges(static_cast<int>(F.rows()), [&](int begin, int end) {
+    for (int f = begin; f < end && !any; ++f)
+      if (orientation_sign(map.positions.row(F(f, 0)), map.positions.row(F(f, 1)),
+                           map.positions.row(F(f, 2))) <= 0)
+        any = true;
+  });
+  return any;
+}
+
 std::optional<SpreadMap> with_faces_repaired(const GluingProblem& problem, const Placement& placed) {
   Placement result = placed;
   Site site(problem, placed);
@@ -239,7 +253,7 @@ std::optional<SpreadMap> with_more_digits(const GluingProblem& problem, const Pl
   constexpr double finest = 1e-60, finest_of_all = 1e-290;  // edges
   bool too_coarse = false;
   std::optional<SpreadMap> result = refined<Precise>(problem, placed, finest, too_coarse);
-  if (too_coarse) result = refined<MostPrecise>(problem, placed, finest_of_all, too_coarse);
+  if (too_coarse) result = refined<MorePrecise>(problem, placed, finest_of_all, too_coarse);
   return result;
 }
 

@@ -27,6 +27,9 @@ struct SpreadMap {
 /// The map as it was placed, its ears rounded outward.
 SpreadMap spread_map(const GluingProblem& problem, const Placement& placed);
 
+/// Is a face of the cut mesh not positive?
+bool turns_faces_over(const GluingProblem& problem, const SpreadMap& map);
+
 /// The faces that become arcs, of the cut mesh.
 std::vector<Ear> ears_of(const GluingProblem& problem, const Placement& placed);
 

@@ -136,14 +136,10 @@ struct FaceAreas {
   double source = 0, image = 0;
 };
 
-// By how much rounding may move a point along the space. Of doubles it is that of the smaller coordinates:
-// the rounding of the largest moves the point off the sphere.
+// By how much rounding may move a position along the space.
 double tangential_rounding(const Embedding& embedding, const ExactPositions& positions, int v) {
-  if (positions.has_offsets(v)) return positions.rounding(v);
-  Vector3 size = embedding.positions.row(v).cwiseAbs();
-  if (embedding.space().curvature() <= 0) size.z() = std::numeric_limits<double>::infinity();
-  std::sort(size.begin(), size.end());
-  return std::numeric_limits<double>::epsilon() * size[1];
+  return positions.has_offsets(v) ? positions.rounding(v)
+                                  : embedding.space().tangential_rounding(embedding.positions.row(v));
 }
 
 // What is measured of the image of a triangle: the lengths of the sides between its corners 0 and 1, 1 and 2,
