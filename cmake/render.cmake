@@ -10,14 +10,14 @@ if(ORBITUTTE_RENDER)
   pkg_check_modules(CAIRO REQUIRED IMPORTED_TARGET cairo cairo-svg cairo-png)
   file(GLOB ORBITUTTE_RENDER_SOURCES CONFIGURE_DEPENDS src/orbitutte/render/*.cpp)
   target_sources(orbitutte PRIVATE ${ORBITUTTE_RENDER_SOURCES})
-  # The headers are for these files only, so that no others are compiled again where pictures are left out. PRIVATE libraries bring
+  # Cairo's headers are for one file only, so that no others are compiled again where pictures are left out. PRIVATE libraries bring
   # theirs to all; a static library is not linked itself, and can leave them to who links it.
   if(BUILD_SHARED_LIBS)
     target_link_libraries(orbitutte PRIVATE embree PkgConfig::CAIRO)
   else()
     target_link_libraries(orbitutte INTERFACE $<LINK_ONLY:embree> $<LINK_ONLY:PkgConfig::CAIRO>)
   endif()
-  set_source_files_properties(${ORBITUTTE_RENDER_SOURCES} PROPERTIES INCLUDE_DIRECTORIES "${CAIRO_INCLUDE_DIRS}")
+  set_source_files_properties(src/orbitutte/render/canvas.cpp PROPERTIES INCLUDE_DIRECTORIES "${CAIRO_INCLUDE_DIRS}")
 else()
   target_sources(orbitutte PRIVATE src/orbitutte/render/missing/comparison.cpp)
 endif()
