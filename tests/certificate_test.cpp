@@ -19,7 +19,7 @@
 #include "orbitutte/export/tiling.h"
 #include "sample_embeddings.h"
 
-namespace orbitutte {
+namespace orbitutte::certificate_test {
 namespace {
 
 using std::numbers::pi;
@@ -887,4 +887,4 @@ TEST(Certificate, TheDetailNamesTheOffender) {
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::certificate_test

@@ -13,7 +13,7 @@
 #include "orbitutte/report/charts.h"
 #include "sample_embeddings.h"
 
-namespace orbitutte {
+namespace orbitutte::chart_test {
 namespace {
 
 using test::sample_embedding;
@@ -149,4 +149,4 @@ TEST(Colours, LinesOfChartsStandOutFromTheirGround) {
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::chart_test

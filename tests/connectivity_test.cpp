@@ -14,7 +14,7 @@
 
 #include "test_meshes.h"
 
-namespace orbitutte {
+namespace orbitutte::connectivity_test {
 namespace {
 
 using test::face_count;
@@ -164,4 +164,4 @@ RC_GTEST_PROP(Connectivity, DoesNotDependOnTheNumbersOfVerticesAndFaces, (std::u
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::connectivity_test

@@ -18,7 +18,7 @@
 
 #include "random_spheres.h"
 
-namespace orbitutte {
+namespace orbitutte::cut_test {
 namespace {
 
 using test::face_count;
@@ -664,4 +664,4 @@ TEST(Cut, MarksOnSeparateSpheresAreRefused) {
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::cut_test

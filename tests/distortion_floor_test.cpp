@@ -10,7 +10,7 @@
 #include "orbitutte/verify/laid_out.h"
 #include "sample_embeddings.h"
 
-namespace orbitutte::test {
+namespace orbitutte::distortion_floor_test {
 namespace {
 
 double area_of(const Points& V, const Triangles& F) {
@@ -24,7 +24,7 @@ double area_of(const Points& V, const Triangles& F) {
 
 TEST(Subdivision, KeepsVerticesTopologyAndArea) {
   for (const std::string signature : {"432", "*432", "2x"}) {
-    const Mesh mesh = sample_mesh_for(parse_orbifold(signature));
+    const Mesh mesh = test::sample_mesh_for(parse_orbifold(signature));
     const Mesh fine = subdivided(mesh);
     EXPECT_EQ(fine.F.rows(), 4 * mesh.F.rows());
     EXPECT_EQ(fine.V.topRows(mesh.V.rows()), mesh.V);
@@ -34,7 +34,7 @@ TEST(Subdivision, KeepsVerticesTopologyAndArea) {
 }
 
 TEST(Subdivision, TrianglesStandWhereTheirNumbersSay) {
-  const Mesh mesh = sample_mesh_for(parse_orbifold("432"));
+  const Mesh mesh = test::sample_mesh_for(parse_orbifold("432"));
   const Mesh fine = subdivided(mesh);
   for (int f = 0; f < mesh.F.rows(); ++f) {
     for (int k = 0; k < 3; ++k) EXPECT_EQ(fine.F(4 * f + k, 0), mesh.F(f, k));
@@ -47,7 +47,7 @@ class FloorOfFamily : public testing::TestWithParam<std::string> {};
 // The coarse triangles tile the orbifold as the fine ones do, whatever seams run through them.
 TEST_P(FloorOfFamily, SampledTrianglesTileTheOrbifold) {
   const Target target = parse_orbifold(GetParam());
-  const Mesh mesh = sample_mesh_for(target);
+  const Mesh mesh = test::sample_mesh_for(target);
   const Surface fine = make_surface(subdivided(subdivided(mesh)));
   const EmbedResult map = embed(fine, target, choose_cones(mesh, target));
   ASSERT_TRUE(map.certificate.bijective);
@@ -75,7 +75,7 @@ TEST(DistortionFloor, LiesBelowTheMapAndVanishesOnFinerMeshes) {
   const Target target = parse_orbifold("432");
   double coarser = 1e9;
   for (const int level : {2, 3, 4}) {
-    Mesh mesh = icosphere(level);
+    Mesh mesh = test::icosphere(level);
     mesh.V.col(2) *= 3;
     const Surface surface = make_surface(mesh);
     const std::vector<int> cones = choose_cones(surface, target);
@@ -91,7 +91,7 @@ TEST(DistortionFloor, LiesBelowTheMapAndVanishesOnFinerMeshes) {
 // The file of weights is of the coarse mesh: it must not be asked for.
 TEST(DistortionFloor, DoesNotDependOnTheWeights) {
   const Target target = parse_orbifold("432");
-  const Surface surface = make_surface(perturbed(icosphere(2), 0.03, 7));
+  const Surface surface = make_surface(test::perturbed(test::icosphere(2), 0.03, 7));
   const std::vector<int> cones = choose_cones(surface, target);
   EmbedOptions options;
   options.weights.kind = WeightKind::uniform;
@@ -103,4 +103,4 @@ TEST(DistortionFloor, DoesNotDependOnTheWeights) {
 }
 
 }  // namespace
-}  // namespace orbitutte::test
+}  // namespace orbitutte::distortion_floor_test

@@ -13,7 +13,7 @@
 #include "hand_made.h"
 #include "sample_embeddings.h"
 
-namespace orbitutte {
+namespace orbitutte::distortion_test {
 namespace {
 
 // A map to the sphere is all that distortion asks for: seams and cones stay empty.
@@ -363,4 +363,4 @@ TEST(Distortion, IsNeverBelowOne) {
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::distortion_test

@@ -18,7 +18,7 @@
 #include "random_spheres.h"
 #include "sample_embeddings.h"
 
-namespace orbitutte {
+namespace orbitutte::embed_test {
 namespace {
 
 using std::numbers::pi;
@@ -681,4 +681,4 @@ TEST(Embed, DoesNotDependOnTheNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::embed_test

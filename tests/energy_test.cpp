@@ -9,7 +9,7 @@
 #include "hand_made.h"
 #include "sample_embeddings.h"
 
-namespace orbitutte {
+namespace orbitutte::energy_test {
 namespace {
 
 using std::numbers::pi;
@@ -105,4 +105,4 @@ TEST(Energy, IsAtLeastTwiceTheArea) {
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::energy_test

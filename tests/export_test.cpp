@@ -23,7 +23,7 @@
 #include "polygon_meshes.h"
 #include "sample_embeddings.h"
 
-namespace orbitutte {
+namespace orbitutte::export_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -366,4 +366,4 @@ TEST(Export, AnEmbeddingOfAnotherMeshIsRefused) {
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::export_test

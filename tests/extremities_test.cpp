@@ -17,7 +17,7 @@
 #include "orbitutte/cut/cut.h"
 #include "random_spheres.h"
 
-namespace orbitutte {
+namespace orbitutte::extremities_test {
 namespace {
 
 using test::vertex_count;
@@ -198,4 +198,4 @@ TEST(Extremities, AreNoNeighboursWhereThatIsAskedForAndPossible) {
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::extremities_test

@@ -15,7 +15,7 @@
 #include "orbitutte/linear/substructure.h"
 #include "test_meshes.h"
 
-namespace orbitutte {
+namespace orbitutte::factorization_test {
 namespace {
 
 Neighbors neighbors_of(const Mesh& mesh) {
@@ -288,4 +288,4 @@ TEST(Substructure, NamesTheUnknownThatNothingHolds) {
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::factorization_test

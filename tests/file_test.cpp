@@ -17,7 +17,7 @@
 
 #include "orbitutte/types.h"
 
-namespace orbitutte {
+namespace orbitutte::file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -222,4 +222,4 @@ TEST_F(File, ThreadsDoNotDisturbEachOther) {
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::file_test

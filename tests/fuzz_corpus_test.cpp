@@ -9,7 +9,7 @@
 #include "../fuzz/round_trip.h"
 #include "orbitutte/io/file.h"
 
-namespace orbitutte {
+namespace orbitutte::fuzz_corpus_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -40,4 +40,4 @@ INSTANTIATE_TEST_SUITE_P(Formats, FuzzCorpus,
                          [](const auto& test) { return test.param.first; });
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::fuzz_corpus_test

@@ -7,7 +7,7 @@
 #include <Eigen/Eigenvalues>
 #include <random>
 
-namespace orbitutte {
+namespace orbitutte::inertia_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -102,4 +102,4 @@ TEST(Inertia, WithoutMumpsThePackageIsNamed) {
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::inertia_test

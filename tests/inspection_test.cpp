@@ -18,7 +18,7 @@
 #include "polygon_meshes.h"
 #include "test_meshes.h"
 
-namespace orbitutte {
+namespace orbitutte::inspection_test {
 namespace {
 
 using testing::AllOf;
@@ -672,4 +672,4 @@ INSTANTIATE_TEST_SUITE_P(, InspectionOfRealMeshes,
                          });
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::inspection_test

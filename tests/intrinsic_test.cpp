@@ -17,7 +17,7 @@
 #include "sample_embeddings.h"
 #include "solve_cases.h"
 
-namespace orbitutte {
+namespace orbitutte::intrinsic_test {
 namespace {
 
 using std::numbers::pi;
@@ -715,4 +715,4 @@ TEST(IntrinsicEmbedding, FacesWithoutAreaSurvive) {
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::intrinsic_test

@@ -15,7 +15,7 @@
 #include "orbitutte/io/bytes.h"
 #include "orbitutte/io/mesh_io.h"
 
-namespace orbitutte {
+namespace orbitutte::mesh_colours_test {
 namespace {
 
 /// Vertices with colours as a file has them, and two faces.
@@ -261,4 +261,4 @@ TEST(MeshColours, NumbersUpTo255NeedNotBeWholeButThenAWarningSaysHowTheyAreTaken
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::mesh_colours_test

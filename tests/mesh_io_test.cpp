@@ -23,7 +23,7 @@
 #include "orbitutte/io/file.h"
 #include "test_meshes.h"
 
-namespace orbitutte {
+namespace orbitutte::mesh_io_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -875,4 +875,4 @@ TEST(MeshIo, RealMeshesHaveTheVerticesAndFacesThatTheirListTells) {
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::mesh_io_test

@@ -19,7 +19,7 @@
 #include "orbitutte/samples/sample.h"
 #include "orbitutte/verify/theorem2.h"
 
-namespace orbitutte {
+namespace orbitutte::names_test {
 namespace {
 
 template <typename Enum>
@@ -68,4 +68,4 @@ TEST(Names, ARefusalListsTheChoices) {
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::names_test

@@ -15,7 +15,7 @@
 #include "orbitutte/verify/certificate.h"
 #include "orbitutte/verify/distortion.h"
 
-namespace orbitutte {
+namespace orbitutte::offsets_test {
 namespace {
 
 using test::Exact;
@@ -303,4 +303,4 @@ TEST(DistortionOfOffsets, TheScaleOfALimbIsRightToThreeDigits) {
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::offsets_test

@@ -11,7 +11,7 @@
 #include <limits>
 #include <random>
 
-namespace orbitutte {
+namespace orbitutte::orientation_test {
 namespace {
 
 // det[a b c] of the stored doubles by its six products, in rational arithmetic.
@@ -149,4 +149,4 @@ TEST(Orientation, ScalingByPowersOfTwoChangesNoSign) {
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::orientation_test

@@ -24,7 +24,7 @@
 #include "polygon_meshes.h"
 #include "sample_embeddings.h"
 
-namespace orbitutte {
+namespace orbitutte::page_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -352,4 +352,4 @@ TEST(Page, RefusesAMeshThatWasNotEmbeddedAndAReportThatIsNone) {
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::page_test

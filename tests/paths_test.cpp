@@ -16,7 +16,7 @@
 #include "orbitutte/cut/cut.h"
 #include "random_spheres.h"
 
-namespace orbitutte {
+namespace orbitutte::paths_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -267,4 +267,4 @@ TEST(Paths, DisjointPathsAreTheSameEveryTime) {
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::paths_test

@@ -13,7 +13,7 @@
 #include "orbitutte/orbifold/symmetry_group.h"
 #include "sample_embeddings.h"
 
-namespace orbitutte {
+namespace orbitutte::placement_test {
 namespace {
 
 // Every family, those with a free order for N = 2, 3 and 5.
@@ -188,4 +188,4 @@ TEST(PlacedElsewhere, CanonicalPositionsAreThoseOfTheCanonicalFrame) {
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::placement_test

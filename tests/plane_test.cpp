@@ -14,7 +14,7 @@
 #include "orbitutte/orbifold/tile.h"
 #include "test_meshes.h"
 
-namespace orbitutte {
+namespace orbitutte::plane_test {
 namespace {
 
 using std::numbers::pi;
@@ -284,4 +284,4 @@ TEST(Plane, TheSquareAndItsDoubleAreLaidOutAsTheyAre) {
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::plane_test

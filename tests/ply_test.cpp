@@ -15,7 +15,7 @@
 
 #include "orbitutte/types.h"
 
-namespace orbitutte {
+namespace orbitutte::ply_test {
 namespace {
 
 using testing::ElementsAre;
@@ -432,4 +432,4 @@ TEST(PlyWriting, ACommentStaysInItsLine) {
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::ply_test

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace orbitutte {
+namespace orbitutte::ply_triangles_test {
 namespace {
 
 using testing::ElementsAre;
@@ -103,4 +103,4 @@ TEST(PlyTriangles, EveryVertexNeedsItsInteger) {
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::ply_triangles_test

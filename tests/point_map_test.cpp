@@ -17,7 +17,7 @@
 #include "orbitutte/orbifold/symmetry_group.h"
 #include "sample_embeddings.h"
 
-namespace orbitutte {
+namespace orbitutte::point_map_test {
 namespace {
 
 using test::sample_embedding;
@@ -466,4 +466,4 @@ TEST(BarycentricCoordinates, TheBulgeBoundsHowFarTrianglesAreFromFlatOnes) {
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::point_map_test

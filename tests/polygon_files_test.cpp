@@ -6,7 +6,7 @@
 
 #include "orbitutte/io/mesh_io.h"
 
-namespace orbitutte {
+namespace orbitutte::polygon_files_test {
 namespace {
 
 // A pyramid on a base of five corners, whose coordinates have no short decimals.
@@ -41,4 +41,4 @@ TEST(PolygonFiles, StlHoldsNoPolygons) {
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::polygon_files_test

@@ -21,7 +21,7 @@
 #include "orbitutte/io/file.h"
 #include "sample_embeddings.h"
 
-namespace orbitutte {
+namespace orbitutte::polygon_test {
 namespace {
 
 using std::numbers::pi;
@@ -459,4 +459,4 @@ TEST_F(PolygonCertificate, RejectsAnotherSignatureOrGroup) {
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::polygon_test

@@ -30,7 +30,7 @@
 #include "random_spheres.h"
 #include "sample_embeddings.h"
 
-namespace orbitutte {
+namespace orbitutte::polygons_test {
 namespace {
 
 using testing::ElementsAre;
@@ -523,4 +523,4 @@ TEST(PolygonFiles, TilingKeepsThePolygons) {
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::polygons_test

@@ -13,7 +13,7 @@
 #include "planar_families.h"
 #include "spherical_families.h"
 
-namespace orbitutte {
+namespace orbitutte::precise_group_test {
 namespace {
 
 std::vector<Target> all_targets() {
@@ -181,4 +181,4 @@ TEST(PreciseGroup, AFixedPolygonHasTheIdentityOnly) {
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::precise_group_test

@@ -14,7 +14,7 @@
 #include "orbitutte/samples/projective_mesh.h"
 #include "orbitutte/samples/sample.h"
 
-namespace orbitutte {
+namespace orbitutte::projective_sample_test {
 namespace {
 
 constexpr std::array<EvenMap, 4> even_maps = {boys_surface, roman_surface, cross_cap, limbed_quotient};
@@ -197,4 +197,4 @@ TEST(SampleShapes, AreKnownByName) {
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::projective_sample_test

@@ -12,7 +12,7 @@
 #include "random_spheres.h"
 #include "test_meshes.h"
 
-namespace orbitutte {
+namespace orbitutte::recognition_test {
 namespace {
 
 using test::face_count;
@@ -146,4 +146,4 @@ RC_GTEST_PROP(Recognition, AgreesWithInspectionOnDamagedSpheres, ()) {
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::recognition_test

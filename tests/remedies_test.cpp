@@ -11,7 +11,7 @@
 #include "orbitutte/solve/repair.h"
 #include "solve_cases.h"
 
-namespace orbitutte {
+namespace orbitutte::remedies_test {
 namespace {
 
 using test::solve_case;
@@ -196,4 +196,4 @@ TEST(Limbs, OfAnyLengthAreCertified) {
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::remedies_test

@@ -37,7 +37,7 @@
 // It calls this function; without sanitizers nobody does.
 extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfig\n"; }
 
-namespace orbitutte {
+namespace orbitutte::render_test {
 namespace {
 
 using test::icosphere;
@@ -646,4 +646,4 @@ TEST(Checkerboard, NeighbouringSquaresDiffer) {
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::render_test

@@ -20,7 +20,7 @@
 #include "orbitutte/report/verification.h"
 #include "sample_embeddings.h"
 
-namespace orbitutte {
+namespace orbitutte::report_test {
 namespace {
 
 using ::testing::AllOf;
@@ -613,4 +613,4 @@ TEST(Sha256, DigestsOfTheStandard) {
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::report_test

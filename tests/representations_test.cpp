@@ -11,7 +11,7 @@
 #include "orbitutte/orbifold/signature.h"
 #include "spherical_families.h"
 
-namespace orbitutte {
+namespace orbitutte::representations_test {
 namespace {
 
 using std::numbers::pi;
@@ -111,4 +111,4 @@ TEST(Representations, FixedVectorsAreTheAxisOfATurnAndThePlaneOfAMirror) {
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::representations_test

@@ -11,7 +11,7 @@
 #include "orbitutte/inspect/inspection.h"
 #include "orbitutte/mesh/connectivity.h"
 
-namespace orbitutte {
+namespace orbitutte::sample_test {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
@@ -144,4 +144,4 @@ TEST(SampleMesh, NumbersOfFacesOutOfRangeAreRefused) {
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::sample_test

@@ -16,7 +16,7 @@
 #include "planar_families.h"
 #include "spherical_families.h"
 
-namespace orbitutte {
+namespace orbitutte::signature_test {
 namespace {
 
 using test::SphericalOrbifold;
@@ -431,4 +431,4 @@ TEST(Signature, LongTextsAreJudgedAtOnce) {
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::signature_test

@@ -13,7 +13,7 @@
 #include "orbitutte/solve/lbfgs.h"
 #include "solve_cases.h"
 
-namespace orbitutte {
+namespace orbitutte::solve_test {
 namespace {
 
 using test::moved;
@@ -355,4 +355,4 @@ TEST(Ears, TriangleWithTwoEdgesOnAMirrorIsFoundAndRoundedOutward) {
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::solve_test

@@ -16,7 +16,7 @@
 #include "orbitutte/geometry/orientation.h"
 #include "test_meshes.h"
 
-namespace orbitutte {
+namespace orbitutte::space_test {
 namespace {
 
 using std::numbers::pi;
@@ -644,4 +644,4 @@ TEST(Sphere, DistanceIsAccurateNearZeroAndNearPi) {
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::space_test

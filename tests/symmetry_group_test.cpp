@@ -13,7 +13,7 @@
 #include "orbitutte/orbifold/tile.h"
 #include "planar_families.h"
 
-namespace orbitutte {
+namespace orbitutte::symmetry_group_test {
 namespace {
 
 using hand_made::reflection;
@@ -289,4 +289,4 @@ TEST(GroupOf, ATargetThatClaimsAnotherOrderIsRefused) {
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::symmetry_group_test

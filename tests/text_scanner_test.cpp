@@ -13,7 +13,7 @@
 
 #include "orbitutte/types.h"
 
-namespace orbitutte {
+namespace orbitutte::text_scanner_test {
 namespace {
 
 constexpr TextScanner::Syntax syntax = {.comment = '#', .backslash_continues = true};
@@ -84,4 +84,4 @@ TEST(TextScanner, PlainNumbersAreTakenOneByOne) {
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::text_scanner_test

@@ -16,7 +16,7 @@
 #include "sample_embeddings.h"
 #include "solve_cases.h"
 
-namespace orbitutte {
+namespace orbitutte::theorem2_test {
 namespace {
 
 using Eigen::VectorXd;
@@ -285,4 +285,4 @@ TEST(Theorem2, AGroupThatIsTooLargeIsNotRun) {
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::theorem2_test

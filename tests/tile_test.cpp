@@ -18,7 +18,7 @@
 #include "planar_families.h"
 #include "spherical_families.h"
 
-namespace orbitutte {
+namespace orbitutte::tile_test {
 namespace {
 
 using std::numbers::pi;
@@ -494,4 +494,4 @@ TEST(Tile, ArrangementsThatAreNoPermutationsAreRefused) {
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::tile_test

@@ -30,7 +30,7 @@
 #include "polygon_meshes.h"
 #include "sample_embeddings.h"
 
-namespace orbitutte {
+namespace orbitutte::tiling_test {
 namespace {
 
 using hand_made::antipodal_hemisphere;
@@ -636,4 +636,4 @@ TEST_F(TilingFiles, ReportsFoldersThatDoNotExist) {
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::tiling_test

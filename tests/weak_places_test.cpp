@@ -13,7 +13,7 @@
 #include "polygon_meshes.h"
 #include "random_spheres.h"
 
-namespace orbitutte {
+namespace orbitutte::weak_places_test {
 namespace {
 
 using testing::ElementsAre;
@@ -212,4 +212,4 @@ TEST(CollapsingFaces, AMirrorThatLeadsAroundToAMarkedCornerBendsThere) {
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::weak_places_test

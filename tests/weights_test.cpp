@@ -22,7 +22,7 @@
 
 #include "test_meshes.h"
 
-namespace orbitutte {
+namespace orbitutte::weights_test {
 namespace {
 
 using test::vertex_count;
@@ -378,4 +378,4 @@ TEST(WeightFile, ThatDoesNotExistIsAFileError) {
 }
 
 }  // namespace
-}  // namespace orbitutte
+}  // namespace orbitutte::weights_test

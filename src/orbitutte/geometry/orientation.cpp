@@ -5,17 +5,26 @@
 
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
+#include <cstdint>
 
 namespace orbitutte {
 namespace {
 
+using WholeNumber = boost::multiprecision::cpp_int;
+
+// In units of 2^-1127, of which every double is a multiple.
+WholeNumber in_units(double x) {
+  int exponent = 0;
+  const double mantissa = std::frexp(x, &exponent);
+  return WholeNumber(static_cast<std::int64_t>(std::ldexp(mantissa, 53))) << (exponent + 1074);
+}
+
 int exact_sign(const Vector3& a, const Vector3& b, const Vector3& c) {
-  using Rational = boost::multiprecision::cpp_rational;
-  const auto minor = [&](int i, int j) -> Rational {
-    return Rational(b[i]) * Rational(c[j]) - Rational(b[j]) * Rational(c[i]);
+  const auto minor = [&](int i, int j) -> WholeNumber {
+    return in_units(b[i]) * in_units(c[j]) - in_units(b[j]) * in_units(c[i]);
   };
-  const Rational determinant =
-      Rational(a[0]) * minor(1, 2) + Rational(a[1]) * minor(2, 0) + Rational(a[2]) * minor(0, 1);
+  const WholeNumber determinant =
+      in_units(a[0]) * minor(1, 2) + in_units(a[1]) * minor(2, 0) + in_units(a[2]) * minor(0, 1);
   return determinant.sign();
 }
 
