@@ -93,7 +93,7 @@ std::vector<Contest> contests(const Surface& surface, const Candidates& all, con
     if (family.topology != surface.topology || family.group_order == "infinite") continue;
     const FamilyWithOrder with_order(family);
     const Target first = with_order.with_least();
-    if (!takes_cones(first, surface, all, options.cones)) continue;
+    if (first.marks.empty() || !takes_cones(first, surface, all, options.cones)) continue;
     result.push_back({first, with_order.has_free_order() ? std::optional(with_order) : std::nullopt});
   }
   if (!result.empty()) return result;
