@@ -59,7 +59,7 @@ class CommandLine(unittest.TestCase):
         cls.scratch = tempfile.TemporaryDirectory(prefix='orbitutte-command-line-')
         cls.folder = pathlib.Path(cls.scratch.name)
         for command in (['sample', '--faces', '500', '-o', 'figure.obj'],
-                        ['embed', 'figure.obj', '--orbifold', '432', '--cones', 'auto', '-o', 'map.ply', '--report', 'map.json']):
+                        ['embed', 'figure.obj', '--orbifold', '432', '--cones', 'extremities', '-o', 'map.ply', '--report', 'map.json']):
             subprocess.run([PROGRAM, *command], cwd=cls.folder, check=True, stderr=subprocess.DEVNULL)
 
     @classmethod
@@ -78,7 +78,7 @@ class CommandLine(unittest.TestCase):
             self.assertRegex(done.stderr, pattern, arguments)
         return done
 
-    def embed(self, mesh, *options, orbifold='432', cones='auto'):
+    def embed(self, mesh, *options, orbifold='432', cones='extremities'):
         return ['embed', mesh, '--orbifold', orbifold, '--cones', cones, *options]
 
 
@@ -189,7 +189,7 @@ class Files(CommandLine):
 class Streams(CommandLine):
     PRINTING = [['info', 'figure.obj'], ['info', 'figure.obj', '--json'], ['types'], ['types', '--json'], ['verify', 'map.ply', 'map.json', 'figure.obj'],
                 ['verify', 'map.ply', 'map.json', 'figure.obj', '--json'], ['compare', 'figure.obj'], ['compare', 'figure.obj', '--json'],
-                ['embed', 'figure.obj', '--orbifold', '432', '--cones', 'auto', '--json'], ['--help'], ['embed', '--help'], ['--version']]
+                ['embed', 'figure.obj', '--orbifold', '432', '--cones', 'extremities', '--json'], ['--help'], ['embed', '--help'], ['--version']]
 
     def test_what_is_printed_arrives_or_the_exit_code_says_no(self):
         for arguments in self.PRINTING:
@@ -241,7 +241,7 @@ class Messages(CommandLine):
         vertices, faces = read_obj(self.folder / 'figure.obj')
         hole = faces[7]
         mesh = self.mesh('hole.obj', vertices, faces[:7] + faces[8:])
-        for cones in ('auto', '1,2,3'):
+        for cones in ('extremities', '1,2,3'):
             self.expect(IS_UNSUITABLE, *self.embed(mesh, cones=cones),
                         says=[f'hole of 3 edges, through vertex {min(hole)}\\b', 'fill the hole', r'orbifold for a disk, such as \*432'])
 

@@ -124,7 +124,7 @@ def test_a_sphere_goes_around_the_tiles(embedding):
 
 def test_cones_may_be_chosen_before(figure):
     cones = orbitutte.choose_cones(*figure, "532")
-    assert [cone.vertex for cone in orbitutte.embed(*figure, "532", "auto").cones] == cones
+    assert [cone.vertex for cone in orbitutte.embed(*figure, "532", "extremities").cones] == cones
 
 
 def test_weights_may_be_a_name_arrays_or_a_sparse_matrix(figure):
