@@ -109,7 +109,7 @@ class Surface:
         kept = np.flatnonzero(known)
         level = np.searchsorted(np.cumsum(share[kept]) / share[kept].sum(), (np.arange(SAMPLES) + 0.5) / SAMPLES)
         faces = kept[level]
-        self.samples = middle[faces]
+        self.faces, self.samples = faces, middle[faces]
         old = np.stack([self.samples[:, 1], self.samples[:, 0] - self.samples[:, 1], -self.samples[:, 0]], axis=1)
         self.base = 0.5 * np.log(ratio[faces]) - Metric((0.5, 0.5, 0.5)).log_scale(old)
         self.inside, self.outside = self.farthest_points(candidates)

@@ -20,10 +20,11 @@ struct Known {
         base(surface.topology == Topology::disk ? "*222" : "222"),
         map(solver.embed(parse_orbifold(base), choose_cones(surface, parse_orbifold(base)))),
         faces(measure_triangles(surface, map.embedding)),
+        order(order_in_space(surface)),
         chart(map.embedding),
         neighbors(vertex_neighbors(surface.connectivity.edges, surface.vertex_count())) {}
 
-  KnownMap known() const { return {surface, map.embedding, faces}; }
+  KnownMap known() const { return {surface, map.embedding, faces, order}; }
   ScaleField field(int count) const { return {chart, neighbors, scale_samples(known(), count, {})}; }
 
   Surface surface;
@@ -31,6 +32,7 @@ struct Known {
   std::string base;
   EmbedResult map;
   std::vector<FaceDistortion> faces;
+  std::vector<int> order;
   OrbifoldChart chart;
   Neighbors neighbors;
 };
@@ -54,7 +56,7 @@ double error_of(const Known& known, const MarkedTarget& choice, const Embedding&
   const std::vector<double> u = field.log_scale(choice);
   double squares = 0, weight = 0;
   std::size_t k = 0;
-  for (std::size_t f = 0; f < faces.size(); ++f) {
+  for (const int f : known.order) {
     if (!(known.faces[f].area > 0)) continue;
     const double difference = u[k++] - 0.5 * std::log(faces[f].area);
     if (!(faces[f].area > 0)) continue;

@@ -16,7 +16,7 @@
 namespace orbitutte {
 namespace {
 
-constexpr int candidate_count = 60, coarse_samples = 250, fine_samples = 1500;
+constexpr int candidate_count = 60, coarse_samples = 250, fine_samples = 1500, finest_samples = 8000;
 constexpr int highest_order = 12;
 
 // A family with its free order.
@@ -139,9 +139,11 @@ class BestCones {
         neighbors_(vertex_neighbors(surface.connectivity.edges, surface.vertex_count())),
         chart_(base.embedding),
         faces_(measure_triangles(surface, base.embedding)),
+        order_(order_in_space(surface)),
         candidates_(candidates(base)),
         coarse_(chart_, neighbors_, samples(base, coarse_samples)),
         fine_(chart_, neighbors_, samples(base, fine_samples)),
+        finest_(chart_, neighbors_, samples(base, finest_samples)),
         search_(coarse_, surface, neighbors_, options.objective),
         fine_search_(fine_, surface, neighbors_, options.objective),
         freedom_{kept_vertices(options), !options.target.has_value()} {}
@@ -164,7 +166,7 @@ class BestCones {
   // Moves the vertices of the choice to where the finer samples want them.
   void polish(Scored& scored) { scored.score = fine_search_.polish(scored.choice, freedom_); }
 
-  ScaleSummary summary(const MarkedTarget& choice) { return fine_.summary(choice); }
+  ScaleSummary summary(const MarkedTarget& choice) { return finest_.summary(choice); }
 
  private:
   // The cones of the map first, which are extremities, then those that are given.
@@ -179,7 +181,7 @@ class BestCones {
   std::vector<ScaleSample> samples(const EmbedResult& base, int count) const {
     std::vector<int> ends = candidates_.inside;
     ends.insert(ends.end(), candidates_.on_boundary.begin(), candidates_.on_boundary.end());
-    return scale_samples({surface_, base.embedding, faces_}, count, ends);
+    return scale_samples({surface_, base.embedding, faces_, order_}, count, ends);
   }
 
   // From the extremities, and from the best so far.
@@ -221,8 +223,9 @@ class BestCones {
   Neighbors neighbors_;
   OrbifoldChart chart_;
   std::vector<FaceDistortion> faces_;
+  std::vector<int> order_;
   Candidates candidates_;
-  ScaleField coarse_, fine_;
+  ScaleField coarse_, fine_, finest_;
   ConeSearch search_, fine_search_;
   Freedom freedom_;
 

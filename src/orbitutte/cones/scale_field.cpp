@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <numeric>
@@ -42,9 +43,26 @@ ScaleSample sample_of(const KnownMap& map, const OrbifoldChart& chart, int f, do
 
 bool is_measured(const FaceDistortion& face) { return face.area > 0 && face.share > 0; }
 
+// The ten lowest bits, two zeros behind each.
+std::uint32_t spread_bits(std::uint32_t x) {
+  x = (x | (x << 16)) & 0x030000FF;
+  x = (x | (x << 8)) & 0x0300F00F;
+  x = (x | (x << 4)) & 0x030C30C3;
+  return (x | (x << 2)) & 0x09249249;
+}
+
+// The place of a point of the unit cube on Morton's curve.
+std::uint32_t morton_code(const Vector3& p) {
+  std::uint32_t code = 0;
+  for (int i = 0; i < 3; ++i)
+    code |= spread_bits(static_cast<std::uint32_t>(std::clamp(p[i] * 1024, 0.0, 1023.0))) << i;
+  return code;
+}
+
 // The weight of every triangle that is taken: of `count` levels spread evenly over the area, the share of
 // those that it holds. Every one its own share if there are not more.
-std::vector<std::pair<int, double>> spread_over_area(const std::vector<FaceDistortion>& faces, int count) {
+std::vector<std::pair<int, double>> spread_over_area(const KnownMap& map, int count) {
+  const std::vector<FaceDistortion>& faces = map.faces;
   std::vector<std::pair<int, double>> result;
   double total = 0;
   for (const FaceDistortion& face : faces)
@@ -52,7 +70,7 @@ std::vector<std::pair<int, double>> spread_over_area(const std::vector<FaceDisto
   const bool takes_all = static_cast<int>(faces.size()) <= count;
   double below = 0;
   int next = 0;
-  for (std::size_t f = 0; f < faces.size(); ++f) {
+  for (const int f : map.order) {
     if (!is_measured(faces[f])) continue;
     below += faces[f].share / total;
     int levels = 0;
@@ -91,10 +109,27 @@ std::vector<double> angles_of_double(const Target& target) {
 
 }  // namespace
 
+std::vector<int> order_in_space(const Surface& surface) {
+  const Triangles& F = surface.triangles;
+  const Vector3 low = surface.V.colwise().minCoeff();
+  const double size = std::max((surface.V.colwise().maxCoeff() - low.transpose()).maxCoeff(), 1e-300);
+  std::vector<std::pair<std::uint32_t, int>> codes;
+  codes.reserve(F.rows());
+  for (int f = 0; f < F.rows(); ++f) {
+    const Vector3 sum = surface.V.row(F(f, 0)) + surface.V.row(F(f, 1)) + surface.V.row(F(f, 2));
+    codes.emplace_back(morton_code((sum / 3 - low) / size), f);
+  }
+  std::sort(codes.begin(), codes.end());
+  std::vector<int> order;
+  order.reserve(codes.size());
+  for (const auto& [code, f] : codes) order.push_back(f);
+  return order;
+}
+
 std::vector<ScaleSample> scale_samples(const KnownMap& map, int count, const std::vector<int>& vertices) {
   const OrbifoldChart chart(map.embedding);
   std::vector<ScaleSample> samples;
-  for (const auto& [f, weight] : spread_over_area(map.faces, count))
+  for (const auto& [f, weight] : spread_over_area(map, count))
     samples.push_back(sample_of(map, chart, f, weight));
   for (const int f : triangles_beside(map, vertices)) samples.push_back(sample_of(map, chart, f, 0));
   return samples;

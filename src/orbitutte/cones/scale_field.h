@@ -14,12 +14,17 @@
 
 namespace orbitutte {
 
-/// A map whose scale is known: to 222 or *222, and what was measured of its triangles (measure_triangles).
+/// A map whose scale is known: to 222 or *222, what was measured of its triangles (measure_triangles), and an
+/// order of them in which neighbours in space mostly follow each other (order_in_space).
 struct KnownMap {
   const Surface& surface;
   const Embedding& embedding;
   const std::vector<FaceDistortion>& faces;
+  const std::vector<int>& order;
 };
+
+/// The triangles along a curve that fills space (G. M. Morton, 1966).
+std::vector<int> order_in_space(const Surface& surface);
 
 /// A place where the scale is known.
 struct ScaleSample {

@@ -64,9 +64,9 @@ bool may_exchange(const MarkedTarget& choice, int k, int l, const Freedom& freed
 }  // namespace
 
 Score score_of(const ScaleSummary& summary, Objective objective) {
-  const double log_resolution = std::log(1e-14);
+  constexpr double resolution = 1e-14;
   Score score;
-  score.lost = std::max(0.0, log_resolution - summary.log_least_length);
+  score.is_lost = summary.log_least_length < std::log(resolution);
   score.value = objective == Objective::sigma   ? summary.sigma
                 : objective == Objective::range ? summary.range
                                                 : summary.symmetric_dirichlet;

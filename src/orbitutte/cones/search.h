@@ -27,19 +27,18 @@ struct NameTable<Objective> {
                                                    {Objective::range, "range"}};
 };
 
-/// The lower, the better. First of all, positions must resolve the smallest triangles: `lost` are the digits
-/// (powers of e) by which doubles do not.
+/// The lower, the better.
 struct Score {
-  double lost = 0, value = 0;
+  /// Do doubles not resolve the smallest triangles? What they resolve comes first.
+  bool is_lost = false;
+  double value = 0;
 
   bool operator<(const Score& other) const {
-    return lost != other.lost ? lost < other.lost : value < other.value;
+    return is_lost != other.is_lost ? other.is_lost : value < other.value;
   }
 
   /// By more than one part in a thousand?
-  bool is_clearly_below(const Score& other) const {
-    return lost < other.lost - 0.1 || (lost <= other.lost && value < 0.999 * other.value);
-  }
+  bool is_clearly_below(const Score& other) const { return Score{is_lost, value / 0.999} < other; }
 };
 
 Score score_of(const ScaleSummary& summary, Objective objective);
