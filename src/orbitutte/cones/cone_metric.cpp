@@ -81,7 +81,7 @@ Ranks ranks(const Key& key) {
 }
 
 // In [0, pi].
-double unsigned_angle(double angle) { return std::abs(std::remainder(angle, 2 * pi)); }
+double unsigned_angle(double angle) { return std::abs(angle - 2 * pi * std::floor(angle / (2 * pi) + 0.5)); }
 
 }  // namespace
 
@@ -92,6 +92,7 @@ ConeMetric::Numbering ConeMetric::number(double a, double b, double g) {
   result.a = a;
   result.b = b;
   result.C = std::tan(side_between(a, b, g) / 2) * F1.at_one() / F2.at_one();
+  result.log_factor = std::log(2 * result.C * a);
   result.F1 = series_in_w<Series>(F1);
   result.F2 = series_in_w<Series>(F2);
   result.fill_table();
@@ -133,7 +134,7 @@ double ConeMetric::log_scale(const ConeCoordinates& P) const {
   const auto [i, j, k] = ranks([&](int m) { return std::norm(P[m]); });
   const Numbering& n = numbering(i, k);
   const double to_zero = std::log(std::abs(P[i] / P[k])), to_one = std::log(std::abs(P[j] / P[k]));
-  return std::log(2 * n.C * n.a) + (n.a - 1) * to_zero + (n.b - 1) * to_one -
+  return n.log_factor + (n.a - 1) * to_zero + (n.b - 1) * to_one -
          n.log_denominator(std::exp(n.a * to_zero), -P[i] / P[k]) - 2 * std::log(std::abs(P[k]));
 }
 
@@ -142,7 +143,7 @@ double ConeMetric::quick_log_scale(const ConeCoordinates& log_P) const {
   const Numbering& n = numbering(i, k);
   const Complex log_z = log_P[i] - log_P[k];
   const double to_one = log_P[j].real() - log_P[k].real();
-  return std::log(2 * n.C * n.a) + (n.a - 1) * log_z.real() + (n.b - 1) * to_one -
+  return n.log_factor + (n.a - 1) * log_z.real() + (n.b - 1) * to_one -
          n.table_value(std::exp(n.a * log_z.real()), unsigned_angle(log_z.imag() + pi)) - 2 * log_P[k].real();
 }
 

@@ -46,6 +46,9 @@ class ConeMetric {
   struct Numbering {
     double a = 0, b = 0, C = 0;
 
+    /// log(2 C a).
+    double log_factor = 0;
+
     /// The coefficients of F1 and F2 in powers of w.
     Series F1, F2;
 

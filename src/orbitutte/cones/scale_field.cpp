@@ -15,9 +15,11 @@ using std::numbers::pi;
 
 // log of a complex number; of 0 that of a very small one.
 Complex finite_log(const Complex& a) {
-  constexpr double least = -700;
+  constexpr double least = -700, safe = 1e-290;
+  const double square = std::norm(a), angle = std::atan2(a.imag(), a.real());
+  if (square > safe) return {0.5 * std::log(square), angle};
   const double length = std::abs(a);
-  return length > 0 ? Complex(std::log(length), std::arg(a)) : Complex(least, 0);
+  return length > 0 ? Complex(std::log(length), angle) : Complex(least, 0);
 }
 
 // Of the sphere; the double of a disk has twice the disk's.
