@@ -16,7 +16,7 @@
 namespace orbitutte {
 namespace {
 
-constexpr int candidate_count = 60, coarse_samples = 250, fine_samples = 1500, finest_samples = 8000;
+constexpr int candidate_count = 60, coarse_samples = 200, fine_samples = 1000, finest_samples = 8000;
 constexpr int highest_order = 12;
 
 // A family with its free order.
@@ -163,8 +163,14 @@ class BestCones {
     return best;
   }
 
-  // Moves the vertices of the choice to where the finer samples want them.
-  void polish(Scored& scored) { scored.score = fine_search_.polish(scored.choice, freedom_); }
+  // Moves the vertices of the choice to where they are best, by few samples and then by more.
+  void polish(Scored& scored) {
+    search_.polish(scored.choice, freedom_);
+    scored.score = fine_search_.polish(scored.choice, freedom_);
+  }
+
+  // By the samples that polish() compares by in the end.
+  void score(Scored& scored) { scored.score = fine_search_.score(scored.choice); }
 
   ScaleSummary summary(const MarkedTarget& choice) { return finest_.summary(choice); }
 
@@ -279,11 +285,17 @@ std::vector<Choice> choices_to_try(const Surface& surface, const std::vector<Con
   return result;
 }
 
+// Which rows of the table are moved to where they are best, vertex by vertex.
+enum class Polished { all, contenders };
+
 // The rows of the table, the best first, as far as the closed form knows.
 class Choosing {
  public:
-  Choosing(std::shared_ptr<const Surface> surface, const ChooseOptions& options)
-      : surface_(std::move(surface)), options_(options), solver_(surface_, options.embed) {}
+  Choosing(std::shared_ptr<const Surface> surface, const ChooseOptions& options, Polished polished)
+      : surface_(std::move(surface)),
+        options_(options),
+        polished_(polished),
+        solver_(surface_, options.embed) {}
 
   std::vector<Choice> table() {
     const Candidates all = all_places(*surface_);
@@ -324,7 +336,7 @@ class Choosing {
     for (const Contest& contest : targets)
       if (std::optional<Scored> best = search.best_of(contest)) found.push_back(std::move(*best));
     if (found.empty()) throw MeshError("the mesh has too few vertices to choose from");
-    for (Scored& scored : found) search.polish(scored);
+    polish(search, found);
     std::stable_sort(found.begin(), found.end(),
                      [](const Scored& a, const Scored& b) { return a.score < b.score; });
     std::vector<Choice> rows;
@@ -336,8 +348,21 @@ class Choosing {
     return rows;
   }
 
+  // All, or those that may become the best: polishing gains about as much everywhere.
+  void polish(BestCones& search, std::vector<Scored>& found) const {
+    constexpr double close = 1.05;
+    for (Scored& scored : found) search.score(scored);
+    const Score least = std::min_element(found.begin(), found.end(), [](const Scored& a, const Scored& b) {
+                          return a.score < b.score;
+                        })->score;
+    for (Scored& scored : found)
+      if (polished_ == Polished::all || !(Score{least.is_lost, close * least.value} < scored.score))
+        search.polish(scored);
+  }
+
   std::shared_ptr<const Surface> surface_;
   const ChooseOptions& options_;
+  Polished polished_;
   EmbeddingSolver solver_;
   double seconds_ = 0;
 };
@@ -381,7 +406,7 @@ auto with_threads_for(const ChooseOptions& options, const Compute& compute) {
 
 BestEmbedding embed_best(std::shared_ptr<const Surface> surface, const ChooseOptions& options) {
   return with_threads_for(options, [&] {
-    Choosing choosing(std::move(surface), options);
+    Choosing choosing(std::move(surface), options, Polished::contenders);
     BestEmbedding best = {options.objective, choosing.table(), -1, {}};
     std::string first_refusal;
     double least = 0;
@@ -412,7 +437,7 @@ BestEmbedding embed_best(std::shared_ptr<const Surface> surface, const ChooseOpt
 
 std::vector<Choice> choose(std::shared_ptr<const Surface> surface, const ChooseOptions& options, int solved) {
   return with_threads_for(options, [&] {
-    Choosing choosing(std::move(surface), options);
+    Choosing choosing(std::move(surface), options, Polished::all);
     std::vector<Choice> rows = choosing.table();
     for (Choice& row : rows) {
       if (row.predicted && solved-- <= 0) break;

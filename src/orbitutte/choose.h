@@ -45,7 +45,8 @@ struct Choice {
   std::string refusal;
 };
 
-/// The best choice for each family that the options leave, the best first; one of them is embedded.
+/// The best choice for each family that the options leave, the best first; one of them is embedded. Rows that
+/// cannot become the best are not searched to the end.
 struct BestEmbedding {
   Objective objective = Objective::sigma;
   std::vector<Choice> choices;

@@ -93,7 +93,7 @@ class ConeSearch {
   bool try_exchanges(MarkedTarget& choice, const Freedom& freedom, Score& best);
   bool try_candidates(MarkedTarget& choice, int mark, const std::vector<int>& candidates, Score& best);
 
-  /// The vertices at one, two, four and eight rings from one, up to twelve of each, that may carry its mark.
+  /// The vertices at one, two, four and eight rings from one, up to eight of each, that may carry its mark.
   std::vector<int> rings_around(int vertex) const;
 
   ScaleField& field_;
