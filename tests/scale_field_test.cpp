@@ -22,10 +22,11 @@ struct Known {
         faces(measure_triangles(surface, map.embedding)),
         order(order_in_space(surface)),
         chart(map.embedding),
-        neighbors(vertex_neighbors(surface.connectivity.edges, surface.vertex_count())) {}
+        neighbors(vertex_neighbors(surface.connectivity.edges, surface.vertex_count())),
+        stars(surface) {}
 
   KnownMap known() const { return {surface, map.embedding, faces, order}; }
-  ScaleField field(int count) const { return {chart, neighbors, scale_samples(known(), count, {})}; }
+  ScaleField field(int count) const { return {chart, stars, scale_samples(known(), count, {})}; }
 
   Surface surface;
   EmbeddingSolver solver;
@@ -35,6 +36,7 @@ struct Known {
   std::vector<int> order;
   OrbifoldChart chart;
   Neighbors neighbors;
+  VertexStars stars;
 };
 
 const Known& figure() {
@@ -93,6 +95,11 @@ TEST(ScaleField, KnowsTheScaleOfMapsOfASphereWithThreeCones) {
 TEST(ScaleField, KnowsTheScaleOfMapsOfADisk) {
   for (const std::string signature : {"*222", "*432", "*223", "3*2", "2*2", "2*3", "2*", "3*"})
     expect_prediction(mask(), signature, 0.015);
+}
+
+// Where they come to rest along their axis is an estimate.
+TEST(ScaleField, KnowsWhereMapsToTwoConesComeToRest) {
+  for (const std::string signature : {"22", "33"}) expect_prediction(figure(), signature, 0.1);
 }
 
 TEST(ScaleField, KnowsTheScaleOfMapsToThePlane) {

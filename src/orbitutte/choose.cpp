@@ -137,13 +137,14 @@ class BestCones {
       : surface_(surface),
         options_(options),
         neighbors_(vertex_neighbors(surface.connectivity.edges, surface.vertex_count())),
+        stars_(surface),
         chart_(base.embedding),
         faces_(measure_triangles(surface, base.embedding)),
         order_(order_in_space(surface)),
         candidates_(candidates(base)),
-        coarse_(chart_, neighbors_, samples(base, coarse_samples)),
-        fine_(chart_, neighbors_, samples(base, fine_samples)),
-        finest_(chart_, neighbors_, samples(base, finest_samples)),
+        coarse_(chart_, stars_, samples(base, coarse_samples)),
+        fine_(chart_, stars_, samples(base, fine_samples)),
+        finest_(chart_, stars_, samples(base, finest_samples)),
         search_(coarse_, surface, neighbors_, options.objective),
         fine_search_(fine_, surface, neighbors_, options.objective),
         freedom_{kept_vertices(options), !options.target.has_value()} {}
@@ -227,6 +228,7 @@ class BestCones {
   const Surface& surface_;
   const ChooseOptions& options_;
   Neighbors neighbors_;
+  VertexStars stars_;
   OrbifoldChart chart_;
   std::vector<FaceDistortion> faces_;
   std::vector<int> order_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "orbitutte/cones/scale_field.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -98,6 +99,23 @@ std::vector<int> triangles_beside(const KnownMap& map, const std::vector<int>& v
   return result;
 }
 
+// The edges from a triangle's first corner to the others, in the plane.
+struct PlaneEdges {
+  Complex first, second;
+};
+
+PlaneEdges laid_out(const Vector3& first, const Vector3& second) {
+  const double length = std::max(first.norm(), 1e-300);
+  return {length, {first.dot(second) / length, first.cross(second).norm() / length}};
+}
+
+// By how much the Dirichlet energy of the linear map between two triangles exceeds the area, up to a factor:
+// the square of its part that reverses orientations, times the area. 0 where a triangle has no area.
+double excess_of(const PlaneEdges& from, const PlaneEdges& to) {
+  const double area = (std::conj(from.first) * from.second).imag();
+  return area > 0 ? std::norm(to.first * from.second - to.second * from.first) / area : 0;
+}
+
 // Of the cones of the surface, or of a disk's double, as parts of a full turn.
 std::vector<double> angles_of_double(const Target& target) {
   std::vector<double> angles;
@@ -144,9 +162,13 @@ bool has_closed_form(const Target& target) {
   return angles.size() == 2 || angles.size() == 3;
 }
 
-ScaleField::ScaleField(const OrbifoldChart& chart, const Neighbors& neighbors,
-                       std::vector<ScaleSample> samples)
-    : chart_(chart), neighbors_(neighbors), samples_(std::move(samples)) {}
+VertexStars::VertexStars(const Surface& s)
+    : surface(s), halfedges(group_by(static_cast<int>(s.triangles.size()), s.vertex_count(), [&](int h) {
+        return halfedge_origin(s.triangles, h);
+      })) {}
+
+ScaleField::ScaleField(const OrbifoldChart& chart, const VertexStars& stars, std::vector<ScaleSample> samples)
+    : chart_(chart), stars_(stars), samples_(std::move(samples)) {}
 
 std::vector<ScaleField::Place> ScaleField::places(const MarkedTarget& choice) {
   const Target& target = choice.target;
@@ -212,23 +234,35 @@ void ScaleField::add_flat_cones(const std::vector<Place>& cones, std::vector<dou
   }
 }
 
-// The mean of log|z| over the neighbours of a vertex.
-double ScaleField::mean_log_ratio(const std::vector<Place>& cones, int vertex) const {
+// The excess of the triangles at a cone, whose images are laid out around it: z -> z^a with z = [s, cone]/[s,
+// other].
+double ScaleField::excess_at(const Place& cone, const Place& other) const {
+  const Surface& surface = stars_.surface;
+  const auto log_ratio = [&](int v) {
+    const Place place = {v, false, 0};
+    return log_bracket(place, cone) - log_bracket(place, other);
+  };
   double sum = 0;
-  int count = 0;
-  for (int k = neighbors_.start[vertex]; k < neighbors_.start[vertex + 1]; ++k) {
-    const Place neighbor = {neighbors_.neighbor[k], false, 0};
-    sum += (log_bracket(neighbor, cones[0]) - log_bracket(neighbor, cones[1])).real();
-    ++count;
+  for (int k = stars_.halfedges.start[cone.vertex]; k < stars_.halfedges.start[cone.vertex + 1]; ++k) {
+    const int h = stars_.halfedges.items[k], v = halfedge_target(surface.triangles, h),
+              w = halfedge_target(surface.triangles, next_halfedge(h));
+    const PlaneEdges from = laid_out(surface.V.row(v) - surface.V.row(cone.vertex),
+                                     surface.V.row(w) - surface.V.row(cone.vertex));
+    const Complex log_v = log_ratio(v), log_w = log_ratio(w);
+    const double turn = std::remainder(log_w.imag() - log_v.imag(), 2 * pi);
+    const PlaneEdges to = {std::exp(cone.angle * log_v.real()),
+                           std::polar(std::exp(cone.angle * log_w.real()), cone.angle * turn)};
+    sum += excess_of(from, to);
   }
-  return count > 0 ? sum / count : 0;
+  return sum;
 }
 
-// Maps to NN and *NN may slide along their axis. What holds them is the error of linear elements at both
-// cones, which grows with the size of the first ring of triangles there: the rings become equally large.
+// Maps to NN and *NN may slide along their axis, which does not change their Dirichlet energy. What holds
+// them are the linear elements at both cones: their energy exceeds the area by the square of their size times
+// what excess_at says, and the sum of both is least where they are equal.
 double ScaleField::scale_along_axis(const std::vector<Place>& cones) const {
-  return -0.5 * cones[0].angle *
-         (mean_log_ratio(cones, cones[0].vertex) + mean_log_ratio(cones, cones[1].vertex));
+  const double first = excess_at(cones[0], cones[1]), second = excess_at(cones[1], cones[0]);
+  return first > 0 && second > 0 ? 0.25 * std::log(second / first) : 0;
 }
 
 std::vector<double> ScaleField::log_scale(const MarkedTarget& choice) {

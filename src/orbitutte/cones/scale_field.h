@@ -9,6 +9,7 @@
 
 #include "orbitutte/cones/chart.h"
 #include "orbitutte/cones/cone_metric.h"
+#include "orbitutte/mesh/groups.h"
 #include "orbitutte/mesh/surface.h"
 #include "orbitutte/verify/distortion.h"
 
@@ -73,12 +74,20 @@ struct MarkedTarget {
 /// finite group, and for the flat ones with three cones. The pillow 2222 has a shape of its own.
 bool has_closed_form(const Target& target);
 
+/// A surface, and of every vertex the half-edges that begin there: one for each triangle.
+struct VertexStars {
+  explicit VertexStars(const Surface& surface);
+
+  const Surface& surface;
+  Groups halfedges;
+};
+
 /// The scale at samples for any choice of cones. A disk is half of its double: a corner is one cone of the
 /// double, a cone inside two of them, at mirror images.
 class ScaleField {
  public:
-  /// Refers to the chart and to the neighbours of the surface's vertices.
-  ScaleField(const OrbifoldChart& chart, const Neighbors& neighbors, std::vector<ScaleSample> samples);
+  /// Refers to the chart, and to the stars of its surface.
+  ScaleField(const OrbifoldChart& chart, const VertexStars& stars, std::vector<ScaleSample> samples);
 
   /// u at every sample. Throws ArgumentError unless has_closed_form.
   std::vector<double> log_scale(const MarkedTarget& choice);
@@ -108,10 +117,10 @@ class ScaleField {
   void add_two_cones(const MarkedTarget& choice, const std::vector<Place>& cones, std::vector<double>& u);
   void add_flat_cones(const std::vector<Place>& cones, std::vector<double>& u);
   double scale_along_axis(const std::vector<Place>& cones) const;
-  double mean_log_ratio(const std::vector<Place>& cones, int vertex) const;
+  double excess_at(const Place& cone, const Place& other) const;
 
   const OrbifoldChart& chart_;
-  const Neighbors& neighbors_;
+  const VertexStars& stars_;
   std::vector<ScaleSample> samples_;
   std::map<std::pair<int, bool>, Column> columns_;
   std::map<std::array<double, 3>, ConeMetric> metrics_;
