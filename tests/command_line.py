@@ -118,7 +118,7 @@ class Words(CommandLine):
         self.expect(IS_WRONG, 'info', 'figure.obj', 'map.ply', says="'map.ply' is one argument too many")
 
     def test_what_is_missing_is_named(self):
-        self.expect(IS_WRONG, 'embed', 'figure.obj', says=['--orbifold is required', "'orbitutte embed --help'"])
+        self.expect(IS_WRONG, 'sample', says=['output is required', "'orbitutte sample --help'"])
 
 
 class Files(CommandLine):
@@ -236,6 +236,32 @@ class Messages(CommandLine):
     def mesh(self, name, vertices, faces):
         write_obj(self.folder / name, vertices, faces)
         return name
+
+    def test_what_is_left_out_is_chosen_and_the_report_says_what(self):
+        self.expect(0, 'embed', 'figure.obj', '--report', 'best.json', says='chosen for the least sigma: --orbifold .* --cones .*')
+        report = json.loads((self.folder / 'best.json').read_text())
+        rows, taken = report['choice']['choices'], report['choice']['taken']
+        self.assertEqual([cone['vertex'] for cone in report['cones']], rows[taken]['cones'])
+        self.assertEqual(report['orbifold']['signature'], rows[taken]['orbifold'])
+        self.assertTrue(rows[taken]['bijective'])
+        self.expect(0, 'embed', 'figure.obj', '--orbifold', '432', '--cones', '5,best,best', '--report', 'kept.json')
+        kept = json.loads((self.folder / 'kept.json').read_text())
+        self.assertEqual((kept['orbifold']['signature'], kept['cones'][0]['vertex']), ('432', 5))
+
+    def test_choose_lists_every_family_the_best_first(self):
+        table = json.loads(self.expect(0, 'choose', 'figure.obj', '--solved', '1', '--json', '-o', 'table.json').stdout)
+        self.assertEqual(table, json.loads((self.folder / 'table.json').read_text()))
+        sigmas = [row['predicted']['sigma'] for row in table['choices']]
+        self.assertEqual((len(sigmas), sigmas), (5, sorted(sigmas)))
+        self.assertEqual([row.get('bijective') for row in table['choices']], [True] + 4 * [None])
+        self.assertIn('certified', self.expect(0, 'choose', 'figure.obj', '--orbifold', '432').stdout)
+
+    def test_cones_that_no_orbifold_takes_are_refused(self):
+        self.expect(IS_WRONG, 'embed', 'figure.obj', '--cones', '1,two,3', says="'best' in place of those")
+        self.expect(IS_WRONG, 'embed', 'figure.obj', '--objective', 'least', says='--objective.*sigma')
+        self.expect(IS_UNSUITABLE, 'embed', 'figure.obj', '--cones', 'best,best,best,best', says='takes 4 marked vertices')
+        self.expect(IS_UNSUITABLE, 'embed', 'figure.obj', '--cones', '99999999,best,best', says='vertex 99999999')
+        self.expect(IS_UNSUITABLE, 'embed', 'figure.obj', '--orbifold', '432', '--cones', 'best,best', says='432 needs 3 marked vertices')
 
     def test_a_mesh_with_a_small_hole_names_it_and_both_remedies(self):
         vertices, faces = read_obj(self.folder / 'figure.obj')
