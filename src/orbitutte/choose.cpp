@@ -97,28 +97,24 @@ std::vector<Contest> contests(const Surface& surface, const Candidates& all, con
     result.push_back({first, with_order.has_free_order() ? std::optional(with_order) : std::nullopt});
   }
   if (!result.empty()) return result;
-  require_topology(surface, parse_orbifold("432"));
+  if (surface.topology == Topology::other) require_topology(surface, parse_orbifold("432"));
   throw MeshError(fmt::format("no orbifold for a {} takes {} marked vertices that lie like that",
                               name_of(surface.topology), options.cones.size()));
 }
 
-// The entries that are given, and for the others the first candidates of the right kind.
-std::vector<int> first_cones(const Target& target, const std::vector<int>& given,
-                             const Candidates& candidates) {
+// The entries that are given, and for the others the first candidates of the right kind; nothing if there are
+// too few.
+std::optional<std::vector<int>> first_cones(const Target& target, const std::vector<int>& given,
+                                            const Candidates& candidates) {
   std::vector<int> cones = given;
   cones.resize(target.marks.size(), best_vertex);
   for (int k = 0; k < static_cast<int>(cones.size()); ++k) {
     if (cones[k] != best_vertex) continue;
-    for (const int v : candidates.of(target, k))
-      if (std::find(cones.begin(), cones.end(), v) == cones.end()) {
-        cones[k] = v;
-        break;
-      }
-    if (cones[k] == best_vertex)
-      throw MeshError(
-          fmt::format("{} vertices have to be marked, but the mesh has not as many where they have "
-                      "to lie",
-                      target.marks.size()));
+    const std::vector<int>& places = candidates.of(target, k);
+    const auto is_free = [&](int v) { return std::find(cones.begin(), cones.end(), v) == cones.end(); };
+    const auto at = std::find_if(places.begin(), places.end(), is_free);
+    if (at == places.end()) return std::nullopt;
+    cones[k] = *at;
   }
   return cones;
 }
@@ -193,11 +189,15 @@ class BestCones {
 
   // From the extremities, and from the best so far.
   std::optional<Scored> descended(const Target& target) {
-    std::vector<std::vector<int>> starts = {first_cones(target, options_.cones, candidates_)};
+    std::vector<std::vector<int>> starts;
+    const auto add = [&](const Candidates& candidates) {
+      if (const auto cones = first_cones(target, options_.cones, candidates)) starts.push_back(*cones);
+    };
+    add(candidates_);
     if (const auto at = found_.find({target.marks.size(), target.inner_marks}); at != found_.end())
       starts.push_back(at->second);
     else
-      for (std::vector<int>& start : further_starts(target)) starts.push_back(std::move(start));
+      for (const int first : {3, 6}) add(candidates_from(first));
     std::optional<Scored> best;
     for (const std::vector<int>& cones : starts) {
       Scored scored = {{target, cones}, {}};
@@ -209,20 +209,13 @@ class BestCones {
     return best;
   }
 
-  // The same number of marks at other candidates.
-  std::vector<std::vector<int>> further_starts(const Target& target) const {
-    std::vector<std::vector<int>> starts;
-    for (const int from : {3, 6}) {
-      const auto later = [&](const std::vector<int>& vertices) {
-        const auto begin = vertices.begin() + std::min<std::ptrdiff_t>(from, std::ssize(vertices));
-        std::vector<int> rotated(begin, vertices.end());
-        rotated.insert(rotated.end(), vertices.begin(), begin);
-        return rotated;
-      };
-      starts.push_back(
-          first_cones(target, options_.cones, {later(candidates_.inside), later(candidates_.on_boundary)}));
-    }
-    return starts;
+  // The candidates from one of them on, followed by those before it.
+  Candidates candidates_from(int first) const {
+    Candidates result = candidates_;
+    for (std::vector<int>* places : {&result.inside, &result.on_boundary})
+      std::rotate(places->begin(), places->begin() + std::min<std::ptrdiff_t>(first, std::ssize(*places)),
+                  places->end());
+    return result;
   }
 
   const Surface& surface_;
@@ -261,7 +254,7 @@ MarkedTarget in_given_order(MarkedTarget choice, const std::vector<int>& given) 
 // Candidates for targets whose scale has no closed form: they are embedded, one after the other.
 std::vector<Choice> choices_to_try(const Surface& surface, const std::vector<Contest>& all,
                                    const ChooseOptions& options) {
-  constexpr int places = 4;
+  constexpr int vertices_tried = 4;
   std::vector<Choice> result;
   for (const Contest& contest : all) {
     const Target& target = contest.first;
@@ -270,13 +263,13 @@ std::vector<Choice> choices_to_try(const Surface& surface, const std::vector<Con
       result.push_back({aim, cones, {}, {}, false, {}});
     };
     if (target.marks.size() > 1) {
-      std::vector<int> cones = options.cones.empty() ? extremities : options.cones;
-      for (int k = 0; k < static_cast<int>(cones.size()); ++k)
-        if (cones[k] == best_vertex) cones[k] = extremities[k];
-      add(target, cones);
+      const bool lie_inside = target.topology == Topology::sphere;
+      const Candidates places = {lie_inside ? extremities : std::vector<int>(),
+                                 lie_inside ? std::vector<int>() : extremities};
+      if (const auto cones = first_cones(target, options.cones, places)) add(target, *cones);
       continue;
     }
-    const Candidates spread = spread_candidates(surface, {extremities, {}}, places);
+    const Candidates spread = spread_candidates(surface, {extremities, {}}, vertices_tried);
     const std::vector<int> kept = kept_vertices(options);
     for (const int v : kept.empty() ? spread.inside : kept) {
       add(target, {v});
@@ -303,9 +296,6 @@ class Choosing {
     const Candidates all = all_places(*surface_);
     require_places(kept_vertices(options_), all);
     const std::vector<Contest> targets = contests(*surface_, all, options_);
-    if (!std::all_of(targets.begin(), targets.end(),
-                     [](const Contest& contest) { return has_closed_form(contest.first); }))
-      return choices_to_try(*surface_, targets, options_);
     for (const Contest& contest : targets) {
       require_topology(*surface_, contest.first);
       if (!takes_cones(contest.first, *surface_, all, options_.cones))
@@ -314,6 +304,9 @@ class Choosing {
                         "entries for --cones, each where it has to lie",
                         contest.first.signature, contest.first.marks.size(), contest.first.inner_marks));
     }
+    if (!std::all_of(targets.begin(), targets.end(),
+                     [](const Contest& contest) { return has_closed_form(contest.first); }))
+      return choices_to_try(*surface_, targets, options_);
     return predicted(targets);
   }
 
