@@ -332,13 +332,14 @@ class Choosing {
       if (std::optional<Scored> best = search.best_of(contest)) found.push_back(std::move(*best));
     if (found.empty()) throw MeshError("the mesh has too few vertices to choose from");
     polish(search, found);
-    std::stable_sort(found.begin(), found.end(),
-                     [](const Scored& a, const Scored& b) { return a.score < b.score; });
     std::vector<Choice> rows;
     for (const Scored& scored : found) {
       const MarkedTarget marked = in_given_order(scored.choice, options_.cones);
       rows.push_back({marked.target, marked.cones, search.summary(marked), {}, false, {}});
     }
+    std::stable_sort(rows.begin(), rows.end(), [&](const Choice& a, const Choice& b) {
+      return score_of(*a.predicted, options_.objective) < score_of(*b.predicted, options_.objective);
+    });
     seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return rows;
   }
