@@ -44,13 +44,6 @@ for ((k = 0; k < $#; ++k)); do
 done
 is_given() { case $given in *" $1 "*) true ;; *) false ;; esac; }
 
-if ! is_given --orbifold; then
-  orbifold=432
-  topology=$("$orbitutte" info "$mesh" --json 2>/dev/null | sed -n 's/^ *"topology": *"\([^"]*\)".*/\1/p' || true)
-  [ "$topology" != disk ] || orbifold='*432'
-  arguments+=(--orbifold "$orbifold")
-fi
-is_given --cones || arguments+=(--cones auto)
 is_given -o || is_given --output || arguments+=(-o "$embedding")
 is_given --report || arguments+=(--report "$report")
 

@@ -12,7 +12,7 @@ PLAIN = "plain values"  # files at the root of src/orbitutte that every layer ma
 LAYERS = [PLAIN, "geometry", "mesh", "io", "inspect", "samples", "weights", "cut", "orbifold", "linear", "solve", "verify", "cones", "map",
           "embed", "report", "export", "page", "render"]
 ROOT_FILES = {"names": PLAIN, "types": PLAIN, "errors": PLAIN, "progress": PLAIN, "parallel": PLAIN, "memory": PLAIN, "options": PLAIN, "minimum": PLAIN,
-              "version": PLAIN, "embed_types": "embed", "embed": "embed", "distortion_floor": "embed", "preparation": "embed", "warnings": "embed"}
+              "version": PLAIN, "embed_types": "embed", "embed": "embed", "choose": "embed", "distortion_floor": "embed", "preparation": "embed", "warnings": "embed"}
 # The certificate shares no code with what it judges; only `embed` and `map` compose.
 NEVER = {("verify", layer) for layer in ("weights", "cut", "linear", "solve", "cones")} | {("map", "solve"), ("map", "linear")}
 SMALL = "orbitutte/embed_types.h"  # what programs include to name options and results

@@ -6,25 +6,61 @@
 #include <algorithm>
 #include <charconv>
 
+#include "orbitutte/choose.h"
 #include "orbitutte/export/cut_triangles.h"
 #include "orbitutte/inspect/recognition.h"
 #include "orbitutte/io/mesh_io.h"
 
 namespace orbitutte::cli {
+namespace {
+
+const std::string best_word = "best";
+
+}  // namespace
 
 std::vector<int> parse_cones(const std::string& text) {
   std::vector<int> cones;
   for (std::size_t from = 0; from <= text.size();) {
     const std::size_t end = std::min(text.find(',', from), text.size());
-    int vertex = 0;
+    int vertex = best_vertex;
     const auto [stop, error] = std::from_chars(text.data() + from, text.data() + end, vertex);
-    if (error != std::errc() || stop != text.data() + end)
-      throw ArgumentError(
-          fmt::format("--cones is '{}'; give vertices separated by commas, as in 12,40,7, or 'auto'", text));
-    cones.push_back(vertex);
+    const bool is_vertex = error == std::errc() && stop == text.data() + end && vertex >= 0;
+    if (!is_vertex && text.substr(from, end - from) != best_word)
+      throw ArgumentError(fmt::format(
+          "--cones is '{}'; give vertices separated by commas, as in 12,40,7, 'best' in place of those that "
+          "the program chooses, or 'extremities'",
+          text));
+    cones.push_back(is_vertex ? vertex : best_vertex);
     from = end + 1;
   }
   return cones;
+}
+
+ConesWord cones_word(const std::string& text) {
+  if (text.empty() || text == best_word || text == "auto") return ConesWord::best;
+  return text == "extremities" ? ConesWord::extremities : ConesWord::none;
+}
+
+bool Wish::is_choice() const {
+  return !target || word == ConesWord::best ||
+         std::find(cones.begin(), cones.end(), best_vertex) != cones.end();
+}
+
+Wish parse_wish(const std::string& orbifold, const std::string& cones) {
+  Wish wish;
+  if (!orbifold.empty() && orbifold != best_word) wish.target = parse_orbifold(orbifold);
+  wish.word = cones_word(cones);
+  if (wish.word == ConesWord::none) wish.cones = parse_cones(cones);
+  return wish;
+}
+
+void mark_extremities(const Surface& surface, Wish& wish) {
+  if (wish.word != ConesWord::extremities) return;
+  const std::string base = surface.topology == Topology::disk               ? "*222"
+                           : surface.topology == Topology::projective_plane ? "1x"
+                                                                            : "222";
+  wish.cones = choose_cones(surface, wish.target ? *wish.target : parse_orbifold(base));
+  wish.word = ConesWord::none;
 }
 
 Surface read_source(const std::string& path, Embedding& embedding) {

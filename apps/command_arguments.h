@@ -2,6 +2,7 @@
 // Arguments that several commands share.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,8 +11,33 @@
 
 namespace orbitutte::cli {
 
-/// Vertices separated by commas. Throws ArgumentError.
+/// Vertices separated by commas; best_vertex for each entry that is 'best'. Throws ArgumentError.
 std::vector<int> parse_cones(const std::string& text);
+
+/// What --cones leaves to the program, in one word.
+enum class ConesWord { best, extremities, none };
+
+/// 'best', its older name 'auto' or nothing at all; 'extremities'; or vertices.
+ConesWord cones_word(const std::string& text);
+
+/// The surface's cones by --orbifold and --cones; the options of a choice if that leaves something to the
+/// program.
+struct Wish {
+  /// None if it is to be chosen.
+  std::optional<Target> target;
+  ConesWord word = ConesWord::none;
+
+  /// In the order of the symbol; none if `word` says it.
+  std::vector<int> cones;
+
+  bool is_choice() const;
+};
+
+/// Throws ArgumentError.
+Wish parse_wish(const std::string& orbifold, const std::string& cones);
+
+/// Marks extremities if they are asked for: as many as the target needs, or three.
+void mark_extremities(const Surface& surface, Wish& wish);
 
 /// Reads the mesh of an embedding, and divides the embedding's faces into the same triangles. Throws
 /// FileError, and MeshError naming the first defect. Does not check that the embedding is one of the mesh;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "orbitutte/choose.h"
 #include "orbitutte/export/texture_chart.h"
 #include "orbitutte/export/tiling.h"
 #include "orbitutte/mesh/edge_weights.h"
@@ -29,6 +30,7 @@ enum ExitCode {
 
 struct EmbedArguments {
   std::string mesh, orbifold, cones, output, report;
+  std::string objective = name_of(Objective::sigma);
   std::string polygon, spread = name_of(Spread::arc_length);
   std::string weights = name_of(WeightKind::standard), weights_file;
   double clamp = 0.01, tolerance = 1e-9;
@@ -37,6 +39,14 @@ struct EmbedArguments {
   bool floor = false, quiet = false, json = false;
 };
 int embed_command(const EmbedArguments& arguments);
+
+struct ChooseArguments {
+  std::string mesh, orbifold, cones, output;
+  std::string objective = name_of(Objective::sigma), weights = name_of(WeightKind::standard);
+  int solved = 3, threads = 0;
+  bool json = false;
+};
+int choose_command(const ChooseArguments& arguments);
 
 struct InfoArguments {
   std::string mesh;
@@ -78,7 +88,7 @@ struct ReportArguments {
 int report_command(const ReportArguments& arguments);
 
 struct CompareArguments {
-  std::string mesh, cones = "auto", weights = name_of(WeightKind::standard), output, view, up;
+  std::string mesh, cones = "extremities", weights = name_of(WeightKind::standard), output, view, up;
   std::vector<std::string> orbifolds;
   bool json = false;
 };

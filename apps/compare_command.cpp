@@ -8,7 +8,7 @@
 
 #include "command_arguments.h"
 #include "commands.h"
-#include "orbitutte/embed.h"
+#include "orbitutte/choose.h"
 #include "orbitutte/io/mesh_io.h"
 #include "orbitutte/report/comparison.h"
 #include "orbitutte/report/report.h"
@@ -64,7 +64,10 @@ int compare_command(const CompareArguments& arguments) {
   std::vector<Compared> maps;
   std::vector<ComparedMap> pictures;
   std::vector<int> cones;
-  if (arguments.cones != "auto") cones = parse_cones(arguments.cones);
+  if (arguments.cones != "auto" && cones_word(arguments.cones) != ConesWord::extremities)
+    cones = parse_cones(arguments.cones);
+  if (std::count(cones.begin(), cones.end(), best_vertex) > 0)
+    throw ArgumentError("--cones are the same for all that is compared; give vertices, or 'extremities'");
   for (const std::string& symbol : symbols_or_both_spaces(arguments.orbifolds, surface.topology)) {
     const Target target = parse_orbifold(symbol);
     if (cones.empty()) cones = choose_cones(surface, target);

@@ -8,12 +8,13 @@
 
 #include "command_arguments.h"
 #include "commands.h"
+#include "orbitutte/choose.h"
 #include "orbitutte/distortion_floor.h"
-#include "orbitutte/embed.h"
 #include "orbitutte/io/corner_file.h"
 #include "orbitutte/io/file.h"
 #include "orbitutte/io/mesh_io.h"
 #include "orbitutte/orbifold/polygon.h"
+#include "orbitutte/report/choices.h"
 #include "orbitutte/report/embedding_file.h"
 #include "orbitutte/report/report.h"
 #include "standard_streams.h"
@@ -63,23 +64,22 @@ class ProgressLine {
   bool shown_;
 };
 
-// The target that is asked for: an orbifold, or a polygon with its corners.
-Target target_from(const EmbedArguments& arguments) {
+// What is asked for: an orbifold and its cones, as far as they are given, or a polygon with its corners.
+Wish wish_from(const EmbedArguments& arguments) {
   const bool polygon = arguments.orbifold == polygon_signature;
   if (!polygon && !arguments.polygon.empty())
     throw ArgumentError(
         fmt::format("--polygon gives the corners of a fixed boundary, but {} has no such boundary; give "
                     "--orbifold polygon",
                     arguments.orbifold));
-  if (!polygon && arguments.cones.empty())
-    throw ArgumentError("--cones is missing; give the vertices to be marked, as in 12,40,7, or 'auto'");
-  if (!polygon) return parse_orbifold(arguments.orbifold);
+  if (!polygon) return parse_wish(arguments.orbifold, arguments.cones);
   if (arguments.polygon.empty())
     throw ArgumentError(
         "--polygon is missing; give the file with the corners of the polygon, a line 'vertex x y z' each");
   if (!arguments.cones.empty())
     throw ArgumentError("leave out --cones: the lines of the file of --polygon name the marked vertices");
-  return polygon_target(read_corners(arguments.polygon));
+  const Target target = polygon_target(read_corners(arguments.polygon));
+  return {target, ConesWord::none, corner_vertices(target)};
 }
 
 EmbedOptions options_from(const EmbedArguments& arguments) {
@@ -95,7 +95,7 @@ EmbedOptions options_from(const EmbedArguments& arguments) {
 }
 
 struct Input {
-  Surface surface;
+  std::shared_ptr<const Surface> surface;
   std::vector<std::string> warnings;  // of the reader
 };
 
@@ -113,7 +113,7 @@ Input read_input(const std::string& path, RunRecord& run) {
     const Stopwatch judging;
     Surface surface = make_surface(std::move(mesh));
     run.validate_seconds = judging.seconds();
-    return {std::move(surface), std::move(warnings)};
+    return {std::make_shared<const Surface>(std::move(surface)), std::move(warnings)};
   } catch (const MeshError& error) {
     throw MeshError(fmt::format("{}: {}", path, error.what()));
   }
@@ -126,7 +126,17 @@ std::string group_text(const Target& target) {
 // "12.3 %"
 std::string percent(double share) { return fmt::format("{:.1f} %", 100 * share); }
 
-void summarize(const EmbedArguments& arguments, const EmbedResult& result) {
+// What the program chose, and by what.
+void summarize_choice(const BestEmbedding& embedded) {
+  if (embedded.choices.empty()) return;
+  const Choice& choice = embedded.choice();
+  tell("chosen for the least {}: --orbifold {} --cones {} ({} of {} families were better by prediction)\n",
+       name_of(embedded.objective), choice.target.signature, fmt::join(choice.cones, ","), embedded.taken,
+       embedded.choices.size());
+}
+
+void summarize(const EmbedArguments& arguments, const BestEmbedding& embedded) {
+  const EmbedResult& result = embedded.result;
   const Minimum& minimum = result.minimum;
   const Distortion& distortion = result.distortion;
   std::vector<int> cones;
@@ -134,6 +144,7 @@ void summarize(const EmbedArguments& arguments, const EmbedResult& result) {
   tell("{}: {} vertices, {} faces, a {}, onto {} ({}), cones {}\n", arguments.mesh, minimum.positions.rows(),
        result.embedding.faces().count(), name_of(result.topology), result.embedding.target.signature,
        group_text(result.embedding.target), fmt::join(cones, ","));
+  summarize_choice(embedded);
   tell("energy {:.12g} after {} iterations, gradient {:.1e}: {}\n", minimum.energy, minimum.iterations,
        minimum.gradient_norm, name_of(minimum.termination));
   tell("area: within a factor of 4 of the mean scale on {} of the surface, shrunk by more than 64 on {}\n",
@@ -200,30 +211,33 @@ void explain(const EmbedArguments& arguments, const EmbedResult& result) {
   tell("{}\n", remedy(arguments, result));
 }
 
+// Embeds what is asked for. There are choices in the result only if something was left to the program.
+BestEmbedding embed_wish(const std::shared_ptr<const Surface>& surface, const Wish& wish,
+                         const ChooseOptions& options) {
+  if (wish.is_choice()) return embed_best(surface, options);
+  return {options.objective, {}, 0, embed(*surface, *wish.target, wish.cones, options.embed)};
+}
+
 }  // namespace
 
 int embed_command(const EmbedArguments& arguments) {
   const Stopwatch total;
   EmbedOptions options = options_from(arguments);
-  const Target target = target_from(arguments);
-  const bool automatic = arguments.cones == "auto";
-  std::vector<int> cones = corner_vertices(target);
-  if (cones.empty() && !automatic) cones = parse_cones(arguments.cones);
+  Wish wish = wish_from(arguments);
+  const Objective objective = parse_choice<Objective>(arguments.objective, "--objective");
 
   RunRecord run;
   const auto [surface, reader_warnings] = read_input(arguments.mesh, run);
 
-  if (automatic) {
-    cones = choose_cones(surface, target);
-    if (!arguments.quiet) tell("--cones {}\n", fmt::join(cones, ","));
-  }
+  mark_extremities(*surface, wish);
   const ProgressLine line(arguments.quiet);
   options.progress = [&](const Progress& progress) {
     line.show(progress);
     return true;
   };
-  EmbedResult result = embed(surface, target, cones, options);
-  if (arguments.floor) measure_floor(surface, options, result);
+  BestEmbedding embedded = embed_wish(surface, wish, {objective, wish.target, wish.cones, options});
+  EmbedResult& result = embedded.result;
+  if (arguments.floor) measure_floor(*surface, options, result);
   result.warnings.insert(result.warnings.begin(), reader_warnings.begin(), reader_warnings.end());
   line.clear();
   for (const std::string& warning : result.warnings) tell("orbitutte: warning: {}\n", warning);
@@ -233,10 +247,10 @@ int embed_command(const EmbedArguments& arguments) {
   run.write_seconds = writing.seconds();
   run.total_seconds = total.seconds();
   run.peak_memory_bytes = peak_memory_bytes();
-  const std::string report = report_json(result, run);
+  const std::string report = report_json(embedded, run);
   if (!arguments.report.empty()) write_file(arguments.report, report);
   if (arguments.json) fmt::print("{}", report);
-  if (!arguments.quiet) summarize(arguments, result);
+  if (!arguments.quiet) summarize(arguments, embedded);
   if (result.certificate.bijective) return succeeded;
   explain(arguments, result);
   return result.minimum.termination == Termination::converged ? not_certified : not_converged;

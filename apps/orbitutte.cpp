@@ -129,17 +129,28 @@ void read_embedding_and_mesh_of(Command<Arguments>& command) {
   command.input("mesh", command->mesh, "the mesh", "The mesh that was embedded")->required();
 }
 
+// Which vertices are marked, and by what the best are chosen.
+template <typename Arguments>
+void marks_of(Command<Arguments>& command) {
+  command.option("--cones", command->cones,
+                 "The marked vertices, counted from 0, in the order of the symbol, 'best' in place of those "
+                 "that the program chooses, as in 12,best,best; 'best' for all of them, which is taken if "
+                 "none are given; or 'extremities'");
+  command
+      .option("--objective", command->objective,
+              "What the best have least of: sigma (the standard deviation of the logarithm of the scale), "
+              "symmetric-dirichlet, or range (of the scale)")
+      ->capture_default_str();
+}
+
 void add_embed(CLI::App& app, int& code) {
   Command<EmbedArguments> command(app, "embed", "Embed a mesh into an orbifold and certify the result");
   read_mesh_of(command);
-  command
-      .option("--orbifold", command->orbifold,
-              "Conway's symbol, such as 432, *532 or 2,2,12 ('orbitutte types' lists all); or 'polygon', a "
-              "fixed boundary")
-      ->required();
-  command.option("--cones", command->cones,
-                 "The marked vertices, counted from 0, in the order of the symbol, or 'auto'; not for "
-                 "a polygon");
+  command.option(
+      "--orbifold", command->orbifold,
+      "Conway's symbol, such as 432, *532 or 2,2,12 ('orbitutte types' lists all); 'best', of least "
+      "distortion, which is taken if none is given; or 'polygon', a fixed boundary");
+  marks_of(command);
   CLI::Option* const polygon =
       command.input("--polygon", command->polygon, "the polygon",
                     "The corners of the polygon: a file of lines 'vertex x y z', counterclockwise");
@@ -181,6 +192,24 @@ void add_embed(CLI::App& app, int& code) {
   command.flag("--quiet", command->quiet, "Print no progress and no summary");
   command.flag("--json", command->json, "Print the report on standard output");
   command.runs(embed_command, code);
+}
+
+void add_choose(CLI::App& app, int& code) {
+  Command<ChooseArguments> command(
+      app, "choose",
+      "List the best cones of every family of orbifolds that a mesh embeds into, the best first");
+  read_mesh_of(command);
+  command.option("--orbifold", command->orbifold, "Only this symbol");
+  marks_of(command);
+  command.option("--weights", command->weights, "As of embed")->capture_default_str();
+  command.option("--solved", command->solved, "Embed so many of the best, and certify them")
+      ->capture_default_str();
+  command.option("--threads", command->threads, "Use so many threads; 0: one for every core")
+      ->capture_default_str();
+  command.output("-o,--output", command->output, {"-o", "the table", "", {".json"}},
+                 "Write the table (JSON) here");
+  command.flag("--json", command->json, "Print JSON");
+  command.runs(choose_command, code);
 }
 
 void add_info(CLI::App& app, int& code) {
@@ -282,7 +311,8 @@ void add_compare(CLI::App& app, int& code) {
   read_mesh_of(command);
   command
       .option("--cones", command->cones,
-              "The marked vertices, counted from 0, in the order of all symbols, or 'auto'")
+              "As of embed: vertices, which all symbols share, or 'extremities'; the program chooses none of "
+              "them")
       ->capture_default_str();
   command
       .option("--orbifold", command->orbifolds,
@@ -329,6 +359,7 @@ void add_commands(CLI::App& app, int& code) {
   app.set_version_flag("--version", version_text());
   app.require_subcommand(1);
   add_embed(app, code);
+  add_choose(app, code);
   add_info(app, code);
   add_types(app, code);
   add_verify(app, code);

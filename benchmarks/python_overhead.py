@@ -44,7 +44,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         mesh = pathlib.Path(folder) / "mesh.ply"
         subprocess.run([arguments.command, "sample", "--faces", str(arguments.faces), "-o", mesh], check=True, capture_output=True)
-        first = run(arguments.command, "embed", mesh, "--orbifold", arguments.orbifold, "--cones", "auto", "--quiet", "--json")
+        first = run(arguments.command, "embed", mesh, "--orbifold", arguments.orbifold, "--cones", "extremities", "--quiet", "--json")
         cones = [cone["vertex"] for cone in first["cones"]]
         command, python, inside = [], [], []
         for _ in range(arguments.repeat):

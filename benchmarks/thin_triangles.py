@@ -10,7 +10,7 @@ Both embed each mesh in turn, old new old new ..., so that a machine that become
     other stages: the share by which repairs prolong a plain embedding
 
   thin_triangles.py --old OLD/orbitutte --new NEW/orbitutte                   meshes beside the repository (../shared), and generated ones
-  thin_triangles.py --old OLD --new NEW --repeat 5 a.off b.obj:*432 c.ply:532:1,2,3   these; into 432 with cones 'auto' if it does not say
+  thin_triangles.py --old OLD --new NEW --repeat 5 a.off b.obj:*432 c.ply:532:1,2,3   these; into 432 with cones 'extremities' if it does not say
 
 Times are those of the report, without reading and writing. A line of JSON per mesh goes to --json. Needs numpy for generated meshes.
 """
@@ -54,7 +54,7 @@ def generated_meshes(folder):
 
 def named_mesh(text):
     mesh, orbifold, cones = (text.split(':') + ['', ''])[:3]
-    return mesh, orbifold or '432', cones or 'auto'
+    return mesh, orbifold or '432', cones or 'extremities'
 
 
 def embed(program, case, threads):

@@ -6,7 +6,7 @@ import orbitutte
 V, F = orbitutte.sample_mesh("figure", 5000)  # or orbitutte.read_mesh("mesh.obj"), or arrays of your own
 print(orbitutte.info(V, F)["embeds_into"])
 
-embedding = orbitutte.embed(V, F, "432", cones="auto")
+embedding = orbitutte.embed(V, F, "432")
 print(embedding)
 print("angle distortion:", np.round(np.percentile(embedding.angle_distortion, [50, 95, 100]), 3))
 

@@ -54,7 +54,7 @@ class Program:
             self.run('sample', '--shape', shape, '--faces', SAMPLES[shape], '-o', path)
         return path
 
-    def embed(self, mesh, symbol, cones='auto', seed=0):
+    def embed(self, mesh, symbol, cones='extremities', seed=0):
         """The report and the file of the embedding. Exit codes 4 and 5 count as results."""
         embedding = self.folder / 'map.ply'
         output = self.run('embed', mesh, '--orbifold', symbol, '--cones', cones, '--weights', 'cotan', '--cut-seed', seed, '--quiet',
@@ -182,7 +182,7 @@ def where_lower(pairs):
 
 
 def areas_table(program):
-    meshes = [(f'{shape}, generated', program.sample(shape), 'auto') for shape in ('figure', 'mask')]
+    meshes = [(f'{shape}, generated', program.sample(shape), 'extremities') for shape in ('figure', 'mask')]
     meshes += [(name, path, marked) for name, path, _, marked in shared_meshes()]
     rows, pairs = [], []
     for name, path, marked in meshes:
@@ -212,7 +212,7 @@ def cuts_row(program, name, path, symbol, marked):
 
 
 def cuts_table(program):
-    rows = [cuts_row(program, shape, program.sample(shape), symbol, 'auto') for symbol, shape in CUT_FAMILIES]
+    rows = [cuts_row(program, shape, program.sample(shape), symbol, 'extremities') for symbol, shape in CUT_FAMILIES]
     rows += [cuts_row(program, name, path, symbol, marked) for name, path, symbol, marked in shared_meshes() if symbol == '432']
     return table(['mesh', 'orbifold', 'different cuts', 'their edges', 'E, relative difference', 'positions, largest difference'], rows)
 

@@ -153,7 +153,7 @@ def cones(run, meshes):
     """The argument of --cones."""
     inner, outer = marks_of(run.signature)
     if run.choice == 'auto':
-        return 'auto'
+        return 'extremities'
     if run.choice == 'table':
         pools = (run.source.outer[:inner], []) if run.source.topology == 'sphere' else (run.source.inner[:inner], run.source.outer[:outer])
         return ','.join(map(str, pools[0] + pools[1]))

@@ -308,7 +308,7 @@ class Suite:
         expect(not info['weak_places'], f"weak places: {info['weak_places']}")
         for weights in ('cotan', 'uniform'):
             ply, report_file, tiling = folder / f'{weights}.ply', folder / f'{weights}.json', folder / 'tiling.ply'
-            cones = ','.join(map(str, self.marked(mesh, signature))) if make is quadrangulated else 'auto'
+            cones = ','.join(map(str, self.marked(mesh, signature))) if make is quadrangulated else 'extremities'
             self.run(commands, self.orbitutte, 'embed', source, '--orbifold', signature, '--cones', cones, '--weights', weights,
                      '-o', ply, '--report', report_file, '--threads', self.threads, '--quiet')
             report = json.loads(report_file.read_text())

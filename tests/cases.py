@@ -142,7 +142,7 @@ def faults_of_tiny_mesh(program, mesh):
     with tempfile.TemporaryDirectory() as folder:
         (pathlib.Path(folder) / "m.obj").write_text(obj_text(vertices, faces), encoding="ascii")
         tasks = [(["info", "m.obj", "--json"], {0, 3})]
-        tasks += [(["embed", "m.obj", "--orbifold", signature, "--cones", "auto", "--json"], JSON_BEHIND) for signature in FAMILIES[topology]]
+        tasks += [(["embed", "m.obj", "--orbifold", signature, "--cones", "extremities", "--json"], JSON_BEHIND) for signature in FAMILIES[topology]]
         for arguments, codes in tasks:
             found += [f"{name}: {shlex.join(arguments)}: {fault}" for fault in faults_of_output(run(program, arguments, folder), codes)]
     return found

@@ -59,7 +59,7 @@ class CommandLine(unittest.TestCase):
         cls.scratch = tempfile.TemporaryDirectory(prefix='orbitutte-command-line-')
         cls.folder = pathlib.Path(cls.scratch.name)
         for command in (['sample', '--faces', '500', '-o', 'figure.obj'],
-                        ['embed', 'figure.obj', '--orbifold', '432', '--cones', 'auto', '-o', 'map.ply', '--report', 'map.json']):
+                        ['embed', 'figure.obj', '--orbifold', '432', '--cones', 'extremities', '-o', 'map.ply', '--report', 'map.json']):
             subprocess.run([PROGRAM, *command], cwd=cls.folder, check=True, stderr=subprocess.DEVNULL)
 
     @classmethod
@@ -78,7 +78,7 @@ class CommandLine(unittest.TestCase):
             self.assertRegex(done.stderr, pattern, arguments)
         return done
 
-    def embed(self, mesh, *options, orbifold='432', cones='auto'):
+    def embed(self, mesh, *options, orbifold='432', cones='extremities'):
         return ['embed', mesh, '--orbifold', orbifold, '--cones', cones, *options]
 
 
@@ -118,7 +118,7 @@ class Words(CommandLine):
         self.expect(IS_WRONG, 'info', 'figure.obj', 'map.ply', says="'map.ply' is one argument too many")
 
     def test_what_is_missing_is_named(self):
-        self.expect(IS_WRONG, 'embed', 'figure.obj', says=['--orbifold is required', "'orbitutte embed --help'"])
+        self.expect(IS_WRONG, 'sample', says=['output is required', "'orbitutte sample --help'"])
 
 
 class Files(CommandLine):
@@ -189,7 +189,7 @@ class Files(CommandLine):
 class Streams(CommandLine):
     PRINTING = [['info', 'figure.obj'], ['info', 'figure.obj', '--json'], ['types'], ['types', '--json'], ['verify', 'map.ply', 'map.json', 'figure.obj'],
                 ['verify', 'map.ply', 'map.json', 'figure.obj', '--json'], ['compare', 'figure.obj'], ['compare', 'figure.obj', '--json'],
-                ['embed', 'figure.obj', '--orbifold', '432', '--cones', 'auto', '--json'], ['--help'], ['embed', '--help'], ['--version']]
+                ['embed', 'figure.obj', '--orbifold', '432', '--cones', 'extremities', '--json'], ['--help'], ['embed', '--help'], ['--version']]
 
     def test_what_is_printed_arrives_or_the_exit_code_says_no(self):
         for arguments in self.PRINTING:
@@ -237,11 +237,37 @@ class Messages(CommandLine):
         write_obj(self.folder / name, vertices, faces)
         return name
 
+    def test_what_is_left_out_is_chosen_and_the_report_says_what(self):
+        self.expect(0, 'embed', 'figure.obj', '--report', 'best.json', says='chosen for the least sigma: --orbifold .* --cones .*')
+        report = json.loads((self.folder / 'best.json').read_text())
+        rows, taken = report['choice']['choices'], report['choice']['taken']
+        self.assertEqual([cone['vertex'] for cone in report['cones']], rows[taken]['cones'])
+        self.assertEqual(report['orbifold']['signature'], rows[taken]['orbifold'])
+        self.assertTrue(rows[taken]['bijective'])
+        self.expect(0, 'embed', 'figure.obj', '--orbifold', '432', '--cones', '5,best,best', '--report', 'kept.json')
+        kept = json.loads((self.folder / 'kept.json').read_text())
+        self.assertEqual((kept['orbifold']['signature'], kept['cones'][0]['vertex']), ('432', 5))
+
+    def test_choose_lists_every_family_the_best_first(self):
+        table = json.loads(self.expect(0, 'choose', 'figure.obj', '--solved', '1', '--json', '-o', 'table.json').stdout)
+        self.assertEqual(table, json.loads((self.folder / 'table.json').read_text()))
+        sigmas = [row['predicted']['sigma'] for row in table['choices']]
+        self.assertEqual((len(sigmas), sigmas), (5, sorted(sigmas)))
+        self.assertEqual([row.get('bijective') for row in table['choices']], [True] + 4 * [None])
+        self.assertIn('certified', self.expect(0, 'choose', 'figure.obj', '--orbifold', '432').stdout)
+
+    def test_cones_that_no_orbifold_takes_are_refused(self):
+        self.expect(IS_WRONG, 'embed', 'figure.obj', '--cones', '1,two,3', says="'best' in place of those")
+        self.expect(IS_WRONG, 'embed', 'figure.obj', '--objective', 'least', says='--objective.*sigma')
+        self.expect(IS_UNSUITABLE, 'embed', 'figure.obj', '--cones', 'best,best,best,best', says='takes 4 marked vertices')
+        self.expect(IS_UNSUITABLE, 'embed', 'figure.obj', '--cones', '99999999,best,best', says='vertex 99999999')
+        self.expect(IS_UNSUITABLE, 'embed', 'figure.obj', '--orbifold', '432', '--cones', 'best,best', says='432 needs 3 marked vertices')
+
     def test_a_mesh_with_a_small_hole_names_it_and_both_remedies(self):
         vertices, faces = read_obj(self.folder / 'figure.obj')
         hole = faces[7]
         mesh = self.mesh('hole.obj', vertices, faces[:7] + faces[8:])
-        for cones in ('auto', '1,2,3'):
+        for cones in ('extremities', '1,2,3'):
             self.expect(IS_UNSUITABLE, *self.embed(mesh, cones=cones),
                         says=[f'hole of 3 edges, through vertex {min(hole)}\\b', 'fill the hole', r'orbifold for a disk, such as \*432'])
 

@@ -18,7 +18,8 @@ namespace {
 // The words that shells offer after an option. The program itself judges values, and says in an option's
 // description what they may be.
 const std::map<std::string, std::vector<std::string>> words_of_options = {
-    {"--cones", {"auto"}},
+    {"--cones", {"best", "extremities"}},
+    {"--objective", choices_of<Objective>()},
     {"--weights", choices_of<WeightKind>()},
     {"--spread", choices_of<Spread>()},
     {"--chart", choices_of<TextureChart>()},
@@ -48,6 +49,7 @@ std::vector<std::string> symbols() {
 std::vector<std::string> targets() {
   std::vector<std::string> result = symbols();
   result.push_back(polygon_signature);
+  result.push_back("best");
   return result;
 }
 

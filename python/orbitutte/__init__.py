@@ -3,20 +3,21 @@
 
 >>> import orbitutte
 >>> V, F = orbitutte.read_mesh("figure.ply")
->>> embedding = orbitutte.embed(V, F, "432", "auto")
+>>> embedding = orbitutte.embed(V, F)
 >>> embedding.bijective
 True
 
 Functions
 ---------
-embed(V, F, signature, cones="auto", *, progress, polygon, geometry, weights, ...) -> Embedding
+embed(V, F, signature="best", cones="best", *, objective, progress, polygon, geometry, weights, ...) -> Embedding
+choose(V, F) -> list of dict            the best cones of every family, the best first
 Solver(V, F, **options).embed(signature, cones) -> Embedding     many embeddings of one mesh
 info(V, F) -> dict                      topology, quality, defects, what a mesh embeds into
 families() -> list of dict              the families of orbifolds
 choose_cones(V, F, signature) -> list   well separated vertices to be marked
 verify(embedding[, V, F]) -> dict       the certificate again, from the data alone
 distortion(embedding[, V, F]) -> dict   area and angle distortion again
-distortion_floor(V, F, signature, cones="auto") -> dict    the distortion that the coarseness of the mesh costs
+distortion_floor(V, F, signature, cones) -> dict    the distortion that the coarseness of the mesh costs
 tile(embedding) -> (V, F, copy)         |G| copies, welded into one closed mesh
 sample_mesh(shape, faces) -> (V, F)     a mesh to try things with
 read_mesh(path) -> (V, F)               OBJ, OFF, PLY and STL
@@ -40,7 +41,7 @@ except ImportError as error:
                       "PYTHONPATH=build/python finds it; it belongs to the Python that it was built for") from error
 
 from ._api import (
-    Solver, Tiling, build, choose_cones, distortion, distortion_floor, embed, families, info, keep_freed_memory, read_mesh, sample_mesh, signatures, tile, verify,
+    Solver, Tiling, build, choose, choose_cones, distortion, distortion_floor, embed, families, info, keep_freed_memory, read_mesh, sample_mesh, signatures, tile, verify,
     write_mesh,
 )
 from ._embedding import Cone, EdgeWeights, Embedding, Location, Offsets, Seam
@@ -49,6 +50,6 @@ from .errors import ArgumentError, Cancelled, EmbeddingWarning, Error, FileError
 
 __all__ = [
     "ArgumentError", "Cancelled", "Cone", "EdgeWeights", "Embedding", "EmbeddingWarning", "Error", "FileError",
-    "Location", "MeshError", "MeshWarning", "Offsets", "Seam", "Solver", "Tiling", "__version__", "build", "choose_cones", "distortion",
+    "Location", "MeshError", "MeshWarning", "Offsets", "Seam", "Solver", "Tiling", "__version__", "build", "choose", "choose_cones", "distortion",
     "distortion_floor", "embed", "families", "info", "keep_freed_memory", "read_mesh", "sample_mesh", "signatures", "tile", "verify", "write_mesh",
 ]

@@ -16,11 +16,11 @@ from ._embedding import Embedding
 from .errors import ArgumentError, EmbeddingWarning, MeshWarning
 
 Progress = Callable[[str, int, float, float], Union[bool, None]]
-Cones = Union[Sequence[int], npt.NDArray[np.integer], str, None]
+Cones = Union[Sequence[Union[int, str]], npt.NDArray[np.integer], str, None]
 
 
-def embed(V: npt.ArrayLike, F: Any, signature: str, cones: Cones = "auto", *, progress: Progress | None = None, polygon: Any = None,
-          geometry: str | None = None, **options: Any) -> Embedding:
+def embed(V: npt.ArrayLike, F: Any, signature: str = "best", cones: Cones = "best", *, objective: str = "sigma", progress: Progress | None = None,
+          polygon: Any = None, geometry: str | None = None, **options: Any) -> Embedding:
     """Embed a mesh into an orbifold of the sphere or the plane.
 
     Parameters
@@ -30,9 +30,13 @@ def embed(V: npt.ArrayLike, F: Any, signature: str, cones: Cones = "auto", *, pr
     F : (m, 3) array_like of int, (m, k), or list of sequences
         Faces, counterclockwise seen from outside, 0-based; sequences of different lengths are polygons.
     signature : str
-        Conway's symbol, such as "432" (see `families`), or "polygon" for a fixed boundary.
-    cones : sequence of int, or "auto"
-        The vertices to be marked, in the order of the symbol. "auto" takes well separated extremities.
+        Conway's symbol, such as "432" (see `families`); "best", the one of least distortion; or "polygon" for a fixed boundary.
+    cones : sequence of int and "best", "best", or "extremities"
+        The vertices to be marked, in the order of the symbol; "best" in place of those, or all, that are to be chosen so that the map
+        distorts least. "auto" is an older name of "best". "extremities" takes vertices that are far from each other.
+    objective : "sigma", "symmetric-dirichlet" or "range"
+        What the best have least of: the standard deviation of the logarithm of the scale, the mean of the symmetric Dirichlet energy,
+        or the ratio of the largest scale to the smallest.
     progress : callable(stage, iteration, energy, gradient_norm), optional
         Called in every stage and iteration. Returning False cancels; what it raises passes through.
     polygon : path, (k, 4) array_like of vertex, x, y, z, or (k, 3) array_like for the vertices in `cones`
@@ -74,8 +78,35 @@ def embed(V: npt.ArrayLike, F: Any, signature: str, cones: Cones = "auto", *, pr
     chosen = _options.options(**options)
     target = _options.target(signature, cones, polygon, geometry)
     mesh = _arrays.mesh(V, F)
-    vertices = _options.marked_vertices(mesh, target, cones)
+    vertices, is_choice = _options.marks(mesh, target, cones)
+    if is_choice:
+        wanted = _orbitutte.ChooseOptions(target, vertices, _options.text(objective, "objective"), chosen)
+        return _told(Embedding._of(_orbitutte.embed_best(mesh, wanted, _callable(progress))))
     return _told(Embedding._of(_orbitutte.embed(mesh, target, vertices, chosen, _callable(progress))))
+
+
+def choose(V: npt.ArrayLike, F: Any, signature: str = "best", cones: Cones = "best", *, objective: str = "sigma", solved: int = 3,
+           progress: Progress | None = None, **options: Any) -> list[dict[str, Any]]:
+    """The best cones of every family of orbifolds that a mesh embeds into, the best first.
+
+    Arguments are those of `embed`.
+
+    Parameters
+    ----------
+    solved : int
+        So many of the best are embedded and certified.
+
+    Returns
+    -------
+    list of dict
+        ``orbifold``, ``cones``, ``predicted`` (a dictionary of ``sigma``, ``within_4``, ``below_64``, ``symmetric_dirichlet`` and
+        ``range``) and, if it was embedded, ``solved`` (as `distortion`) and ``bijective``, or ``refusal``, the reason why not.
+    """
+    mesh = _arrays.mesh(V, F)
+    target = _options.target(signature, cones)
+    wanted = _orbitutte.ChooseOptions(target, _options.marks(mesh, target, cones).vertices, _options.text(objective, "objective"),
+                                      _options.options(**options))
+    return json.loads(_orbitutte.choose(mesh, wanted, _options.whole(solved, "solved"), _callable(progress)))["choices"]
 
 
 class Solver:
@@ -92,18 +123,22 @@ class Solver:
     >>> maps = [solver.embed(signature, [12, 40, 7]) for signature in ("532", "432", "332")]
     """
 
-    __slots__ = ("_mesh", "_core")
+    __slots__ = ("_mesh", "_core", "_options")
 
     def __init__(self, V: npt.ArrayLike, F: Any, **options: Any) -> None:
         chosen = _options.options(**options)
         self._mesh = _arrays.mesh(V, F)
         self._core = _orbitutte.Solver(self._mesh, chosen)
+        self._options = chosen
 
-    def embed(self, signature: str, cones: Cones = "auto", *, progress: Progress | None = None, polygon: Any = None,
-              geometry: str | None = None) -> Embedding:
-        """As the function `embed`. One thread at a time."""
+    def embed(self, signature: str = "best", cones: Cones = "best", *, objective: str = "sigma", progress: Progress | None = None,
+              polygon: Any = None, geometry: str | None = None) -> Embedding:
+        """As the function `embed`. One thread at a time. What is chosen is computed with a solver of its own."""
         target = _options.target(signature, cones, polygon, geometry)
-        vertices = _options.marked_vertices(self._mesh, target, cones)
+        vertices, is_choice = _options.marks(self._mesh, target, cones)
+        if is_choice:
+            wanted = _orbitutte.ChooseOptions(target, vertices, _options.text(objective, "objective"), self._options)
+            return _told(Embedding._of(_orbitutte.embed_best(self._mesh, wanted, _callable(progress))))
         return _told(Embedding._of(self._core.embed(target, vertices, _callable(progress))))
 
     def __repr__(self) -> str:
@@ -130,8 +165,8 @@ def signatures() -> list[dict[str, str]]:
 
 
 def choose_cones(V: npt.ArrayLike, F: Any, signature: str, *, geometry: str | None = None) -> list[int]:
-    """Well separated extremities to be marked, as `embed` takes them for "auto"."""
-    return _arrays.mesh(V, F).choose_cones(_options.target(signature, None, None, geometry))
+    """Well separated extremities to be marked, as `embed` takes them for "extremities"."""
+    return _arrays.mesh(V, F).extremities(_options.target(signature, None, None, geometry))
 
 
 def verify(embedding: Embedding, V: npt.ArrayLike | None = None, F: Any = None, *, weights_file: str | os.PathLike | None = None,
@@ -165,7 +200,7 @@ def distortion(embedding: Embedding, V: npt.ArrayLike | None = None, F: Any = No
     return (core if mesh is None else core.with_mesh(mesh)).distortion()
 
 
-def distortion_floor(V: npt.ArrayLike, F: Any, signature: str, cones: Cones = "auto", *, progress: Progress | None = None, polygon: Any = None,
+def distortion_floor(V: npt.ArrayLike, F: Any, signature: str = "best", cones: Cones = "best", *, progress: Progress | None = None, polygon: Any = None,
                      **options: Any) -> dict[str, Any] | None:
     """The distortion that the coarseness of the mesh costs: no weights get far below it.
 
@@ -180,7 +215,12 @@ def distortion_floor(V: npt.ArrayLike, F: Any, signature: str, cones: Cones = "a
     chosen = _options.options(**options)
     target = _options.target(signature, cones, polygon, None)
     mesh = _arrays.mesh(V, F)
-    return _orbitutte.distortion_floor(mesh, target, _options.marked_vertices(mesh, target, cones), chosen, _callable(progress))
+    vertices, is_choice = _options.marks(mesh, target, cones)
+    if is_choice:
+        wanted = _orbitutte.ChooseOptions(target, vertices, "sigma", _options.options())
+        best = json.loads(_orbitutte.choose(mesh, wanted, 0, None))["choices"][0]
+        target, vertices = _orbitutte.Target.parse(best["orbifold"]), best["cones"]
+    return _orbitutte.distortion_floor(mesh, target, vertices, chosen, _callable(progress))
 
 
 class Tiling(NamedTuple):

@@ -6,7 +6,7 @@ import numbers
 import operator
 import os
 import warnings
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -15,6 +15,13 @@ from .errors import ArgumentError
 
 #: Every option of `embed` but `progress` and those that say what the target is.
 NAMES = ("weights", "weights_file", "clamp", "cut_seed", "spread", "tolerance", "max_iterations", "threads")
+
+
+#: Stands for an orbifold or cones that are to be chosen.
+BEST = "best"
+
+#: Stands for a vertex that is to be chosen, in the compiled module.
+BEST_VERTEX = -1
 
 
 def options(**given: Any) -> _orbitutte.Options:
@@ -40,8 +47,8 @@ def options(**given: Any) -> _orbitutte.Options:
     return result
 
 
-def target(signature: str, cones: Any, polygon: Any = None, geometry: str | None = None) -> _orbitutte.Target:
-    """The target: an orbifold by its symbol, or a polygon by its corners."""
+def target(signature: str, cones: Any, polygon: Any = None, geometry: str | None = None) -> _orbitutte.Target | None:
+    """The target: an orbifold by its symbol, or a polygon by its corners; None for "best"."""
     signature = text(signature, "signature")
     if geometry is not None:
         warnings.warn("geometry is deprecated: the signature decides the space", DeprecationWarning, stacklevel=3)
@@ -49,23 +56,44 @@ def target(signature: str, cones: Any, polygon: Any = None, geometry: str | None
         return _polygon(polygon, cones)
     if polygon is not None:
         raise ArgumentError(f"polygon gives the corners of a fixed boundary, but {signature} has no such boundary; take the signature 'polygon'")
+    if signature == BEST:
+        return None
     known = _orbitutte.Target.parse(signature)
     if geometry is not None and known.space != geometry:
         raise ArgumentError(f"geometry is '{geometry}', but {signature} is {known.space}; leave geometry out")
     return known
 
 
-def marked_vertices(mesh: _orbitutte.Mesh, target: _orbitutte.Target, cones: Any) -> list[int]:
-    """The vertices that `cones` names, or chooses."""
-    if target.signature == "polygon":
-        return target.corner_vertices
+class Marks(NamedTuple):
+    """The marked vertices, `BEST_VERTEX` for those that are to be chosen; none if all are."""
+
+    vertices: list[int]
+    is_choice: bool
+
+
+def marks(mesh: _orbitutte.Mesh, target: _orbitutte.Target | None, cones: Any) -> Marks:
+    """The vertices that `cones` names, or leaves to the program."""
+    if target is not None and target.signature == "polygon":
+        return Marks(target.corner_vertices, False)
     if cones is None:
-        raise ArgumentError("cones is missing; give the vertices to be marked, as in [12, 40, 7], or 'auto'")
+        raise ArgumentError("cones is missing; give the vertices to be marked, as in [12, 40, 7], 'best' or 'extremities'")
     if isinstance(cones, str):
-        if cones != "auto":
-            raise ArgumentError(f"cones is '{cones}'; give vertices, as in [12, 40, 7], or 'auto'")
-        return mesh.choose_cones(target)
-    return _arrays.indices(cones, "cones").tolist()
+        if cones in (BEST, "auto"):
+            return Marks([], True)
+        if cones != "extremities":
+            raise ArgumentError(f"cones is '{cones}'; give vertices, as in [12, 40, 7], 'best' or 'extremities'")
+        return Marks(mesh.extremities(target), target is None)
+    if isinstance(cones, (list, tuple)) and any(isinstance(cone, str) for cone in cones):
+        return Marks([_best_or_vertex(cone) for cone in cones], True)
+    return Marks(_arrays.indices(cones, "cones").tolist(), target is None)
+
+
+def _best_or_vertex(cone: Any) -> int:
+    if isinstance(cone, str):
+        if cone != BEST:
+            raise ArgumentError(f"cones has the entry '{cone}'; give vertices, and 'best' for those that are to be chosen")
+        return BEST_VERTEX
+    return whole(cone, "an entry of cones")
 
 
 def real(value: Any, name: str) -> float:

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include "orbitutte/report/choices.h"
 #include "orbitutte/report/verification.h"
 
 namespace orbitutte::python {
@@ -33,10 +34,15 @@ EdgeWeights HeldEmbedding::edge_weights() const {
 }
 
 HeldEmbedding hold(EmbedResult result, std::shared_ptr<const SourceMesh> mesh, double total_seconds) {
+  return hold(BestEmbedding{Objective::sigma, {}, 0, std::move(result)}, std::move(mesh), total_seconds);
+}
+
+HeldEmbedding hold(BestEmbedding best, std::shared_ptr<const SourceMesh> mesh, double total_seconds) {
   RunRecord run;
   run.total_seconds = total_seconds;
   run.peak_memory_bytes = peak_memory_bytes();
-  std::string report = report_json(result, run);
+  std::string report = report_json(best, run);
+  EmbedResult& result = best.result;
   return {std::move(result.embedding), std::move(report), std::move(mesh), std::move(result.weights)};
 }
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "bindings.h"
-#include "orbitutte/embed_types.h"
+#include "orbitutte/choose.h"
 #include "orbitutte/report/report.h"
 #include "source_mesh.h"
 
@@ -31,6 +31,9 @@ struct HeldEmbedding {
 
 /// Keeps everything of a result that Python may ask for.
 HeldEmbedding hold(EmbedResult result, std::shared_ptr<const SourceMesh> mesh, double total_seconds);
+
+/// With what was chosen.
+HeldEmbedding hold(BestEmbedding best, std::shared_ptr<const SourceMesh> mesh, double total_seconds);
 
 /// As in the report.
 py::dict to_dict(const Distortion& measured);

@@ -8,6 +8,7 @@
 #include "orbitutte/embed.h"
 #include "orbitutte/inspect/inspection.h"
 #include "orbitutte/io/mesh_io.h"
+#include "orbitutte/orbifold/signature.h"
 #include "orbitutte/report/inspection_json.h"
 #include "orbitutte/samples/sample.h"
 #include "source_mesh.h"
@@ -57,8 +58,11 @@ void write(const SourceMesh& mesh, const std::string& path) {
   write_mesh(path, PolygonMesh{*V, *corners, *start});
 }
 
-std::vector<int> choose_cones(const SourceMesh& mesh, const Target& target) {
-  return orbitutte::choose_cones(*mesh.surface(), target);
+// As many as the target needs, or three.
+std::vector<int> extremities(const SourceMesh& mesh, const std::optional<Target>& target) {
+  const Surface& surface = *mesh.surface();
+  const char* const base = surface.topology == Topology::disk ? "*222" : "222";
+  return choose_cones(surface, target ? *target : parse_orbifold(base));
 }
 
 }  // namespace
@@ -76,7 +80,7 @@ void bind_mesh(py::module_& module) {
       .def_property_readonly("warnings", &SourceMesh::warnings)
       .def("info", &info, Release())
       .def("write", &write, Release())
-      .def("choose_cones", &choose_cones, Release());
+      .def("extremities", &extremities, Release());
   module.def("families", &families_json);
 }
 

@@ -8,8 +8,9 @@
 
 #include "arrays.h"
 #include "held_embedding.h"
+#include "orbitutte/choose.h"
 #include "orbitutte/distortion_floor.h"
-#include "orbitutte/embed.h"
+#include "orbitutte/report/choices.h"
 
 namespace orbitutte::python {
 namespace {
@@ -140,6 +141,32 @@ HeldEmbedding embed_once(const std::shared_ptr<SourceMesh>& mesh, const Target& 
   });
 }
 
+// What is left to the program, and by what it chooses.
+ChooseOptions choose_options(const std::optional<Target>& target, const std::vector<int>& cones,
+                             const std::string& objective, const EmbedOptions& options) {
+  return {parse_choice<Objective>(objective, "objective"), target, cones, options};
+}
+
+HeldEmbedding embed_chosen(const std::shared_ptr<SourceMesh>& mesh, const ChooseOptions& options,
+                           py::object listener) {
+  return with_listener(options.embed, std::move(listener), [&](const EmbedOptions& heard) {
+    const Clock::time_point start = Clock::now();
+    BestEmbedding best =
+        embed_best(mesh->surface(), {options.objective, options.target, options.cones, heard});
+    return hold(std::move(best), mesh, seconds_since(start));
+  });
+}
+
+// The table as JSON.
+std::string table(const std::shared_ptr<SourceMesh>& mesh, const ChooseOptions& options, int solved,
+                  py::object listener) {
+  return with_listener(options.embed, std::move(listener), [&](const EmbedOptions& heard) {
+    const std::vector<Choice> choices =
+        choose(mesh->surface(), {options.objective, options.target, options.cones, heard}, solved);
+    return choices_json(choices, options.objective);
+  });
+}
+
 // None if there is no floor.
 std::optional<py::dict> floor_of(const std::shared_ptr<SourceMesh>& mesh, const Target& target,
                                  const std::vector<int>& cones, const EmbedOptions& options,
@@ -195,7 +222,10 @@ void bind_solver(py::module_& module) {
         return std::make_unique<Solver>(std::move(mesh), options);
       }))
       .def("embed", &Solver::embed);
+  py::class_<ChooseOptions>(module, "ChooseOptions").def(py::init(&choose_options));
   module.def("embed", &embed_once);
+  module.def("embed_best", &embed_chosen);
+  module.def("choose", &table);
   module.def("distortion_floor", &floor_of);
 }
 

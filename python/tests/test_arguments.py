@@ -104,7 +104,7 @@ def test_bad_meshes_are_refused_in_a_sentence(case, figure):
     (("432", [1, 2, 2**40]), {}, orbitutte.MeshError, str(2**40)),
     (("432", [1.0, 2.0, 3.0]), {}, TypeError, "cones"),
     (("432", [[1, 2, 3]]), {}, orbitutte.ArgumentError, "cones"),
-    (("432", "some"), {}, orbitutte.ArgumentError, "auto"),
+    (("432", "some"), {}, orbitutte.ArgumentError, "best"),
     (("432", None), {}, orbitutte.ArgumentError, "cones"),
     (("432", "auto"), {"weights": "other"}, orbitutte.ArgumentError, "delaunay"),
     (("432", "auto"), {"weights": 3}, TypeError, "weights"),

@@ -124,7 +124,22 @@ def test_a_sphere_goes_around_the_tiles(embedding):
 
 def test_cones_may_be_chosen_before(figure):
     cones = orbitutte.choose_cones(*figure, "532")
-    assert [cone.vertex for cone in orbitutte.embed(*figure, "532", "auto").cones] == cones
+    assert [cone.vertex for cone in orbitutte.embed(*figure, "532", "extremities").cones] == cones
+
+
+def test_what_is_left_out_is_chosen(figure):
+    best = orbitutte.embed(*figure)
+    rows = orbitutte.choose(*figure, solved=1)
+    assert best.bijective and len(rows) == 5
+    assert [cone.vertex for cone in best.cones] == best.report["choice"]["choices"][best.report["choice"]["taken"]]["cones"]
+    assert [row["predicted"]["sigma"] for row in rows] == sorted(row["predicted"]["sigma"] for row in rows)
+    kept = orbitutte.embed(*figure, "432", ["best", 17, "best"])
+    assert kept.signature == "432" and kept.cones[1].vertex == 17
+    assert orbitutte.Solver(*figure).embed("432").distortion["sigma"] < orbitutte.embed(*figure, "432", "extremities").distortion["sigma"]
+    with pytest.raises(orbitutte.ArgumentError, match="objective"):
+        orbitutte.embed(*figure, objective="least")
+    with pytest.raises(orbitutte.ArgumentError, match="worst"):
+        orbitutte.embed(*figure, "432", [1, "worst", 3])
 
 
 def test_weights_may_be_a_name_arrays_or_a_sparse_matrix(figure):

@@ -108,7 +108,7 @@ class Files:
         write_obj(folder / 'quads.obj', *quad_sphere(12))
         for name in ('triangles', 'quads'):
             mesh, embedding, report = folder / f'{name}.obj', folder / f'{name}-map.ply', folder / f'{name}.json'
-            run(program, 'embed', mesh, '--orbifold', '332', '--cones', 'auto', '-o', embedding, '--report', report, '--quiet')
+            run(program, 'embed', mesh, '--orbifold', '332', '--cones', 'extremities', '-o', embedding, '--report', report, '--quiet')
             for ending in ('obj', 'glb', 'ply', 'vtp'):
                 run(program, 'export', embedding, report, mesh, '-o', folder / f'{name}-model.{ending}')
             for ending in ('obj', 'glb', 'ply', 'stl'):

@@ -41,7 +41,7 @@ echo "installed: $(grep -E '^[0-9]+ upgraded' "$scratch/log")"
 inside orbitutte --version
 inside sh -ec 'cd /tmp
   orbitutte sample --shape figure --faces 20000 -o figure.ply
-  orbitutte embed figure.ply --orbifold 432 --cones auto -o map.ply --report map.json --quiet
+  orbitutte embed figure.ply --orbifold 432 --cones extremities -o map.ply --report map.json --quiet
   orbitutte verify map.ply map.json figure.ply
   orbitutte tile map.ply map.json -o tiling.glb
   orbitutte render map.ply map.json figure.ply -o map.png

@@ -29,7 +29,7 @@ export class Workshop {
     const [mesh, map, json] = ['obj', 'map.ply', 'json'].map((ending) => this.path(`${name}.${ending}`));
     this.run('sample', '--shape', shape, '--faces', String(faces), '-o', mesh);
     if (coloured) writeFileSync(mesh, withColours(readFileSync(mesh, 'utf8')));
-    this.run('embed', mesh, '--orbifold', orbifold, '--cones', 'auto', '-o', map, '--report', json, '--quiet');
+    this.run('embed', mesh, '--orbifold', orbifold, '--cones', 'extremities', '-o', map, '--report', json, '--quiet');
     return [map, json, mesh];
   }
 

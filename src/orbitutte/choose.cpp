@@ -1,0 +1,450 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/choose.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <chrono>
+#include <numeric>
+
+#include "orbitutte/cones/extremities.h"
+#include "orbitutte/orbifold/families.h"
+#include "orbitutte/parallel.h"
+#include "orbitutte/preparation.h"
+
+namespace orbitutte {
+namespace {
+
+constexpr int candidate_count = 60, coarse_samples = 200, fine_samples = 1000, finest_samples = 8000;
+constexpr int highest_order = 12;
+
+// A family with its free order.
+class FamilyWithOrder {
+ public:
+  explicit FamilyWithOrder(const Family& family) : name_(family.name), order_(family.smallest_order) {
+    for (const auto* orders : {&family.pattern.rotations, &family.pattern.corners})
+      has_free_order_ |= std::count(orders->begin(), orders->end(), 0) > 0;
+  }
+
+  bool has_free_order() const { return has_free_order_; }
+
+  Target with(int order) const {
+    std::string text = name_;
+    std::replace(text.begin(), text.end(), 'N', '9');  // which no family has otherwise
+    ConwaySymbol symbol = parse_orbifold(text).symbol;
+    for (auto* orders : {&symbol.rotations, &symbol.corners})
+      std::replace(orders->begin(), orders->end(), 9, order);
+    return parse_orbifold(symbol.text());
+  }
+
+  Target with_least() const { return with(order_); }
+
+ private:
+  std::string name_;
+  int order_;
+  bool has_free_order_ = false;
+};
+
+// Targets that may be chosen: each the first of its family, whose order may grow.
+struct Contest {
+  Target first;
+  std::optional<FamilyWithOrder> family;
+};
+
+bool lies_outside(const Candidates& all, int v) {
+  return std::binary_search(all.on_boundary.begin(), all.on_boundary.end(), v);
+}
+
+// That the faces use them all, and that none is given twice.
+void require_places(const std::vector<int>& kept, const Candidates& all) {
+  for (const int v : kept) {
+    if (!lies_outside(all, v) && !std::binary_search(all.inside.begin(), all.inside.end(), v))
+      throw MeshError(fmt::format("vertex {} cannot be marked: no face of the mesh uses it", v));
+    if (std::count(kept.begin(), kept.end(), v) > 1)
+      throw MeshError(fmt::format("vertex {} is marked twice", v));
+  }
+}
+
+std::vector<int> kept_vertices(const ChooseOptions& options) {
+  std::vector<int> kept;
+  for (const int v : options.cones)
+    if (v != best_vertex) kept.push_back(v);
+  return kept;
+}
+
+// Does the target have as many marks as there are entries, each where its kind has to be?
+bool takes_cones(const Target& target, const Surface& surface, const Candidates& all,
+                 const std::vector<int>& cones) {
+  if (cones.empty()) return true;
+  if (cones.size() != target.marks.size()) return false;
+  for (int k = 0; k < static_cast<int>(cones.size()); ++k)
+    if (cones[k] != best_vertex && surface.topology == Topology::disk &&
+        lies_outside(all, cones[k]) != (k >= target.inner_marks))
+      return false;
+  return true;
+}
+
+// The spherical families that the surface embeds into and that take the cones; or the given target alone.
+std::vector<Contest> contests(const Surface& surface, const Candidates& all, const ChooseOptions& options) {
+  if (options.target) return {{*options.target, std::nullopt}};
+  std::vector<Contest> result;
+  for (const Family& family : family_table()) {
+    if (family.topology != surface.topology || family.group_order == "infinite") continue;
+    const FamilyWithOrder with_order(family);
+    const Target first = with_order.with_least();
+    if (first.marks.empty() || !takes_cones(first, surface, all, options.cones)) continue;
+    result.push_back({first, with_order.has_free_order() ? std::optional(with_order) : std::nullopt});
+  }
+  if (!result.empty()) return result;
+  if (surface.topology == Topology::other) require_topology(surface, parse_orbifold("432"));
+  throw MeshError(fmt::format("no orbifold for a {} takes {} marked vertices that lie like that",
+                              name_of(surface.topology), options.cones.size()));
+}
+
+// The entries that are given, and for the others the first candidates of the right kind; nothing if there are
+// too few.
+std::optional<std::vector<int>> first_cones(const Target& target, const std::vector<int>& given,
+                                            const Candidates& candidates) {
+  std::vector<int> cones = given;
+  cones.resize(target.marks.size(), best_vertex);
+  for (int k = 0; k < static_cast<int>(cones.size()); ++k) {
+    if (cones[k] != best_vertex) continue;
+    const std::vector<int>& places = candidates.of(target, k);
+    const auto is_free = [&](int v) { return std::find(cones.begin(), cones.end(), v) == cones.end(); };
+    const auto at = std::find_if(places.begin(), places.end(), is_free);
+    if (at == places.end()) return std::nullopt;
+    cones[k] = *at;
+  }
+  return cones;
+}
+
+Target base_target(Topology topology) { return parse_orbifold(topology == Topology::disk ? "*222" : "222"); }
+
+struct Scored {
+  MarkedTarget choice;
+  Score score;
+};
+
+// The search over one surface, from its map to 222 or *222.
+class BestCones {
+ public:
+  BestCones(const Surface& surface, const EmbedResult& base, const ChooseOptions& options)
+      : surface_(surface),
+        options_(options),
+        neighbors_(vertex_neighbors(surface.connectivity.edges, surface.vertex_count())),
+        stars_(surface),
+        chart_(base.embedding),
+        faces_(measure_triangles(surface, base.embedding)),
+        order_(order_in_space(surface)),
+        candidates_(candidates(base)),
+        coarse_(chart_, stars_, samples(base, coarse_samples)),
+        fine_(chart_, stars_, samples(base, fine_samples)),
+        finest_(chart_, stars_, samples(base, finest_samples)),
+        search_(coarse_, surface, neighbors_, options.objective),
+        fine_search_(fine_, surface, neighbors_, options.objective),
+        freedom_{kept_vertices(options), !options.target.has_value()} {}
+
+  // The best of a family; nothing if no cones are possible.
+  std::optional<Scored> best_of(const Contest& contest) {
+    std::optional<Scored> best = descended(contest.first);
+    if (!best || !contest.family) return best;
+    for (int order = contest.first.marks.front().order() + 1, failures = 0;
+         order <= highest_order && failures < 2; ++order) {
+      Scored next = {{contest.family->with(order), best->choice.cones}, {}};
+      next.score = search_.descend(next.choice, candidates_, freedom_);
+      const bool is_better = next.score < best->score;
+      failures = is_better ? 0 : failures + 1;
+      if (is_better) best = std::move(next);
+    }
+    return best;
+  }
+
+  // Moves the vertices of the choice to where they are best, by few samples and then by more.
+  void polish(Scored& scored) {
+    search_.polish(scored.choice, freedom_);
+    scored.score = fine_search_.polish(scored.choice, freedom_);
+  }
+
+  // By the samples that polish() compares by in the end.
+  void score(Scored& scored) { scored.score = fine_search_.score(scored.choice); }
+
+  ScaleSummary summary(const MarkedTarget& choice) { return finest_.summary(choice); }
+
+ private:
+  // The cones of the map first, which are extremities, then those that are given.
+  Candidates candidates(const EmbedResult& base) const {
+    const Candidates all = all_places(surface_);
+    Candidates first;
+    for (const ConeCopies& cone : base.embedding.cones)
+      (lies_outside(all, cone.vertex) ? first.on_boundary : first.inside).push_back(cone.vertex);
+    return spread_candidates(surface_, first, candidate_count);
+  }
+
+  std::vector<ScaleSample> samples(const EmbedResult& base, int count) const {
+    std::vector<int> ends = candidates_.inside;
+    ends.insert(ends.end(), candidates_.on_boundary.begin(), candidates_.on_boundary.end());
+    return scale_samples({surface_, base.embedding, faces_, order_}, count, ends);
+  }
+
+  // From the extremities, and from the best so far.
+  std::optional<Scored> descended(const Target& target) {
+    std::vector<std::vector<int>> starts;
+    const auto add = [&](const Candidates& candidates) {
+      if (const auto cones = first_cones(target, options_.cones, candidates)) starts.push_back(*cones);
+    };
+    add(candidates_);
+    if (const auto at = found_.find({target.marks.size(), target.inner_marks}); at != found_.end())
+      starts.push_back(at->second);
+    else
+      for (const int first : {3, 6}) add(candidates_from(first));
+    std::optional<Scored> best;
+    for (const std::vector<int>& cones : starts) {
+      Scored scored = {{target, cones}, {}};
+      if (!search_.is_possible(scored.choice)) continue;
+      scored.score = search_.descend(scored.choice, candidates_, freedom_);
+      if (!best || scored.score < best->score) best = std::move(scored);
+    }
+    if (best) found_[{target.marks.size(), target.inner_marks}] = best->choice.cones;
+    return best;
+  }
+
+  // The candidates from one of them on, followed by those before it.
+  Candidates candidates_from(int first) const {
+    Candidates result = candidates_;
+    for (std::vector<int>* places : {&result.inside, &result.on_boundary})
+      std::rotate(places->begin(), places->begin() + std::min<std::ptrdiff_t>(first, std::ssize(*places)),
+                  places->end());
+    return result;
+  }
+
+  const Surface& surface_;
+  const ChooseOptions& options_;
+  Neighbors neighbors_;
+  VertexStars stars_;
+  OrbifoldChart chart_;
+  std::vector<FaceDistortion> faces_;
+  std::vector<int> order_;
+  Candidates candidates_;
+  ScaleField coarse_, fine_, finest_;
+  ConeSearch search_, fine_search_;
+  Freedom freedom_;
+
+  /// The best cones so far of targets with so many marks, so many of them inside.
+  std::map<std::pair<std::size_t, int>, std::vector<int>> found_;
+};
+
+// The symbol with its orders in such an order that kept vertices stand where they were given.
+MarkedTarget in_given_order(MarkedTarget choice, const std::vector<int>& given) {
+  for (int k = 0; k < static_cast<int>(given.size()); ++k) {
+    if (given[k] == best_vertex) continue;
+    const int at = static_cast<int>(std::find(choice.cones.begin(), choice.cones.end(), given[k]) -
+                                    choice.cones.begin());
+    if (at == k) continue;
+    ConwaySymbol symbol = choice.target.symbol;
+    std::vector<int>& orders = k < choice.target.inner_marks ? symbol.rotations : symbol.corners;
+    const int first = k < choice.target.inner_marks ? 0 : choice.target.inner_marks;
+    std::swap(orders[k - first], orders[at - first]);
+    std::swap(choice.cones[k], choice.cones[at]);
+    choice.target = parse_orbifold(symbol.text());
+  }
+  return choice;
+}
+
+// Candidates for targets whose scale has no closed form: they are embedded, one after the other.
+std::vector<Choice> choices_to_try(const Surface& surface, const std::vector<Contest>& all,
+                                   const ChooseOptions& options) {
+  constexpr int vertices_tried = 4;
+  std::vector<Choice> result;
+  for (const Contest& contest : all) {
+    const Target& target = contest.first;
+    const std::vector<int> extremities = choose_cones(surface, target);
+    const auto add = [&](const Target& aim, const std::vector<int>& cones) {
+      result.push_back({aim, cones, {}, {}, false, {}});
+    };
+    if (target.marks.size() > 1) {
+      const bool lie_inside = target.topology == Topology::sphere;
+      const Candidates places = {lie_inside ? extremities : std::vector<int>(),
+                                 lie_inside ? std::vector<int>() : extremities};
+      if (const auto cones = first_cones(target, options.cones, places)) add(target, *cones);
+      continue;
+    }
+    const Candidates spread = spread_candidates(surface, {extremities, {}}, vertices_tried);
+    const std::vector<int> kept = kept_vertices(options);
+    for (const int v : kept.empty() ? spread.inside : kept) {
+      add(target, {v});
+      for (int order = target.marks.front().order() + 1; contest.family && order <= 3; ++order)
+        add(contest.family->with(order), {v});
+    }
+  }
+  return result;
+}
+
+// Which rows of the table are moved to where they are best, vertex by vertex.
+enum class Polished { all, contenders };
+
+// The rows of the table, the best first, as far as the closed form knows.
+class Choosing {
+ public:
+  Choosing(std::shared_ptr<const Surface> surface, const ChooseOptions& options, Polished polished)
+      : surface_(std::move(surface)),
+        options_(options),
+        polished_(polished),
+        solver_(surface_, options.embed) {}
+
+  std::vector<Choice> table() {
+    const Candidates all = all_places(*surface_);
+    require_places(kept_vertices(options_), all);
+    const std::vector<Contest> targets = contests(*surface_, all, options_);
+    for (const Contest& contest : targets) {
+      require_topology(*surface_, contest.first);
+      if (!takes_cones(contest.first, *surface_, all, options_.cones))
+        throw MeshError(
+            fmt::format("{} needs {} marked vertices, {} of them inside the surface; give as many "
+                        "entries for --cones, each where it has to lie",
+                        contest.first.signature, contest.first.marks.size(), contest.first.inner_marks));
+    }
+    if (!std::all_of(targets.begin(), targets.end(),
+                     [](const Contest& contest) { return has_closed_form(contest.first); }))
+      return choices_to_try(*surface_, targets, options_);
+    return predicted(targets);
+  }
+
+  // Embeds the row, and writes into it what is known then.
+  EmbedResult solve(Choice& choice) {
+    EmbedResult result = solver_.embed(choice.target, choice.cones);
+    choice.solved = result.distortion;
+    choice.is_certified = result.certificate.bijective;
+    return result;
+  }
+
+  // The time that the search took, and the map that it began with.
+  double seconds() const { return seconds_; }
+
+ private:
+  std::vector<Choice> predicted(const std::vector<Contest>& targets) {
+    const auto start = std::chrono::steady_clock::now();
+    const Target base = base_target(surface_->topology);
+    const EmbedResult map = solver_.embed(base, choose_cones(*surface_, base));
+    BestCones search(*surface_, map, options_);
+    std::vector<Scored> found;
+    for (const Contest& contest : targets)
+      if (std::optional<Scored> best = search.best_of(contest)) found.push_back(std::move(*best));
+    if (found.empty()) throw MeshError("the mesh has too few vertices to choose from");
+    polish(search, found);
+    std::vector<Choice> rows;
+    for (const Scored& scored : found) {
+      const MarkedTarget marked = in_given_order(scored.choice, options_.cones);
+      rows.push_back({marked.target, marked.cones, search.summary(marked), {}, false, {}});
+    }
+    std::stable_sort(rows.begin(), rows.end(), [&](const Choice& a, const Choice& b) {
+      return score_of(*a.predicted, options_.objective) < score_of(*b.predicted, options_.objective);
+    });
+    seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return rows;
+  }
+
+  // All, or those that may become the best: polishing gains about as much everywhere.
+  void polish(BestCones& search, std::vector<Scored>& found) const {
+    constexpr double close = 1.05;
+    for (Scored& scored : found) search.score(scored);
+    const Score least = std::min_element(found.begin(), found.end(), [](const Scored& a, const Scored& b) {
+                          return a.score < b.score;
+                        })->score;
+    for (Scored& scored : found)
+      if (polished_ == Polished::all || !(Score{least.is_lost, close * least.value} < scored.score))
+        search.polish(scored);
+  }
+
+  std::shared_ptr<const Surface> surface_;
+  const ChooseOptions& options_;
+  Polished polished_;
+  EmbeddingSolver solver_;
+  double seconds_ = 0;
+};
+
+// What the embedding is judged by.
+double value_of(const Distortion& distortion, const std::optional<ScaleSummary>& predicted,
+                Objective objective) {
+  if (objective == Objective::sigma || !predicted) return distortion.sigma;
+  return score_of(*predicted, objective).value;
+}
+
+// Can no row from `next` on be clearly better than the value, going by the closed form?
+bool is_settled(const std::vector<Choice>& rows, std::size_t next, double value, Objective objective) {
+  return next < rows.size() && rows[next].predicted &&
+         score_of(*rows[next].predicted, objective).value > 0.98 * value;
+}
+
+std::string name_of_choice(const Choice& choice) {
+  return fmt::format("{} at {}", choice.target.signature, fmt::join(choice.cones, ","));
+}
+
+std::string warning_of_better(const Choice& better, const Choice& taken) {
+  return fmt::format("{} would distort less, but its map is not certified; {} was taken",
+                     name_of_choice(better), name_of_choice(taken));
+}
+
+void add_warnings(BestEmbedding& best) {
+  if (!best.choice().is_certified) return;
+  for (const Choice& choice : best.choices)
+    if (&choice != &best.choice() && (choice.solved || !choice.refusal.empty()) && !choice.is_certified)
+      best.result.warnings.push_back(warning_of_better(choice, best.choice()));
+}
+
+template <typename Compute>
+auto with_threads_for(const ChooseOptions& options, const Compute& compute) {
+  if (options.embed.threads < 0) throw ArgumentError("the number of threads must not be negative");
+  return with_threads(options.embed.threads, compute);
+}
+
+}  // namespace
+
+BestEmbedding embed_best(std::shared_ptr<const Surface> surface, const ChooseOptions& options) {
+  return with_threads_for(options, [&] {
+    Choosing choosing(std::move(surface), options, Polished::contenders);
+    BestEmbedding best = {options.objective, choosing.table(), -1, {}};
+    std::string first_refusal;
+    double least = 0;
+    for (std::size_t k = 0; k < best.choices.size(); ++k) {
+      Choice& choice = best.choices[k];
+      const bool has_certified = best.taken >= 0 && best.choice().is_certified;
+      if (has_certified && is_settled(best.choices, k, least, options.objective)) break;
+      try {
+        EmbedResult result = choosing.solve(choice);
+        const double value = value_of(result.distortion, choice.predicted, options.objective);
+        const bool is_better =
+            has_certified ? choice.is_certified && value < least : choice.is_certified || best.taken < 0;
+        if (!is_better) continue;
+        least = value;
+        best.taken = static_cast<int>(k);
+        best.result = std::move(result);
+      } catch (const MeshError& error) {
+        choice.refusal = error.what();
+        if (first_refusal.empty()) first_refusal = error.what();
+      }
+    }
+    if (best.taken < 0) throw MeshError(first_refusal);
+    best.result.timings.insert(best.result.timings.begin(), {"choose", choosing.seconds()});
+    add_warnings(best);
+    return best;
+  });
+}
+
+std::vector<Choice> choose(std::shared_ptr<const Surface> surface, const ChooseOptions& options, int solved) {
+  return with_threads_for(options, [&] {
+    Choosing choosing(std::move(surface), options, Polished::all);
+    std::vector<Choice> rows = choosing.table();
+    for (Choice& row : rows) {
+      if (row.predicted && solved-- <= 0) break;
+      try {
+        choosing.solve(row);
+      } catch (const MeshError& error) {
+        row.refusal = error.what();
+      }
+    }
+    return rows;
+  });
+}
+
+}  // namespace orbitutte

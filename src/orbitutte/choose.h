@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// The orbifold and the cones that distort a surface least: one map to 222 or *222 gives the scale of the maps
+// to all others (cones/scale_field.h), and the best of these are embedded.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "orbitutte/cones/search.h"
+#include "orbitutte/embed.h"
+
+namespace orbitutte {
+
+/// Stands for a vertex that is to be chosen.
+inline constexpr int best_vertex = -1;
+
+/// What is to be chosen, and by what.
+struct ChooseOptions {
+  Objective objective = Objective::sigma;
+
+  /// If not given, it is chosen, too: any spherical orbifold that the surface embeds into.
+  std::optional<Target> target;
+
+  /// The marked vertices, in the order of the symbol, best_vertex for those that are to be chosen. None: as
+  /// many as the target needs, all of them chosen.
+  std::vector<int> cones;
+
+  EmbedOptions embed;
+};
+
+/// A row of the table: the best cones for one orbifold.
+struct Choice {
+  Target target;
+  std::vector<int> cones;
+
+  /// By the closed form; not known on projective planes and for the pillow 2222.
+  std::optional<ScaleSummary> predicted;
+
+  /// Of the embedding, and whether it is certified; not known of rows that were not embedded.
+  std::optional<Distortion> solved;
+  bool is_certified = false;
+
+  /// Where the mesh cannot be embedded like that: why.
+  std::string refusal;
+};
+
+/// The best choice for each family that the options leave, the best first; one of them is embedded. Rows that
+/// cannot become the best are not searched to the end.
+struct BestEmbedding {
+  Objective objective = Objective::sigma;
+  std::vector<Choice> choices;
+
+  /// The row that `result` is the embedding of: the first that is certified, and no worse than what the
+  /// closed form says of the rows below it. If none is certified, the first that could be embedded.
+  int taken = 0;
+  EmbedResult result;
+
+  const Choice& choice() const { return choices[taken]; }
+};
+
+/// Chooses and embeds. EmbedResult::warnings says if a better choice was not certified. Throws as embed does;
+/// MeshError if no orbifold takes such cones.
+BestEmbedding embed_best(std::shared_ptr<const Surface> surface, const ChooseOptions& options = {});
+
+/// The table, the first `solved` rows of it embedded.
+std::vector<Choice> choose(std::shared_ptr<const Surface> surface, const ChooseOptions& options = {},
+                           int solved = 3);
+
+}  // namespace orbitutte

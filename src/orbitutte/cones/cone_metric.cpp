@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+// The scale: A. Eremenko, "Metrics of positive curvature with conic singularities on the sphere", Proceedings
+// of the AMS 132 (2004), after H. A. Schwarz. The variable w: D. Pappadopulo, S. Rychkov, J. Espin, R.
+// Rattazzi, "Operator product expansion convergence in conformal field theory", Physical Review D 86 (2012).
+#include "orbitutte/cones/cone_metric.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "orbitutte/errors.h"
+
+namespace orbitutte {
+namespace {
+
+using std::numbers::pi;
+using Complex = std::complex<double>;
+
+// 2F1(p, q; c; z).
+struct Hypergeometric {
+  double p, q, c;
+
+  // At z = 1, by Gauss's theorem.
+  double at_one() const {
+    return std::tgamma(c) * std::tgamma(c - p - q) / (std::tgamma(c - p) * std::tgamma(c - q));
+  }
+};
+
+// The first coefficients f of 2F1 as a series in w, z = 4 w/(1 + w)^2. With D = w d/dw its equation reads
+//   (1 + w)(1 - w^2) D^2 f + (1 + w)((c - 1)(1 + w^2) + (2 c - 4 p - 4 q) w) D f - 4 p q w (1 - w) f = 0.
+template <typename Series>
+Series series_in_w(const Hypergeometric& F) {
+  const double d = F.c - 1, e = d + 2 * F.c - 4 * (F.p + F.q), pq = 4 * F.p * F.q;
+  Series f = {1};
+  for (int n = 1; n < static_cast<int>(f.size()); ++n) {
+    const auto before = [&](int k) { return n >= k ? f[n - k] : 0.0; };
+    const double m = n - 1, l = n - 2, k = n - 3;
+    f[n] = -(before(1) * (m * m + e * m - pq) + before(2) * (-l * l + e * l + pq) +
+             before(3) * (-k * k + d * k)) /
+           (n * (n + d));
+  }
+  return f;
+}
+
+template <typename Series>
+Complex sum(const Series& f, Complex w) {
+  Complex result = 0;
+  for (std::size_t n = f.size(); n-- > 0;) result = result * w + f[n];
+  return result;
+}
+
+// The side between the corners with the angles pi a and pi b of a spherical triangle.
+double side_between(double a, double b, double g) {
+  const double cosine =
+      (std::cos(pi * g) + std::cos(pi * a) * std::cos(pi * b)) / (std::sin(pi * a) * std::sin(pi * b));
+  return std::acos(std::clamp(cosine, -1.0, 1.0));
+}
+
+void require_triangle(const std::array<double, 3>& a) {
+  const double excess = a[0] + a[1] + a[2] - 1, least = std::min({a[0], a[1], a[2]}),
+               greatest = std::max({a[0], a[1], a[2]});
+  if (least > 0 && greatest < 1 && excess > 0 && excess < 2 * least) return;
+  throw ArgumentError(fmt::format("no spherical triangle has the angles {:.6g} pi, {:.6g} pi and {:.6g} pi",
+                                  a[0], a[1], a[2]));
+}
+
+struct Ranks {
+  int least, middle, greatest;
+};
+
+template <typename Key>
+Ranks ranks(const Key& key) {
+  Ranks r = {0, 1, 2};
+  if (key(r.least) > key(r.middle)) std::swap(r.least, r.middle);
+  if (key(r.middle) > key(r.greatest)) std::swap(r.middle, r.greatest);
+  if (key(r.least) > key(r.middle)) std::swap(r.least, r.middle);
+  return r;
+}
+
+// In [0, pi].
+double unsigned_angle(double angle) { return std::abs(angle - 2 * pi * std::floor(angle / (2 * pi) + 0.5)); }
+
+}  // namespace
+
+ConeMetric::Numbering ConeMetric::number(double a, double b, double g) {
+  const double p = (1 - a - b - g) / 2, q = (1 - a - b + g) / 2;
+  const Hypergeometric F1 = {p, q, 1 - a}, F2 = {p + a, q + a, 1 + a};
+  Numbering result;
+  result.a = a;
+  result.b = b;
+  result.C = std::tan(side_between(a, b, g) / 2) * F1.at_one() / F2.at_one();
+  result.log_factor = std::log(2 * result.C * a);
+  result.F1 = series_in_w<Series>(F1);
+  result.F2 = series_in_w<Series>(F2);
+  result.fill_table();
+  return result;
+}
+
+ConeMetric::ConeMetric(const std::array<double, 3>& angles) : angles_(angles) {
+  require_triangle(angles);
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k)
+      if (i != k) numbering_[3 * i + k] = number(angles[i], angles[3 - i - k], angles[k]);
+}
+
+double ConeMetric::Numbering::log_denominator(double radius_to_a, Complex z) const {
+  const Complex root = 1.0 + std::sqrt(1.0 - z), w = z / (root * root);
+  return std::log(std::norm(sum(F1, w)) + C * C * radius_to_a * radius_to_a * std::norm(sum(F2, w)));
+}
+
+void ConeMetric::Numbering::fill_table() {
+  table.resize(static_cast<std::size_t>(radii + 1) * (directions + 1));
+  for (int i = 0; i <= radii; ++i)
+    for (int j = 0; j <= directions; ++j) {
+      const double t = static_cast<double>(i) / radii;
+      const Complex z = std::polar(std::pow(t, 1 / a), pi / 2 * j / directions);
+      table[i * (directions + 1) + j] = static_cast<float>(log_denominator(t, z));
+    }
+}
+
+double ConeMetric::Numbering::table_value(double radius_to_a, double direction) const {
+  const double x = std::min(radius_to_a, 1.0) * radii, y = std::min(direction * (2 / pi), 1.0) * directions;
+  const int i = std::min(static_cast<int>(x), radii - 1), j = std::min(static_cast<int>(y), directions - 1);
+  const double s = x - i, t = y - j;
+  const float* row = table.data() + i * (directions + 1) + j;
+  const float* next = row + directions + 1;
+  return (1 - s) * ((1 - t) * row[0] + t * row[1]) + s * ((1 - t) * next[0] + t * next[1]);
+}
+
+double ConeMetric::log_scale(const ConeCoordinates& P) const {
+  const auto [i, j, k] = ranks([&](int m) { return std::norm(P[m]); });
+  const Numbering& n = numbering(i, k);
+  const double to_zero = std::log(std::abs(P[i] / P[k])), to_one = std::log(std::abs(P[j] / P[k]));
+  return n.log_factor + (n.a - 1) * to_zero + (n.b - 1) * to_one -
+         n.log_denominator(std::exp(n.a * to_zero), -P[i] / P[k]) - 2 * std::log(std::abs(P[k]));
+}
+
+double ConeMetric::quick_log_scale(const ConeCoordinates& log_P) const {
+  const auto [i, j, k] = ranks([&](int m) { return log_P[m].real(); });
+  const Numbering& n = numbering(i, k);
+  const Complex log_z = log_P[i] - log_P[k];
+  const double to_one = log_P[j].real() - log_P[k].real();
+  return n.log_factor + (n.a - 1) * log_z.real() + (n.b - 1) * to_one -
+         n.table_value(std::exp(n.a * log_z.real()), unsigned_angle(log_z.imag() + pi)) - 2 * log_P[k].real();
+}
+
+double ConeMetric::area() const { return 2 * pi * (angles_[0] + angles_[1] + angles_[2] - 1); }
+
+}  // namespace orbitutte

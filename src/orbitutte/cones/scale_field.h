@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+// The scale of conformal maps of one surface onto spherical and flat orbifolds, whichever cones they have: in
+// closed form, from one map to 222 or *222.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "orbitutte/cones/chart.h"
+#include "orbitutte/cones/cone_metric.h"
+#include "orbitutte/mesh/groups.h"
+#include "orbitutte/mesh/surface.h"
+#include "orbitutte/verify/distortion.h"
+
+namespace orbitutte {
+
+/// A map whose scale is known: to 222 or *222, what was measured of its triangles (measure_triangles), and an
+/// order of them in which neighbours in space mostly follow each other (order_in_space).
+struct KnownMap {
+  const Surface& surface;
+  const Embedding& embedding;
+  const std::vector<FaceDistortion>& faces;
+  const std::vector<int>& order;
+};
+
+/// The triangles along a curve that fills space (G. M. Morton, 1966).
+std::vector<int> order_in_space(const Surface& surface);
+
+/// A place where the scale is known.
+struct ScaleSample {
+  /// The middle of a triangle.
+  ChartPoint point;
+
+  /// The share of the surface that it stands for; 0 where only the range of the scale counts.
+  double weight = 0;
+
+  /// log of lengths |n dd - d dn| of the chart's point n : d over lengths on the surface, whose area is one.
+  double log_scale = 0;
+
+  /// log of the triangle's length on the surface, the root of its area.
+  double log_length = 0;
+};
+
+/// About `count` samples spread evenly over the area, or all triangles if there are not more, and then one
+/// beside each of these vertices. Triangles that could not be measured are left out.
+std::vector<ScaleSample> scale_samples(const KnownMap& map, int count, const std::vector<int>& vertices);
+
+/// What the choices are compared by. u is the logarithm of the scale of lengths, both areas being one.
+struct ScaleSummary {
+  /// The standard deviation of u over the surface.
+  double sigma = 0;
+
+  /// (1 + the mean of exp(-2 u))/2, the mean of the symmetric Dirichlet energy of a conformal map.
+  double symmetric_dirichlet = 0;
+
+  /// The greatest u less the least, in bits: log2 of how far scales differ.
+  double range = 0;
+
+  /// The shares of the surface with 1/4 <= exp(2 u) <= 4 and with exp(2 u) < 1/64.
+  double within_4 = 0, below_64 = 0;
+
+  /// log of the shortest length of a triangle's image.
+  double log_least_length = 0;
+};
+
+/// A choice: the target's marks at vertices of the surface.
+struct MarkedTarget {
+  Target target;
+  std::vector<int> cones;
+};
+
+/// Does the closed form know the target's maps? It does for every orbifold of the sphere and disk with a
+/// finite group, and for the flat ones with three cones. The pillow 2222 has a shape of its own.
+bool has_closed_form(const Target& target);
+
+/// A surface, and of every vertex the half-edges that begin there: one for each triangle.
+struct VertexStars {
+  explicit VertexStars(const Surface& surface);
+
+  const Surface& surface;
+  Groups halfedges;
+};
+
+/// The scale at samples for any choice of cones. A disk is half of its double: a corner is one cone of the
+/// double, a cone inside two of them, at mirror images.
+class ScaleField {
+ public:
+  /// Refers to the chart, and to the stars of its surface.
+  ScaleField(const OrbifoldChart& chart, const VertexStars& stars, std::vector<ScaleSample> samples);
+
+  /// u at every sample. Throws ArgumentError unless has_closed_form.
+  std::vector<double> log_scale(const MarkedTarget& choice);
+
+  ScaleSummary summary(const MarkedTarget& choice);
+
+  const std::vector<ScaleSample>& samples() const { return samples_; }
+
+ private:
+  /// A cone of the surface or its double.
+  struct Place {
+    int vertex = -1;
+    bool is_mirrored = false;
+    double angle = 0;
+
+    auto key() const { return std::pair(vertex, is_mirrored); }
+  };
+
+  /// log of the bracket with every sample.
+  using Column = std::vector<Complex>;
+
+  static std::vector<Place> places(const MarkedTarget& choice);
+  const Column& column(const Place& place);
+  ChartPoint point(const Place& place) const;
+  Complex log_bracket(const Place& a, const Place& b) const;
+  void add_three_cones(const std::vector<Place>& cones, std::vector<double>& u);
+  void add_two_cones(const MarkedTarget& choice, const std::vector<Place>& cones, std::vector<double>& u);
+  void add_flat_cones(const std::vector<Place>& cones, std::vector<double>& u);
+  double scale_along_axis(const std::vector<Place>& cones) const;
+  double excess_at(const Place& cone, const Place& other) const;
+
+  const OrbifoldChart& chart_;
+  const VertexStars& stars_;
+  std::vector<ScaleSample> samples_;
+  std::map<std::pair<int, bool>, Column> columns_;
+  std::map<std::array<double, 3>, ConeMetric> metrics_;
+};
+
+}  // namespace orbitutte

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/cones/search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "orbitutte/orbifold/signature.h"
+
+namespace orbitutte {
+namespace {
+
+// Of every vertex: 1 if it lies on the boundary.
+std::vector<char> outer_vertices(const Surface& surface) {
+  std::vector<char> is_outer(surface.vertex_count(), 0);
+  for (int h = 0; h < static_cast<int>(surface.triangles.size()); ++h)
+    if (surface.connectivity.opposite[h] < 0) is_outer[halfedge_origin(surface.triangles, h)] = 1;
+  return is_outer;
+}
+
+bool contains(const std::vector<int>& vertices, int v) {
+  return std::find(vertices.begin(), vertices.end(), v) != vertices.end();
+}
+
+// `first`, and then the farthest of `among` from those before, until there are `count`.
+std::vector<int> farthest_first(const Points& V, const std::vector<int>& among, std::vector<int> first,
+                                int count) {
+  if (among.empty()) return {};
+  if (first.empty()) first.push_back(among.front());
+  std::vector<double> distance(among.size(), std::numeric_limits<double>::infinity());
+  for (std::size_t k = 0;; ++k) {
+    std::size_t farthest = 0;
+    for (std::size_t i = 0; i < among.size(); ++i) {
+      distance[i] = std::min(distance[i], (V.row(among[i]) - V.row(first[k])).squaredNorm());
+      if (distance[i] > distance[farthest]) farthest = i;
+    }
+    if (k + 1 < first.size()) continue;
+    if (static_cast<int>(first.size()) >= count || !(distance[farthest] > 0)) return first;
+    first.push_back(among[farthest]);
+  }
+}
+
+// About `count` of them, evenly.
+std::vector<int> thinned(const std::vector<int>& vertices, int count) {
+  const int n = static_cast<int>(vertices.size());
+  if (n <= count) return vertices;
+  std::vector<int> result;
+  for (int k = 0; k < count; ++k) result.push_back(vertices[static_cast<long long>(k) * n / count]);
+  return result;
+}
+
+bool is_kept(const Freedom& freedom, int vertex) { return contains(freedom.kept, vertex); }
+
+// Do the marks differ in nothing but the vertex? Then an exchange changes nothing.
+bool are_alike(const Mark& a, const Mark& b) { return a.angle == b.angle && a.kind == b.kind; }
+
+bool may_exchange(const MarkedTarget& choice, int k, int l, const Freedom& freedom) {
+  const Mark &a = choice.target.marks[k], &b = choice.target.marks[l];
+  const bool are_held =
+      !freedom.orders_move && (is_kept(freedom, choice.cones[k]) || is_kept(freedom, choice.cones[l]));
+  return a.kind == b.kind && !are_alike(a, b) && !are_held;
+}
+
+}  // namespace
+
+Score score_of(const ScaleSummary& summary, Objective objective) {
+  constexpr double resolution = 1e-14;
+  Score score;
+  score.is_lost = summary.log_least_length < std::log(resolution);
+  score.value = objective == Objective::sigma   ? summary.sigma
+                : objective == Objective::range ? summary.range
+                                                : summary.symmetric_dirichlet;
+  return score;
+}
+
+Candidates all_places(const Surface& surface) {
+  const std::vector<char> is_outer = outer_vertices(surface);
+  std::vector<char> is_used(surface.vertex_count(), 0);
+  for (const int v : surface.triangles.reshaped()) is_used[v] = 1;
+  Candidates all;
+  for (int v = 0; v < surface.vertex_count(); ++v)
+    if (is_used[v]) (is_outer[v] ? all.on_boundary : all.inside).push_back(v);
+  return all;
+}
+
+Candidates spread_candidates(const Surface& surface, const Candidates& first, int count) {
+  const Candidates all = all_places(surface);
+  return {farthest_first(surface.V, all.inside, first.inside, count),
+          farthest_first(surface.V, all.on_boundary, first.on_boundary, count)};
+}
+
+ConeSearch::ConeSearch(ScaleField& field, const Surface& surface, const Neighbors& neighbors,
+                       Objective objective)
+    : field_(field), neighbors_(neighbors), objective_(objective), is_outer_(outer_vertices(surface)) {}
+
+bool ConeSearch::is_possible(const MarkedTarget& choice) const {
+  const std::vector<int>& cones = choice.cones;
+  for (std::size_t k = 0; k < cones.size(); ++k)
+    if (std::count(cones.begin(), cones.end(), cones[k]) > 1) return false;
+  if (!are_opposite(choice.target.marks)) return true;
+  const auto begin = neighbors_.neighbor.begin();
+  return std::find(begin + neighbors_.start[cones[0]], begin + neighbors_.start[cones[0] + 1], cones[1]) ==
+         begin + neighbors_.start[cones[0] + 1];
+}
+
+bool ConeSearch::try_vertex(MarkedTarget& choice, int mark, int vertex, Score& best) {
+  const int before = choice.cones[mark];
+  choice.cones[mark] = vertex;
+  if (is_possible(choice))
+    if (const Score now = score(choice); now.is_clearly_below(best)) {
+      best = now;
+      return true;
+    }
+  choice.cones[mark] = before;
+  return false;
+}
+
+bool ConeSearch::try_candidates(MarkedTarget& choice, int mark, const std::vector<int>& candidates,
+                                Score& best) {
+  bool is_better = false;
+  for (const int v : candidates)
+    if (!contains(choice.cones, v)) is_better |= try_vertex(choice, mark, v, best);
+  return is_better;
+}
+
+bool ConeSearch::try_exchanges(MarkedTarget& choice, const Freedom& freedom, Score& best) {
+  bool is_better = false;
+  const int count = static_cast<int>(choice.cones.size());
+  for (int k = 0; k < count; ++k)
+    for (int l = k + 1; l < count; ++l) {
+      if (!may_exchange(choice, k, l, freedom)) continue;
+      std::swap(choice.cones[k], choice.cones[l]);
+      if (const Score now = score(choice); now.is_clearly_below(best)) {
+        best = now;
+        is_better = true;
+      } else {
+        std::swap(choice.cones[k], choice.cones[l]);
+      }
+    }
+  return is_better;
+}
+
+Score ConeSearch::descend(MarkedTarget& choice, const Candidates& candidates, const Freedom& freedom) {
+  Score best = score(choice);
+  for (bool goes_on = true; goes_on;) {
+    goes_on = try_exchanges(choice, freedom, best);
+    for (int k = 0; k < static_cast<int>(choice.cones.size()); ++k)
+      if (!is_kept(freedom, choice.cones[k]))
+        goes_on |= try_candidates(choice, k, candidates.of(choice.target, k), best);
+  }
+  return best;
+}
+
+std::vector<int> ConeSearch::rings_around(int vertex) const {
+  constexpr int farthest = 8, of_each = 8;
+  std::vector<int> ring = {vertex}, seen = {vertex}, result;
+  for (int distance = 1; distance <= farthest && !ring.empty(); ++distance) {
+    std::vector<int> next;
+    for (const int v : ring)
+      for (int k = neighbors_.start[v]; k < neighbors_.start[v + 1]; ++k)
+        next.push_back(neighbors_.neighbor[k]);
+    std::sort(next.begin(), next.end());
+    next.erase(std::unique(next.begin(), next.end()), next.end());
+    std::erase_if(next, [&](int v) { return std::binary_search(seen.begin(), seen.end(), v); });
+    ring = next;
+    seen.insert(seen.end(), ring.begin(), ring.end());
+    std::sort(seen.begin(), seen.end());
+    if ((distance & (distance - 1)) != 0) continue;
+    std::erase_if(next, [&](int v) { return is_outer_[v] != is_outer_[vertex]; });
+    for (const int v : thinned(next, of_each)) result.push_back(v);
+  }
+  return result;
+}
+
+Score ConeSearch::polish(MarkedTarget& choice, const Freedom& freedom) {
+  constexpr int most_sweeps = 20;
+  Score best = score(choice);
+  bool goes_on = true;
+  for (int sweep = 0; goes_on && sweep < most_sweeps; ++sweep) {
+    goes_on = try_exchanges(choice, freedom, best);
+    for (int k = 0; k < static_cast<int>(choice.cones.size()); ++k)
+      if (!is_kept(freedom, choice.cones[k]))
+        goes_on |= try_candidates(choice, k, rings_around(choice.cones[k]), best);
+  }
+  return best;
+}
+
+}  // namespace orbitutte

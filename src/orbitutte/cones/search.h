@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// The search for the vertices at which a target's marks distort least, by the closed form of the scale.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "orbitutte/cones/scale_field.h"
+
+namespace orbitutte {
+
+/// What makes a choice better than another.
+enum class Objective {
+  /// The standard deviation of the logarithm of the scale.
+  sigma,
+  /// The mean of the symmetric Dirichlet energy: extreme shrinking counts most.
+  symmetric_dirichlet,
+  /// The ratio of the largest scale to the smallest.
+  range
+};
+
+/// Its names.
+template <>
+struct NameTable<Objective> {
+  static constexpr NamedValue<Objective> rows[] = {{Objective::sigma, "sigma"},
+                                                   {Objective::symmetric_dirichlet, "symmetric-dirichlet"},
+                                                   {Objective::range, "range"}};
+};
+
+/// The lower, the better.
+struct Score {
+  /// Do doubles not resolve the smallest triangles? What they resolve comes first.
+  bool is_lost = false;
+  double value = 0;
+
+  bool operator<(const Score& other) const {
+    return is_lost != other.is_lost ? other.is_lost : value < other.value;
+  }
+
+  /// By more than one part in a thousand?
+  bool is_clearly_below(const Score& other) const { return Score{is_lost, value / 0.999} < other; }
+};
+
+Score score_of(const ScaleSummary& summary, Objective objective);
+
+/// Vertices of a surface that may be marked, by where they lie.
+struct Candidates {
+  std::vector<int> inside, on_boundary;
+
+  const std::vector<int>& of(const Target& target, int mark) const {
+    return mark < target.inner_marks ? inside : on_boundary;
+  }
+};
+
+/// The vertices that faces use.
+Candidates all_places(const Surface& surface);
+
+/// Of each kind about `count`, the given ones first: each next one is the farthest in space from those before
+/// (T. F. Gonzalez, 1985).
+Candidates spread_candidates(const Surface& surface, const Candidates& first, int count);
+
+/// What the search may change.
+struct Freedom {
+  /// Vertices that stay marked.
+  std::vector<int> kept;
+
+  /// May a kept vertex get the order of another mark?
+  bool orders_move = false;
+};
+
+/// Coordinate descent over the vertices of the marks.
+class ConeSearch {
+ public:
+  /// Refers to the field, the surface and its neighbours.
+  ConeSearch(ScaleField& field, const Surface& surface, const Neighbors& neighbors, Objective objective);
+
+  Score score(const MarkedTarget& choice) { return score_of(field_.summary(choice), objective_); }
+
+  /// Replaces one vertex at a time by the best of the candidates, and exchanges the vertices of two marks, as
+  /// long as that helps.
+  Score descend(MarkedTarget& choice, const Candidates& candidates, const Freedom& freedom);
+
+  /// Moves one vertex at a time by one, two, four or eight rings of neighbours, as long as that helps.
+  Score polish(MarkedTarget& choice, const Freedom& freedom);
+
+  /// May these vertices carry the marks? All differ, and no edge joins two that come to lie at opposite
+  /// points.
+  bool is_possible(const MarkedTarget& choice) const;
+
+ private:
+  /// Takes the vertex for the mark if the score becomes lower.
+  bool try_vertex(MarkedTarget& choice, int mark, int vertex, Score& best);
+  bool try_exchanges(MarkedTarget& choice, const Freedom& freedom, Score& best);
+  bool try_candidates(MarkedTarget& choice, int mark, const std::vector<int>& candidates, Score& best);
+
+  /// The vertices at one, two, four and eight rings from one, up to eight of each, that may carry its mark.
+  std::vector<int> rings_around(int vertex) const;
+
+  ScaleField& field_;
+  const Neighbors& neighbors_;
+  Objective objective_;
+  std::vector<char> is_outer_;
+};
+
+}  // namespace orbitutte

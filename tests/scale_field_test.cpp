@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/cones/scale_field.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "orbitutte/embed.h"
+#include "orbitutte/orbifold/signature.h"
+#include "orbitutte/samples/sample.h"
+#include "sample_embeddings.h"
+
+namespace orbitutte {
+namespace {
+
+// A surface, its map to 222 or *222, and the scale of all others.
+struct Known {
+  explicit Known(const Mesh& mesh)
+      : surface(make_surface(mesh)),
+        solver(mesh, {}),
+        base(surface.topology == Topology::disk ? "*222" : "222"),
+        map(solver.embed(parse_orbifold(base), choose_cones(surface, parse_orbifold(base)))),
+        faces(measure_triangles(surface, map.embedding)),
+        order(order_in_space(surface)),
+        chart(map.embedding),
+        neighbors(vertex_neighbors(surface.connectivity.edges, surface.vertex_count())),
+        stars(surface) {}
+
+  KnownMap known() const { return {surface, map.embedding, faces, order}; }
+  ScaleField field(int count) const { return {chart, stars, scale_samples(known(), count, {})}; }
+
+  Surface surface;
+  EmbeddingSolver solver;
+  std::string base;
+  EmbedResult map;
+  std::vector<FaceDistortion> faces;
+  std::vector<int> order;
+  OrbifoldChart chart;
+  Neighbors neighbors;
+  VertexStars stars;
+};
+
+const Known& figure() {
+  static const Known known(sample_mesh({SampleShape::figure, 20000}));
+  return known;
+}
+
+const Known& mask() {
+  static const Known known(sample_mesh({SampleShape::mask, 20000}));
+  return known;
+}
+
+constexpr int all = 1 << 30;
+
+// The predicted u less the solved one: the root of the mean square over the area.
+double error_of(const Known& known, const MarkedTarget& choice, const Embedding& solved) {
+  const std::vector<FaceDistortion> faces = measure_triangles(known.surface, solved);
+  ScaleField field = known.field(all);
+  const std::vector<double> u = field.log_scale(choice);
+  double squares = 0, weight = 0;
+  std::size_t k = 0;
+  for (const int f : known.order) {
+    if (!(known.faces[f].area > 0)) continue;
+    const double difference = u[k++] - 0.5 * std::log(faces[f].area);
+    if (!(faces[f].area > 0)) continue;
+    squares += faces[f].share * difference * difference;
+    weight += faces[f].share;
+  }
+  return std::sqrt(squares / weight);
+}
+
+// Other cones than those of the map that the scale comes from.
+std::vector<int> other_cones(const Known& known, const Target& target) {
+  std::vector<int> cones = choose_cones(known.surface, target);
+  if (target.inner_marks != 1 && cones.size() > 1) std::rotate(cones.begin(), cones.begin() + 1, cones.end());
+  if (target.topology == Topology::sphere)
+    cones[0] = known.neighbors.neighbor[known.neighbors.start[cones[0]]];
+  return cones;
+}
+
+// How far off the prediction may be.
+struct Bounds {
+  double rms = 0, sigma = 0;
+};
+
+void expect_prediction(const Known& known, const std::string& signature, const Bounds& bounds) {
+  const Target target = parse_orbifold(signature);
+  const MarkedTarget choice = {target, other_cones(known, target)};
+  EmbeddingSolver solver(std::make_shared<const Surface>(known.surface));
+  const EmbedResult solved = solver.embed(target, choice.cones);
+  ASSERT_TRUE(solved.certificate.bijective) << signature;
+  EXPECT_LT(error_of(known, choice, solved.embedding), bounds.rms) << signature;
+  EXPECT_NEAR(known.field(all).summary(choice).sigma, solved.distortion.sigma, bounds.sigma) << signature;
+}
+
+constexpr Bounds fine = {0.015, 0.01};
+
+TEST(ScaleField, KnowsTheScaleOfMapsOfASphereWithThreeCones) {
+  for (const std::string signature : {"222", "432", "532", "332", "223"})
+    expect_prediction(figure(), signature, fine);
+}
+
+TEST(ScaleField, KnowsTheScaleOfMapsOfADisk) {
+  for (const std::string signature : {"*222", "*432", "*223", "3*2", "2*2", "2*3", "2*", "3*"})
+    expect_prediction(mask(), signature, fine);
+}
+
+// Where they come to rest along their axis is an estimate.
+TEST(ScaleField, KnowsWhereMapsToTwoConesComeToRest) {
+  for (const std::string signature : {"22", "33"}) expect_prediction(figure(), signature, {0.1, 0.05});
+}
+
+TEST(ScaleField, KnowsTheScaleOfMapsToThePlane) {
+  expect_prediction(figure(), "442", fine);
+  expect_prediction(mask(), "*333", fine);
+}
+
+TEST(ScaleField, OfTheMapItselfIsThatMap) {
+  ScaleField field = figure().field(all);
+  const MarkedTarget same = {parse_orbifold("222"), choose_cones(figure().surface, parse_orbifold("222"))};
+  EXPECT_NEAR(field.summary(same).sigma, figure().map.distortion.sigma, 1e-3);
+  EXPECT_LT(error_of(figure(), same, figure().map.embedding), 1e-3);
+}
+
+// The mean of exp(2 u) is the area of the target's share, which is one.
+TEST(ScaleField, AreasAddUpToOne) {
+  for (const Known* known : {&figure(), &mask()})
+    for (const std::string signature : {"532", "432", "223", "22", "33"}) {
+      const Target target = parse_orbifold((known == &mask() ? "*" : "") + signature);
+      ScaleField field = known->field(all);
+      const std::vector<double> u = field.log_scale({target, other_cones(*known, target)});
+      double area = 0;
+      for (std::size_t s = 0; s < u.size(); ++s) area += field.samples()[s].weight * std::exp(2 * u[s]);
+      EXPECT_NEAR(area, 1, 0.02) << target.signature;
+    }
+}
+
+TEST(ScaleField, FewSamplesTellWhatAllTell) {
+  const Target target = parse_orbifold("432");
+  const MarkedTarget choice = {target, other_cones(figure(), target)};
+  EXPECT_NEAR(figure().field(1500).summary(choice).sigma, figure().field(all).summary(choice).sigma, 0.02);
+}
+
+TEST(ScaleField, IsThatOfOrbifoldsOfSphereAndDisk) {
+  EXPECT_TRUE(has_closed_form(parse_orbifold("532")));
+  EXPECT_TRUE(has_closed_form(parse_orbifold("333")));
+  EXPECT_TRUE(has_closed_form(parse_orbifold("5*")));
+  EXPECT_FALSE(has_closed_form(parse_orbifold("2222")));
+  EXPECT_FALSE(has_closed_form(parse_orbifold("*2222")));
+  EXPECT_FALSE(has_closed_form(parse_orbifold("3x")));
+  ScaleField field = figure().field(100);
+  EXPECT_THROW(field.log_scale({parse_orbifold("2222"), {0, 1, 2, 3}}), ArgumentError);
+}
+
+}  // namespace
+}  // namespace orbitutte
