@@ -63,6 +63,17 @@ class ProgressLine {
   bool shown_;
 };
 
+// The orbifold, whose marks --cones names.
+Target orbifold_from(const EmbedArguments& arguments) {
+  Target target = parse_orbifold(arguments.orbifold);
+  if (!target.marks.empty() && arguments.cones.empty())
+    throw ArgumentError("--cones is missing; give the vertices to be marked, as in 12,40,7, or 'auto'");
+  if (target.marks.empty() && !arguments.cones.empty() && arguments.cones != "auto")
+    throw ArgumentError(fmt::format(
+        "leave out --cones: {} marks no vertex; --points puts vertices at given points", target.signature));
+  return target;
+}
+
 // The target that is asked for: an orbifold, or a polygon with its corners.
 Target target_from(const EmbedArguments& arguments) {
   const bool polygon = arguments.orbifold == polygon_signature;
@@ -71,9 +82,7 @@ Target target_from(const EmbedArguments& arguments) {
         fmt::format("--polygon gives the corners of a fixed boundary, but {} has no such boundary; give "
                     "--orbifold polygon",
                     arguments.orbifold));
-  if (!polygon && arguments.cones.empty())
-    throw ArgumentError("--cones is missing; give the vertices to be marked, as in 12,40,7, or 'auto'");
-  if (!polygon) return parse_orbifold(arguments.orbifold);
+  if (!polygon) return orbifold_from(arguments);
   if (arguments.polygon.empty())
     throw ArgumentError(
         "--polygon is missing; give the file with the corners of the polygon, a line 'vertex x y z' each");
@@ -88,6 +97,9 @@ EmbedOptions options_from(const EmbedArguments& arguments) {
   options.weights_file = arguments.weights_file;
   options.cut.seed = arguments.cut_seed;
   options.spread = parse_choice<Spread>(arguments.spread, "--spread");
+  options.quotient.is_wanted = arguments.quotient;
+  if (!arguments.centre.empty()) options.quotient.centre = parse_choice<Centre>(arguments.centre, "--centre");
+  if (!arguments.points.empty()) options.quotient.points = read_corners(arguments.points);
   options.tolerance = arguments.tolerance;
   options.max_iterations = arguments.max_iterations;
   options.threads = arguments.threads;
@@ -131,9 +143,13 @@ void summarize(const EmbedArguments& arguments, const EmbedResult& result) {
   const Distortion& distortion = result.distortion;
   std::vector<int> cones;
   for (const ConeCopies& cone : result.embedding.cones) cones.push_back(cone.vertex);
-  tell("{}: {} vertices, {} faces, a {}, onto {} ({}), cones {}\n", arguments.mesh, minimum.positions.rows(),
+  tell("{}: {} vertices, {} faces, a {}, onto {} ({}){}\n", arguments.mesh, minimum.positions.rows(),
        result.embedding.faces().count(), name_of(result.topology), result.embedding.target.signature,
-       group_text(result.embedding.target), fmt::join(cones, ","));
+       group_text(result.embedding.target),
+       cones.empty() ? std::string() : fmt::format(", cones {}", fmt::join(cones, ",")));
+  if (const std::optional<QuotientRecord>& quotient = result.quotient)
+    tell("the quotient of a map onto {}, cones {}; centre: {}\n", quotient->signature,
+         fmt::join(quotient->cones, ","), name_of(quotient->centre));
   tell("energy {:.12g} after {} iterations, gradient {:.1e}: {}\n", minimum.energy, minimum.iterations,
        minimum.gradient_norm, name_of(minimum.termination));
   tell("area: within a factor of 4 of the mean scale on {} of the surface, shrunk by more than 64 on {}\n",
@@ -206,9 +222,9 @@ int embed_command(const EmbedArguments& arguments) {
   const Stopwatch total;
   EmbedOptions options = options_from(arguments);
   const Target target = target_from(arguments);
-  const bool automatic = arguments.cones == "auto";
+  const bool automatic = arguments.cones == "auto" && !target.marks.empty();
   std::vector<int> cones = corner_vertices(target);
-  if (cones.empty() && !automatic) cones = parse_cones(arguments.cones);
+  if (cones.empty() && !automatic && !target.marks.empty()) cones = parse_cones(arguments.cones);
 
   RunRecord run;
   const auto [surface, reader_warnings] = read_input(arguments.mesh, run);

@@ -247,7 +247,7 @@ TEST(Signature, OrdersOfZeroAreRefused) {
 }
 
 TEST(Signature, OrdersOfOneAreRefused) {
-  expect_refused({"1", "11", "12", "*1", "*11", "1,1", "1,1,1", "*1,1", "1,2,2", "221", "*221", "1,1*", "5*1",
+  expect_refused({"11", "12", "*1", "*11", "1,1", "1,1,1", "*1,1", "1,2,2", "221", "*221", "1,1*", "5*1",
                   "2*1,2", "1,1x", "1,2x"},
                  order_one);
 }
@@ -256,8 +256,14 @@ TEST(Signature, TheEmptyTextIsRefused) {
   EXPECT_EQ(refusal_of_symbol(""), "the signature is empty; see 'orbitutte types'");
 }
 
-TEST(Signature, AStarAloneMarksNothing) {
-  expect_refused({"*"}, " marks no vertex; every family embedded has one to four (see 'orbitutte types')");
+TEST(Signature, NothingIsMarkedOnTheWholeSphereAndTheHemisphere) {
+  for (const char* text : {"1", "sphere", "*", "1*", "hemisphere"}) {
+    const Target target = parse_orbifold(text);
+    EXPECT_TRUE(target.marks.empty()) << text;
+    const bool is_disk = target.topology == Topology::disk;
+    EXPECT_EQ(target.signature, is_disk ? "*" : "1") << text;
+    EXPECT_EQ(target.group_order, is_disk ? 2 : 1) << text;
+  }
 }
 
 TEST(Signature, OtherCharactersAreNoSymbol) {

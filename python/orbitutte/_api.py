@@ -30,9 +30,11 @@ def embed(V: npt.ArrayLike, F: Any, signature: str, cones: Cones = "auto", *, pr
     F : (m, 3) array_like of int, (m, k), or list of sequences
         Faces, counterclockwise seen from outside, 0-based; sequences of different lengths are polygons.
     signature : str
-        Conway's symbol, such as "432" (see `families`), or "polygon" for a fixed boundary.
+        Conway's symbol, such as "432" (see `families`), "1" or "sphere" for the whole sphere, "*" or "hemisphere" for a
+        disk, or "polygon" for a fixed boundary.
     cones : sequence of int, or "auto"
-        The vertices to be marked, in the order of the symbol. "auto" takes well separated extremities.
+        The vertices to be marked, in the order of the symbol; none for "1" and "*". "auto" takes well separated
+        extremities.
     progress : callable(stage, iteration, energy, gradient_norm), optional
         Called in every stage and iteration. Returning False cancels; what it raises passes through.
     polygon : path, (k, 4) array_like of vertex, x, y, z, or (k, 3) array_like for the vertices in `cones`
@@ -56,6 +58,13 @@ def embed(V: npt.ArrayLike, F: Any, signature: str, cones: Cones = "auto", *, pr
         After so many the result is returned as it is, not converged; 2000.
     threads : int
         0, as many as the machine has. Results do not depend on it.
+    centre : str
+        Of "1" and "*": what comes to lie at the centre of the sphere, "area" of the surface (the default) or its "vertices"; "sigma"
+        for the least distortion of areas; or "none".
+    points : mapping of int to (x, y, z)
+        Of "1" and "*": up to three vertices, and the points of the unit sphere at which they come to lie.
+    quotient : bool
+        Take the quotient of the map by its group, a map to the whole sphere or a hemisphere; for NN, *NN, N*, 222 and *222.
 
     Returns
     -------

@@ -118,7 +118,7 @@ Vector3Of<Precise> OrbifoldChart::precise_position(int v) const {
 
 ChartPoint OrbifoldChart::of_vertex(int v) const {
   if (needs_digits(v)) return chart_point(precise_position(v));
-  return chart_point(to_canonical_ * embedding_.positions.row(v).transpose());
+  return chart_point(Vector3(to_canonical_ * embedding_.positions.row(v).transpose()));
 }
 
 ChartPoint OrbifoldChart::of_triangle(int f) const {
@@ -128,7 +128,7 @@ ChartPoint OrbifoldChart::of_triangle(int f) const {
     return chart_point(sum);
   }
   const Points& X = embedding_.positions;
-  return chart_point(to_canonical_ * (X.row(v[0]) + X.row(v[1]) + X.row(v[2])).transpose());
+  return chart_point(Vector3(to_canonical_ * (X.row(v[0]) + X.row(v[1]) + X.row(v[2])).transpose()));
 }
 
 }  // namespace orbitutte
