@@ -653,7 +653,7 @@ TEST(Cut, OneMarkOrFiveOnASphereAreRefused) {
 
 TEST(Cut, ASphereWithoutMarksStaysClosed) {
   const Mesh mesh = test::octahedron();
-  const CutMesh cut = cut_to_disk(make_surface(mesh), {}, 0);
+  const CutMesh cut = cut_to_disk(test::unjudged(mesh), {}, 0);
   EXPECT_EQ(cut.F, mesh.F);
   EXPECT_EQ(cut.vertex_count(), test::vertex_count(mesh));
   EXPECT_TRUE(cut.boundary.empty());
@@ -661,11 +661,25 @@ TEST(Cut, ASphereWithoutMarksStaysClosed) {
 }
 
 TEST(Cut, TheBoundaryOfADiskWithoutMarksBeginsAtItsFirstVertex) {
-  const CutMesh cut = cut_to_disk(make_surface(test::round_disk(2)), {}, 0);
+  const CutMesh cut = cut_to_disk(test::unjudged(test::round_disk(2)), {}, 0);
   EXPECT_EQ(cut.boundary.front(), *std::min_element(cut.boundary.begin(), cut.boundary.end()));
   EXPECT_EQ(cut.marks, std::vector<int>{cut.boundary.front()});
   EXPECT_EQ(cut.arrangement, std::vector<int>{0});
   EXPECT_EQ(cut.vertex_count(), test::vertex_count(test::round_disk(2)));
+}
+
+TEST(Cut, TheBoundaryOfADiskWithoutMarksBeginsAtNoTipOfAnEar) {
+  Mesh mesh = test::round_disk(1);
+  const int n = test::vertex_count(mesh);  // a triangle beyond the first edge of the boundary, its tip first
+  mesh.V.conservativeResize(n + 1, 3);
+  mesh.V.row(n) = 1.5 * (mesh.V.row(1) + mesh.V.row(2));
+  mesh.F.conservativeResize(mesh.F.rows() + 1, 3);
+  mesh.F.row(mesh.F.rows() - 1) << 2, 1, n;
+  for (int& v : mesh.F.reshaped()) v = n - v;
+  mesh.V = mesh.V.colwise().reverse().eval();
+  const CutMesh cut = cut_to_disk(test::unjudged(mesh), {}, 0);
+  EXPECT_EQ(std::count(cut.boundary.begin(), cut.boundary.end(), 0), 1);
+  EXPECT_NE(cut.boundary.front(), 0);
 }
 
 TEST(Cut, AProjectivePlaneWithoutMarksIsRefused) {

@@ -59,10 +59,18 @@ void take(const GluingProblem& problem, const SpreadMap& map, EmbedResult& resul
   result.certificate = certify(problem.surface, result.embedding);
 }
 
-// Where the minimum, rounded to doubles, is no bijection: the first remedy that makes it one is taken.
-void mend(const GluingProblem& problem, const Placement& placed, EmbedResult& result) {
-  for (const auto& remedy : {with_faces_repaired, with_limbs_resolved, with_more_digits}) {
-    const std::optional<SpreadMap> map = remedy(problem, placed);
+using Remedy = std::function<std::optional<SpreadMap>(const GluingProblem&, const Placement&)>;
+
+// A map that was placed, and what is tried, in this order, if it is no bijection in doubles.
+struct PlacedMap {
+  const Placement& placed;
+  std::vector<Remedy> remedies = {with_faces_repaired, with_limbs_resolved, with_more_digits};
+};
+
+// The first remedy that makes it a bijection is taken.
+void mend(const GluingProblem& problem, const PlacedMap& placed, EmbedResult& result) {
+  for (const Remedy& remedy : placed.remedies) {
+    const std::optional<SpreadMap> map = remedy(problem, placed.placed);
     if (!map) continue;
     EmbedResult mended = result;
     take(problem, *map, mended);
@@ -110,9 +118,10 @@ std::vector<std::string> warnings_of(const EmbedRequest& request, const GluingPr
 }
 
 // From the map that was placed to the result: certified, mended where it is no bijection, and measured.
-void finish(const EmbedRequest& request, const GluingProblem& problem, const Placement& placed, Stages& stage,
+void finish(const EmbedRequest& request, const GluingProblem& problem, const PlacedMap& map, Stages& stage,
             EmbedResult& result) {
   const Surface& surface = request.prepared.surface;
+  const Placement& placed = map.placed;
   const auto needs_mending = [&] {
     return !result.certificate.bijective && result.minimum.termination == Termination::converged;
   };
@@ -125,7 +134,7 @@ void finish(const EmbedRequest& request, const GluingProblem& problem, const Pla
     if (is_hopeless(collapsing, ears_of(problem, placed)))
       result.collapsing_faces = std::move(collapsing);
     else
-      stage("mend", [&] { mend(problem, placed, result); });
+      stage("mend", [&] { mend(problem, map, result); });
     stage("measure", [&] { judge(request, result); });
   }
 
@@ -151,7 +160,7 @@ EmbedResult embed_once(const EmbedRequest& request, EmbeddingCache& cache) {
   lbfgs.max_iterations = options.max_iterations;
   const Placement placed = place(problem, lbfgs, stage);  // (2)
   result.minimum = placed.minimum;
-  finish(request, problem, placed, stage, result);
+  finish(request, problem, {placed}, stage, result);
   return result;
 }
 
@@ -222,12 +231,12 @@ EdgeWeights weights_of_quotient(const EmbedRequest& request, const EmbedResult& 
   return find_weights({request.prepared, request.target, request.cones, options}, cache.weights);
 }
 
-// Where the quotient lies: its images of the input vertices, centred.
-Placement placed_quotient(const GluingProblem& problem, const EmbedResult& base,
-                          const QuotientOptions& options) {
+// Where the quotient lies; vertices that were put at given points are held there.
+Placement placed_quotient(const GluingProblem& problem, const EmbedResult& base, const QuotientMap& quotient,
+                          const std::vector<PolygonCorner>& points) {
   Placement placed = {base.minimum, problem.tile, problem.boundary, {}};
-  placed.minimum.positions = quotient_positions(problem.surface, base.embedding, problem.target, options);
-  for (const PolygonCorner& held : options.points) {
+  placed.minimum.positions = quotient.positions();
+  for (const PolygonCorner& held : points) {
     placed.boundary.basis_of[held.vertex] = held_in_place;
     placed.boundary.held.row(held.vertex) = held.position.transpose();
   }
@@ -240,41 +249,64 @@ Placement placed_quotient(const GluingProblem& problem, const EmbedResult& base,
 void centre_again(const Surface& surface, EmbedResult& result) {
   const bool is_mended = !result.moved_vertices.empty() || !result.embedding.offsets.empty() ||
                          !result.embedding.placement.is_identity();
-  if (!result.certificate.bijective || !is_mended) return;
+  if (!result.certificate.bijective || !is_mended || !result.quotient->points.empty()) return;
   Embedding centred = result.embedding;
-  centre(surface, *result.quotient, centred);
+  centre_anew(surface, result.quotient->centre, centred);
   Certificate certificate = certify(surface, centred);
   if (!certificate.bijective) return;
   result.embedding = std::move(centred);
   result.certificate = std::move(certificate);
+  result.distortion = measure_distortion(surface, result.embedding);
 }
 
-// The quotient of a map by its group.
-EmbedResult embed_quotient(const EmbedRequest& request, EmbeddingCache& cache) {
-  const Surface& surface = request.prepared.surface;
-  const BaseMap from = base_map(request);
-  const Target onto = quotient_target(from.target);
-  require_points(surface, onto, request.options.quotient.points);
-  const EmbedResult base =
-      embed_with_some_weights({request.prepared, from.target, from.cones, request.options}, cache);
-  const std::vector<int> no_cones;
-  const EmbedRequest whole = {request.prepared, onto, no_cones, request.options};
+// The options, with the centre that is meant if none is asked for.
+QuotientOptions complete_options(const EmbedRequest& request) {
   QuotientOptions options = request.options.quotient;
   if (!options.centre) options.centre = request.target.marks.empty() ? Centre::area : Centre::none;
+  return options;
+}
 
+// What is known of the quotient before it is computed.
+EmbedResult begin_quotient(const BaseMap& from, const EmbedResult& base, const QuotientOptions& options) {
   EmbedResult result;
   result.timings = base.timings;
-  Stages stage(request.options.progress, result.timings);
   result.threads = base.threads;
   result.backend = base.backend;
   result.requested_weights = base.requested_weights;
   result.quotient = {from.target.signature, from.cones, *options.centre, options.points};
+  return result;
+}
+
+// Limbs have digits of their own; only if these do not do are they settled at the minimum of the energy.
+std::vector<Remedy> remedies_of(const QuotientMap& quotient) {
+  const auto with_its_digits = [&](const GluingProblem& problem, const Placement& placed) {
+    return with_digits_of([&](int v) { return quotient.precise_position(v); }, problem, placed);
+  };
+  return {with_faces_repaired, with_its_digits, with_limbs_resolved, with_more_digits};
+}
+
+// The quotient of a map by its group. It marks nothing, but the vertices that the other map marks keep what
+// it spreads out from becoming an arc.
+EmbedResult embed_quotient(const EmbedRequest& request, EmbeddingCache& cache) {
+  const Surface& surface = request.prepared.surface;
+  const QuotientOptions options = complete_options(request);
+  const BaseMap from = base_map(request);
+  const Target onto = quotient_target(from.target);
+  require_points(surface, onto, options.points);
+  const EmbedResult base =
+      embed_with_some_weights({request.prepared, from.target, from.cones, request.options}, cache);
+  const EmbedRequest whole = {request.prepared, onto, from.cones, request.options};
+
+  EmbedResult result = begin_quotient(from, base, options);
+  Stages stage(request.options.progress, result.timings);
   result.weights = stage("weights", [&] { return weights_of_quotient(whole, base, cache); });
   const CutMesh cut = stage("cut", [&] { return cut_to_disk(surface, {}, 0, request.options.cut); });
   const GluingProblem problem = gluing_problem(whole, result.weights, cut, cache);
-  const Placement placed = stage("quotient", [&] { return placed_quotient(problem, base, options); });
+  const QuotientMap quotient =
+      stage("quotient", [&] { return QuotientMap(surface, base.embedding, onto, options); });
+  const Placement placed = placed_quotient(problem, base, quotient, options.points);
   result.minimum = placed.minimum;
-  finish(whole, problem, placed, stage, result);
+  finish(whole, problem, {placed, remedies_of(quotient)}, stage, result);
   stage("centre", [&] {
     centre_again(surface, result);
     result.minimum.positions = result.embedding.positions.topRows(surface.vertex_count());

@@ -275,9 +275,20 @@ void renumber_sector(int begin, int vertex, const std::vector<int>& opposite, Tr
   for (int h = begin; h >= 0; h = opposite[previous_halfedge(h)]) F.data()[h] = vertex;
 }
 
-// A vertex where the boundary of an unmarked disk begins: the first that lies on it.
-int first_on_boundary(const std::vector<char>& on_boundary) {
-  return static_cast<int>(std::find(on_boundary.begin(), on_boundary.end(), 1) - on_boundary.begin());
+// The vertex where the boundary of an unmarked disk begins: the first that lies on it and in more than one
+// face, so that no tip of an ear is an end of the mirror.
+int start_of_boundary(const Surface& surface, const std::vector<char>& on_boundary) {
+  std::vector<int> faces_at(on_boundary.size(), 0);
+  const FaceView faces = surface.faces();
+  for (int f = 0; f < faces.count(); ++f)
+    for (const int v : faces[f]) ++faces_at[v];
+  int first = -1;
+  for (int v = 0; v < static_cast<int>(on_boundary.size()); ++v) {
+    if (!on_boundary[v]) continue;
+    if (faces_at[v] > 1) return v;
+    if (first < 0) first = v;
+  }
+  return first;
 }
 
 // Follows the boundary of the opened mesh from a vertex. The first time it passes a vertex, the faces there
@@ -366,7 +377,8 @@ CutMesh cut_to_disk(const Surface& surface, const std::vector<int>& marks, int i
   if (closed) check_number_of_marks(marks, one_sided);
   if (!closed) check_marks_of_disk(marks, inner_marks, on_boundary);
   if (closed && marks.empty()) return uncut(surface);
-  CutPath path = {{marks.empty() ? first_on_boundary(on_boundary) : marks[0]}, {}};  // if nothing is cut
+  CutPath path = {{marks.empty() ? start_of_boundary(surface, on_boundary) : marks[0]},
+                  {}};  // if nothing is cut
   if (closed || inner_marks > 0) {
     EdgeGraph graph = edge_length_graph(surface);
     perturb_lengths(graph, options.seed);

@@ -16,7 +16,7 @@ struct SphereImages {
   const Surface& surface;
 
   /// n: of the input vertices.
-  const std::vector<ChartPoint>& points;
+  std::vector<ChartPoint> points;
 
   /// What the map must keep: the projection onto the vectors that the target's group fixes. The identity for
   /// the whole sphere; for a hemisphere it takes away what is across its mirror.

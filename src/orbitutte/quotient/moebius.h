@@ -33,6 +33,9 @@ class Moebius {
 
   Moebius operator*(const Moebius& first) const { return Moebius(matrix_ * first.matrix_); }
 
+  /// Where a point's image lies on the unit sphere, with all of its digits.
+  Vector3Of<Precise> precise_image(const ChartPoint& point) const;
+
   /// Without digits beyond doubles.
   ChartPoint operator()(const ChartPoint& point) const;
 

@@ -189,13 +189,6 @@ Moebius wanted_map(const SphereImages& images, const QuotientOptions& options) {
   return Moebius::rotation(rotation_between(now, at[0].position)) * centred;
 }
 
-Points positions_of(const std::vector<ChartPoint>& points) {
-  Points result(static_cast<Eigen::Index>(points.size()), 3);
-  for (std::size_t v = 0; v < points.size(); ++v)
-    result.row(static_cast<Eigen::Index>(v)) = sphere_point(points[v]).transpose();
-  return result;
-}
-
 // What the group leaves as it is, in the frame of the embedding.
 Matrix3 fixed_by_group_of(const Embedding& embedding) {
   const Matrix3& frame = embedding.placement.matrix();
@@ -246,30 +239,40 @@ void require_points(const Surface& surface, const Target& onto, const std::vecto
   require_different(points);
 }
 
-Points quotient_positions(const Surface& surface, const Embedding& base, const Target& onto,
-                          const QuotientOptions& options) {
+QuotientMap::QuotientMap(const Surface& surface, const Embedding& base, const Target& onto,
+                         const QuotientOptions& options)
+    : chart_(chart_points(surface, base)) {
   require_points(surface, onto, options.points);
-  std::vector<ChartPoint> points = chart_points(surface, base);
+  const auto images = [&] {
+    std::vector<ChartPoint> points = chart_;
+    carry_by(moebius_, points);
+    return points;
+  };
   if (!is_closed_surface(onto)) {
-    carry_by(to_equator(mirror_of(base.target)), points);
-    if (height_of(points) < 0) carry_by(half_turn(), points);
+    moebius_ = to_equator(mirror_of(base.target));
+    if (height_of(images()) < 0) moebius_ = half_turn() * moebius_;
   }
-  carry_by(wanted_map({surface, points, fixed_by(onto)}, options), points);
-  if (!is_closed_surface(onto) && height_of(points) < 0)
+  moebius_ = wanted_map({surface, images(), fixed_by(onto)}, options) * moebius_;
+  if (!is_closed_surface(onto) && height_of(images()) < 0)
     throw ArgumentError(
         fmt::format("the points for the vertices {}, {} and {} run around the hemisphere clockwise, seen "
-                    "from above, where the "
-                    "boundary of the disk runs counterclockwise; exchange two of them",
+                    "from above, where the boundary of the disk runs counterclockwise; exchange two of them",
                     options.points[0].vertex, options.points[1].vertex, options.points[2].vertex));
-  return positions_of(points);
 }
 
-void centre(const Surface& surface, const QuotientRecord& record, Embedding& embedding) {
+Points QuotientMap::positions() const {
+  Points result(static_cast<Eigen::Index>(chart_.size()), 3);
+  parallel_ranges(static_cast<int>(chart_.size()), [&](int begin, int end) {
+    for (int v = begin; v < end; ++v) result.row(v) = sphere_point(moebius_(chart_[v])).transpose();
+  });
+  return result;
+}
+
+void centre_anew(const Surface& surface, Centre centre, Embedding& embedding) {
   constexpr int most_boosts = 5;
   constexpr double enough = 1e-15;
-  const bool is_barycentric = record.centre == Centre::area || record.centre == Centre::vertices;
-  if (!is_barycentric || !record.points.empty()) return;
-  const Eigen::VectorXd shares = vertex_shares(surface, record.centre);
+  if (centre != Centre::area && centre != Centre::vertices) return;
+  const Eigen::VectorXd shares = vertex_shares(surface, centre);
   const Matrix3 fixed = fixed_by_group_of(embedding);
   for (int k = 0; k < most_boosts; ++k) {
     const Vector3 velocity = step_to_centre(embedding.positions.topRows(shares.size()), shares, fixed);

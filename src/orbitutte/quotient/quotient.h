@@ -2,9 +2,10 @@
 // The quotient of a map to an orbifold by its group: a conformal map to the whole sphere, or to a hemisphere.
 #pragma once
 
-#include "orbitutte/embed_types.h"
 #include "orbitutte/mesh/surface.h"
+#include "orbitutte/options.h"
 #include "orbitutte/orbifold/embedding.h"
+#include "orbitutte/quotient/moebius.h"
 
 namespace orbitutte {
 
@@ -20,16 +21,31 @@ Target quotient_base(const Target& whole);
 /// a disk; ArgumentError for points that no map to `onto` (1 or *) has there.
 void require_points(const Surface& surface, const Target& onto, const std::vector<PolygonCorner>& points);
 
-/// n x 3: where the quotient has the input vertices, followed by the Möbius map that the options ask for. It
-/// has the surface's orientation; that onto a hemisphere lies above z = 0 and has the boundary on it, up to
-/// rounding. `onto` is 1 or *. Throws as require_points, and ArgumentError if points on the equator run the
-/// other way around it than the boundary.
-Points quotient_positions(const Surface& surface, const Embedding& base, const Target& onto,
-                          const QuotientOptions& options);
+/// The quotient of a map by its group, followed by the Möbius map that the options ask for: where it has the
+/// input vertices. It has the surface's orientation; that onto a hemisphere lies above z = 0 and has the
+/// boundary on it, up to rounding.
+class QuotientMap {
+ public:
+  /// `onto` is 1 or *. Throws as require_points, and ArgumentError if points on the equator run the other way
+  /// around it than the boundary.
+  QuotientMap(const Surface& surface, const Embedding& base, const Target& onto,
+              const QuotientOptions& options);
 
-/// Moves an embedding onto 1 or * that is almost centred, offsets included, by the Möbius map that centres it
-/// as the record says; not at all where a point is held, or where no centre of mass is asked for.
-void centre(const Surface& surface, const QuotientRecord& record, Embedding& embedding);
+  /// n x 3.
+  Points positions() const;
+
+  /// With as many digits as the map that it was made from has there.
+  Vector3Of<Precise> precise_position(int v) const { return moebius_.precise_image(chart_[v]); }
+
+ private:
+  /// The chart's points of the input vertices.
+  std::vector<ChartPoint> chart_;
+  Moebius moebius_;
+};
+
+/// Moves an embedding onto 1 or * that is almost centred, offsets included, by the Möbius map that centres
+/// the area or the vertices; not at all for other kinds of centre.
+void centre_anew(const Surface& surface, Centre centre, Embedding& embedding);
 
 /// Of an embedding onto 1 or *: how far the centre of mass, of area or vertices, is from where it has to be.
 double distance_from_centre(const Surface& surface, Centre centre, const Embedding& embedding);
