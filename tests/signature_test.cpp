@@ -72,6 +72,7 @@ double euler_characteristic(const ConwaySymbol& symbol) {
 
 /// Do the orders make one of the five closed families, or behind a star one of the five with mirrors only?
 bool spherical(std::vector<int> n) {
+  if (n.empty()) return true;  // nothing but a mirror, or nothing at all
   std::sort(n.begin(), n.end());
   if (n.size() == 2) return n[0] >= 2 && n[0] == n[1];
   if (n.size() != 3 || n[0] != 2) return false;
@@ -154,9 +155,9 @@ TEST(Signature, MarksHaveTheAnglesOfTheirOrders) {
   EXPECT_EQ((Mark{8.0, ConeKind::rotation}).order(), 0) << "more than a full turn";
 }
 
-TEST(Signature, OnlyTwoConesOrOneAloneLeaveARotationFree) {
+TEST(Signature, OnlyTwoConesOneAloneOrNoneLeaveARotationFree) {
   for (const SphericalOrbifold& expected : test::arranged_orbifolds()) {
-    const std::set<std::string> free = {"NN", "N*", "Nx"};
+    const std::set<std::string> free = {"NN", "N*", "Nx", "1", "*"};
     EXPECT_EQ(parse_orbifold(test::symbol(expected)).is_free_to_rotate, free.count(expected.family) > 0)
         << test::symbol(expected);
   }
