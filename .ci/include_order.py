@@ -9,7 +9,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SOURCE = ROOT / "src/orbitutte"
 PLAIN = "plain values"  # files at the root of src/orbitutte that every layer may know
-LAYERS = [PLAIN, "geometry", "mesh", "io", "inspect", "samples", "weights", "cut", "orbifold", "linear", "solve", "verify", "cones", "map",
+LAYERS = [PLAIN, "geometry", "mesh", "io", "inspect", "samples", "weights", "cut", "orbifold", "linear", "solve", "verify", "cones", "quotient", "map",
           "embed", "report", "export", "page", "render"]
 ROOT_FILES = {"names": PLAIN, "types": PLAIN, "errors": PLAIN, "progress": PLAIN, "parallel": PLAIN, "memory": PLAIN, "options": PLAIN, "minimum": PLAIN,
               "version": PLAIN, "embed_types": "embed", "embed": "embed", "choose": "embed", "distortion_floor": "embed", "preparation": "embed", "warnings": "embed"}

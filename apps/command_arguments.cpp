@@ -16,6 +16,15 @@ namespace {
 
 const std::string best_word = "best";
 
+// A target without marks leaves nothing to choose.
+void leave_unmarked(Wish& wish) {
+  if (!wish.cones.empty())
+    throw ArgumentError(
+        fmt::format("leave out --cones: {} marks no vertex; --points puts vertices at given points",
+                    wish.target->signature));
+  wish.word = ConesWord::none;
+}
+
 }  // namespace
 
 std::vector<int> parse_cones(const std::string& text) {
@@ -51,6 +60,7 @@ Wish parse_wish(const std::string& orbifold, const std::string& cones) {
   if (!orbifold.empty() && orbifold != best_word) wish.target = parse_orbifold(orbifold);
   wish.word = cones_word(cones);
   if (wish.word == ConesWord::none) wish.cones = parse_cones(cones);
+  if (wish.target && wish.target->marks.empty()) leave_unmarked(wish);
   return wish;
 }
 

@@ -31,12 +31,13 @@ enum ExitCode {
 struct EmbedArguments {
   std::string mesh, orbifold, cones, output, report;
   std::string objective = name_of(Objective::sigma);
+  std::string centre, points;
   std::string polygon, spread = name_of(Spread::arc_length);
   std::string weights = name_of(WeightKind::standard), weights_file;
   double clamp = 0.01, tolerance = 1e-9;
   std::uint64_t cut_seed = 0;
   int max_iterations = 2000, threads = 0;
-  bool floor = false, quiet = false, json = false;
+  bool quotient = false, floor = false, quiet = false, json = false;
 };
 int embed_command(const EmbedArguments& arguments);
 
@@ -72,7 +73,7 @@ struct TileArguments {
 int tile_command(const TileArguments& arguments);
 
 struct ExportArguments {
-  std::string embedding, report, mesh, output, chart = name_of(TextureChart::stereographic);
+  std::string embedding, report, mesh, output, chart;
 };
 int export_command(const ExportArguments& arguments);
 

@@ -88,6 +88,9 @@ EmbedOptions options_from(const EmbedArguments& arguments) {
   options.weights_file = arguments.weights_file;
   options.cut.seed = arguments.cut_seed;
   options.spread = parse_choice<Spread>(arguments.spread, "--spread");
+  options.quotient.is_wanted = arguments.quotient;
+  if (!arguments.centre.empty()) options.quotient.centre = parse_choice<Centre>(arguments.centre, "--centre");
+  if (!arguments.points.empty()) options.quotient.points = read_corners(arguments.points);
   options.tolerance = arguments.tolerance;
   options.max_iterations = arguments.max_iterations;
   options.threads = arguments.threads;
@@ -141,10 +144,14 @@ void summarize(const EmbedArguments& arguments, const BestEmbedding& embedded) {
   const Distortion& distortion = result.distortion;
   std::vector<int> cones;
   for (const ConeCopies& cone : result.embedding.cones) cones.push_back(cone.vertex);
-  tell("{}: {} vertices, {} faces, a {}, onto {} ({}), cones {}\n", arguments.mesh, minimum.positions.rows(),
+  tell("{}: {} vertices, {} faces, a {}, onto {} ({}){}\n", arguments.mesh, minimum.positions.rows(),
        result.embedding.faces().count(), name_of(result.topology), result.embedding.target.signature,
-       group_text(result.embedding.target), fmt::join(cones, ","));
+       group_text(result.embedding.target),
+       cones.empty() ? std::string() : fmt::format(", cones {}", fmt::join(cones, ",")));
   summarize_choice(embedded);
+  if (const std::optional<QuotientRecord>& quotient = result.quotient)
+    tell("the quotient of a map onto {}, cones {}; centre: {}\n", quotient->signature,
+         fmt::join(quotient->cones, ","), name_of(quotient->centre));
   tell("energy {:.12g} after {} iterations, gradient {:.1e}: {}\n", minimum.energy, minimum.iterations,
        minimum.gradient_norm, name_of(minimum.termination));
   tell("area: within a factor of 4 of the mean scale on {} of the surface, shrunk by more than 64 on {}\n",

@@ -10,8 +10,10 @@
 namespace orbitutte::cli {
 
 int export_command(const ExportArguments& arguments) {
-  const TextureChart chart = parse_choice<TextureChart>(arguments.chart, "--chart");
+  std::optional<TextureChart> asked_for;
+  if (!arguments.chart.empty()) asked_for = parse_choice<TextureChart>(arguments.chart, "--chart");
   const Embedding embedding = read_embedding(arguments.embedding, read_report(arguments.report));
+  const TextureChart chart = asked_for.value_or(suitable_chart(embedding));
   warn(warnings_of_offsets(embedding));
   const ExportedModel model = exported_model(make_surface(read_mesh(arguments.mesh)), embedding, chart);
   write_model(arguments.output, model);

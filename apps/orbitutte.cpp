@@ -149,8 +149,19 @@ void add_embed(CLI::App& app, int& code) {
   command.option(
       "--orbifold", command->orbifold,
       "Conway's symbol, such as 432, *532 or 2,2,12 ('orbitutte types' lists all); 'best', of least "
-      "distortion, which is taken if none is given; or 'polygon', a fixed boundary");
+      "distortion, which is taken if none is given; 1 or 'sphere', the whole sphere; * or 'hemisphere'; or "
+      "'polygon', a fixed boundary");
   marks_of(command);
+  command.option("--centre", command->centre,
+                 "Of the whole sphere and the hemisphere: what comes to lie at the centre, area (of the "
+                 "surface; the default) or vertices; sigma, for the least distortion of areas; or none");
+  command.input("--points", command->points, "the points",
+                "Of the whole sphere and the hemisphere: put up to three vertices at given points; a file of "
+                "lines 'vertex x y z'");
+  command.flag(
+      "--quotient", command->quotient,
+      "Write the quotient of the map by its group, a map to the whole sphere or a hemisphere; for NN, "
+      "*NN, N*, 222 and *222");
   CLI::Option* const polygon =
       command.input("--polygon", command->polygon, "the polygon",
                     "The corners of the polygon: a file of lines 'vertex x y z', counterclockwise");
@@ -260,10 +271,10 @@ void add_export(CLI::App& app, int& code) {
       .output("-o,--output", command->output, {"-o", "the model", "", {".obj", ".glb", ".ply", ".vtp"}},
               "Write the model here: .obj, .glb, .ply or .vtp")
       ->required();
-  command
-      .option("--chart", command->chart,
-              "How the sphere is laid into the texture: stereographic, equirectangular or octahedral")
-      ->capture_default_str();
+  command.option(
+      "--chart", command->chart,
+      "How the sphere is laid into the texture: stereographic, equirectangular or octahedral; if it "
+      "is not given, stereographic, but equirectangular for the whole sphere");
   command.runs(export_command, code);
 }
 

@@ -6,6 +6,7 @@ The meshes, their marked vertices, the reference results and the checker lie in 
 is no part of it: where it is missing, everything is skipped. Needs numpy.
 
   embed         every family on every mesh: verify_embedding.py and 'orbitutte verify' accept; exit 0 exactly when certified
+  whole         every sphere onto the whole sphere, every disk onto the hemisphere: as embed, with angles like those of 222
   tile          the tiling of one embedding of each family is a closed surface of Euler characteristic 2, counterclockwise
   render        a picture is a PNG of the size asked for, the same bytes twice; a plot is SVG; what makes no sense is refused
   export        OBJ, GLB and VTP read back: every corner has texture coordinates of its vertex, arrays are whole
@@ -61,6 +62,9 @@ ALL_SEEDS = {('my_man_maxp.off', '532'): 20, ('david_50k.off', '532'): 20, ('cam
 # May fail to be bijective in double precision, saying so (exit code 5).
 KNOWN_HARD = {'octocat.off'}
 QUICK_WEIGHTS = ['my_man_maxp.off', 'itokawa.off', 'camelhead.off', 'fandisk.off']
+
+# Their mean angle distortion is that of a few triangles without shape.
+NEEDLES = {'hippocampus.off', 'octocat.off', 'thingi_62415.obj'}
 
 MAX_ITERATIONS_THREE_CONES = 14
 
@@ -239,6 +243,8 @@ class Suite:
             return len(orders.split(',') if ',' in orders else orders)
 
         _, marked, interior = self.meshes[mesh]
+        if signature in ('1', '*'):
+            return []
         if signature.endswith('x'):
             return marked
         before, star, after = signature.partition('*')
@@ -276,6 +282,18 @@ class Suite:
         expect(not failures, 'verify_embedding: ' + '; '.join(failures[:3]))
         expect(found['bijective'] == (code == 0), 'verify_embedding and the report disagree')
         self.run(commands, self.orbitutte, 'verify', ply, report_path(ply), path, codes=(code,))
+
+    def test_whole(self, name, commands, folder, mesh, signature):
+        """The quotient: as `embed`, and its angles and its time are near to those of the map that it was made from."""
+        self.test_embed(name, commands, folder, mesh, signature)
+        whole = json.loads((folder / 'embedding.json').read_text())
+        base = whole['quotient_of']
+        _, _, orbifold = self.embed(commands, folder, mesh, base['signature'], base['cones'], name='orbifold')
+        angles = [report['distortion']['angle']['mean'] for report in (whole, orbifold)]
+        expect(mesh in NEEDLES or angles[0] <= angles[1] + 0.01, f'mean angle distortion {angles[0]:.4f}, that of the orbifold map {angles[1]:.4f}')
+        expect(whole['quotient'] and whole['centre'] == 'area', 'the report does not call it a centred quotient')
+        area = whole['certificate']['signed_area'] * whole['orbifold']['group_order']
+        expect(abs(area - 4 * np.pi) < 1e-9, f'an area of {area:.12g}, not 4 pi')
 
     def test_weights(self, name, commands, folder, mesh, signature):
         cones, path = self.marked(mesh, signature), self.path(mesh)
@@ -513,7 +531,11 @@ class Suite:
             if quick and not folder.name.startswith(tuple(QUICK_GOLDEN)):
                 continue
             add(f'golden/{folder.name}', self.test_golden, folder)
-        for signature in ONE_OF_EACH_FAMILY:
+        for mesh, (topology, _, _) in self.meshes.items():
+            if topology != 'projective-plane' and (not quick or mesh in QUICK_MESHES):
+                signature = {'sphere': '1', 'disk': '*'}[topology]
+                add(f'whole/{stem(mesh)}/{signature}', self.test_whole, mesh, signature)
+        for signature in ONE_OF_EACH_FAMILY + ['1', '*']:
             mesh = 'camelhead.off' if '*' in signature else 'boy.ply' if 'x' in signature else 'my_man_maxp.off'
             add(f'tile/{signature}', self.test_tile, mesh, signature)
         for mesh, signature, make in [('my_man_maxp.off', '532', dual), ('my_man_maxp.off', '44', quadrangulated),
@@ -539,6 +561,10 @@ class Suite:
                                 ('camelhead.off', '3*2'), ('camelhead.off', '5*'), ('boy.ply', '3x')]:
             for plant in (move_across_edge, mirror_map, mirror_positions, claim_another_group_order, claim_another_signature,
                           claim_another_energy, claim_another_area, exchange_seam_transform):
+                add(f'fault/{plant.__name__}/{signature}', self.test_fault, mesh, signature, plant)
+        for mesh, signature in [('my_man_maxp.off', '1'), ('camelhead.off', '*')]:
+            for plant in (move_across_edge, mirror_map, mirror_positions, claim_another_group_order, claim_another_signature,
+                          claim_another_energy, claim_another_area):
                 add(f'fault/{plant.__name__}/{signature}', self.test_fault, mesh, signature, plant)
         for plant in (cover_twice, cover_twice_and_claim_it):
             add(f'fault/{plant.__name__}/22', self.test_fault, 'my_man_maxp.off', '22', plant)

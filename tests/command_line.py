@@ -232,6 +232,61 @@ class Euclidean(CommandLine):
         self.expect(IS_WRONG, 'compare', 'figure.obj', '--flat', '442', says="has no option '--flat'")
 
 
+class WholeSphere(CommandLine):
+    def setUp(self):
+        self.expect(0, 'sample', '--shape', 'mask', '--faces', 500, '-o', 'mask.obj')
+
+    def test_every_command_takes_the_whole_sphere_and_the_hemisphere(self):
+        for symbol, name, mesh, order in (('1', 'sphere', 'figure.obj', 1), ('*', 'hemisphere', 'mask.obj', 2)):
+            with self.subTest(symbol):
+                self.expect(0, 'embed', mesh, '--orbifold', name, '-o', 'whole.ply', '--report', 'whole.json',
+                            says=['certified: bijective', 'the quotient of a map onto .*222'])
+                report = json.loads((self.folder / 'whole.json').read_text())
+                self.assertEqual(report['orbifold'], {'signature': symbol, 'group_order': order, 'space': 'spherical'})
+                self.assertEqual((report['quotient'], report['centre'], report['cones'], len(report['seams'])), (True, 'area', [], order - 1))
+                files = ['whole.ply', 'whole.json']
+                self.expect(0, 'verify', *files, mesh)
+                self.expect(0, 'tile', *files, '-o', 'tiling.ply')
+                self.expect(0, 'export', *files, mesh, '-o', 'textured.obj')
+                self.expect(0, 'report', *files, mesh, '-o', 'page.html')
+                self.expect(0, 'render', *files, mesh, '-o', 'sheet.png', '--size', '400x300')
+
+    def test_the_whole_sphere_has_no_stereographic_chart(self):
+        self.expect(0, 'embed', 'figure.obj', '--orbifold', '1', '-o', 'whole.ply', '--report', 'whole.json')
+        self.expect(IS_WRONG, 'export', 'whole.ply', 'whole.json', 'figure.obj', '-o', 'm.obj', '--chart', 'stereographic',
+                    says='at infinity; take equirectangular or octahedral')
+
+    def test_what_asks_for_another_map_is_refused(self):
+        for options, says in ((['1', '--cones', '1,2,3'], 'leave out --cones: 1 marks no vertex; --points'),
+                              (['1', '--centre', 'middle'], "--centre is 'middle'"),
+                              (['432', '--cones', 'auto', '--centre', 'area'], '432 is no map to the whole sphere'),
+                              (['432', '--cones', 'auto', '--quotient'], 'the quotient of a map to 432 is not known'),
+                              (['432'], '--cones is missing')):
+            with self.subTest(options):
+                self.expect(IS_WRONG, 'embed', 'figure.obj', '--orbifold', *options, says=says)
+        self.expect(IS_UNSUITABLE, 'embed', 'mask.obj', '--orbifold', 'sphere', says='fill the hole, or choose an orbifold for a disk')
+
+    def test_points_and_quotients(self):
+        (self.folder / 'points.txt').write_text('0 0 0 1\n100 1 0 0\n200 0 1 0\n')
+        self.expect(0, 'embed', 'figure.obj', '--orbifold', '1', '--points', 'points.txt', '-o', 'whole.ply', '--report', 'whole.json')
+        self.expect(0, 'verify', 'whole.ply', 'whole.json', 'figure.obj')
+        report = json.loads((self.folder / 'whole.json').read_text())
+        self.assertEqual([at['vertex'] for at in report['points']], [0, 100, 200])
+        (self.folder / 'points.txt').write_text('0 0 0 1\n100 0 0 1\n')
+        self.expect(IS_WRONG, 'embed', 'figure.obj', '--orbifold', '1', '--points', 'points.txt', says='they or their points are the same')
+        self.expect(0, *self.embed('figure.obj', '--quotient', '-o', 'whole.ply', '--report', 'whole.json', orbifold='22'))
+        self.expect(0, 'verify', 'whole.ply', 'whole.json', 'figure.obj')
+
+    def test_a_report_that_names_another_centre_is_refused(self):
+        self.expect(0, 'embed', 'figure.obj', '--orbifold', '1', '--centre', 'vertices', '-o', 'whole.ply', '--report', 'whole.json')
+        report = json.loads((self.folder / 'whole.json').read_text())
+        report['centre'] = 'area'
+        (self.folder / 'whole.json').write_text(json.dumps(report))
+        done = self.run_program('verify', 'whole.ply', 'whole.json', 'figure.obj')
+        self.assertEqual(done.returncode, IS_NOT_CERTIFIED)
+        self.assertIn('report_centre', done.stdout + done.stderr)
+
+
 class Messages(CommandLine):
     def mesh(self, name, vertices, faces):
         write_obj(self.folder / name, vertices, faces)

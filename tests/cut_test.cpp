@@ -647,14 +647,44 @@ TEST(Cut, MarksThatNoPathJoinsToTheBoundaryAreRefused) {
 
 TEST(Cut, OneMarkOrFiveOnASphereAreRefused) {
   const std::string on_a_sphere = " marked vertices on a sphere; mark two to four";
-  EXPECT_EQ(refusal_of_cut(test::octahedron(), {}), "0" + on_a_sphere);
   EXPECT_EQ(refusal_of_cut(test::octahedron(), {0}), "1" + on_a_sphere);
   EXPECT_EQ(refusal_of_cut(test::octahedron(), {0, 1, 2, 3, 4}), "5" + on_a_sphere);
 }
 
-TEST(Cut, ADiskWithoutMarksIsRefused) {
-  EXPECT_EQ(refusal_of_cut(test::round_disk(1), {}),
-            "no vertex is marked on the boundary of the disk; mark one or more");
+TEST(Cut, ASphereWithoutMarksStaysClosed) {
+  const Mesh mesh = test::octahedron();
+  const CutMesh cut = cut_to_disk(test::unjudged(mesh), {}, 0);
+  EXPECT_EQ(cut.F, mesh.F);
+  EXPECT_EQ(cut.vertex_count(), test::vertex_count(mesh));
+  EXPECT_TRUE(cut.boundary.empty());
+  EXPECT_TRUE(cut.marks.empty());
+}
+
+TEST(Cut, TheBoundaryOfADiskWithoutMarksBeginsAtItsFirstVertex) {
+  const CutMesh cut = cut_to_disk(test::unjudged(test::round_disk(2)), {}, 0);
+  EXPECT_EQ(cut.boundary.front(), *std::min_element(cut.boundary.begin(), cut.boundary.end()));
+  EXPECT_EQ(cut.marks, std::vector<int>{cut.boundary.front()});
+  EXPECT_EQ(cut.arrangement, std::vector<int>{0});
+  EXPECT_EQ(cut.vertex_count(), test::vertex_count(test::round_disk(2)));
+}
+
+TEST(Cut, TheBoundaryOfADiskWithoutMarksBeginsAtNoTipOfAnEar) {
+  Mesh mesh = test::round_disk(1);
+  const int n = test::vertex_count(mesh);  // a triangle beyond the first edge of the boundary, its tip first
+  mesh.V.conservativeResize(n + 1, 3);
+  mesh.V.row(n) = 1.5 * (mesh.V.row(1) + mesh.V.row(2));
+  mesh.F.conservativeResize(mesh.F.rows() + 1, 3);
+  mesh.F.row(mesh.F.rows() - 1) << 2, 1, n;
+  for (int& v : mesh.F.reshaped()) v = n - v;
+  mesh.V = mesh.V.colwise().reverse().eval();
+  const CutMesh cut = cut_to_disk(test::unjudged(mesh), {}, 0);
+  EXPECT_EQ(std::count(cut.boundary.begin(), cut.boundary.end(), 0), 1);
+  EXPECT_NE(cut.boundary.front(), 0);
+}
+
+TEST(Cut, AProjectivePlaneWithoutMarksIsRefused) {
+  EXPECT_EQ(refusal_of_cut(test::projective_plane(1), {}),
+            "0 marked vertices on a projective plane; mark one");
 }
 
 TEST(Cut, MarksOnSeparateSpheresAreRefused) {

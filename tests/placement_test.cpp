@@ -145,6 +145,7 @@ TEST_P(Placement, SeamsAreElementsOfTheTargetsGroup) {
 
 // Marks lie where the target has them, whatever the cut.
 TEST_P(Placement, MarkZeroHasAnImageAtTheOrigin) {
+  if (marks_.empty()) return;
   for (const std::uint64_t seed : {0, 5, 11}) {
     const Embedding embedding = embedded(seed).embedding;
     const std::vector<Isometry> group = group_of(embedding.target, 200).elements();

@@ -47,8 +47,8 @@ def claim_another_group_order(ply, report):
 
 def claim_another_signature(ply, report):
     signature = report['orbifold']['signature']
-    other = {'432': '532', '33': '44', '*432': '*532', '3*2': '2*6', '5*': '6*', '3x': '4x'}[signature]
-    orders = {'532': 60, '44': 4, '*532': 120, '2*6': 24, '6*': 12, '4x': 8}
+    other = {'432': '532', '33': '44', '*432': '*532', '3*2': '2*6', '5*': '6*', '3x': '4x', '1': '432', '*': '*432'}[signature]
+    orders = {'532': 60, '44': 4, '*532': 120, '2*6': 24, '6*': 12, '4x': 8, '432': 24, '*432': 48}
     report['orbifold'] = {'signature': other, 'group_order': orders[other]}
 
 

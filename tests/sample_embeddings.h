@@ -13,7 +13,7 @@
 
 namespace orbitutte::test {
 
-/// All families of the sphere, with the free order N in {2, 3, 5, 12}.
+/// All families of the sphere with marks, the free order N in {2, 3, 5, 12}.
 inline std::vector<std::string> sample_signatures() {
   return {"532", "432",   "332",  "222",    "223",  "225",  "2,2,12", "22",   "33",
           "55",  "12,12", "*532", "*432",   "*332", "*222", "*223",   "*225", "*2,2,12",
@@ -39,10 +39,14 @@ struct SampleEmbedding {
   const Embedding& embedding() const { return result.embedding; }
 };
 
-/// Those of the plane too.
+/// The whole sphere and the hemisphere, whose maps are quotients and no minima.
+inline std::vector<std::string> whole_signatures() { return {"1", "*"}; }
+
+/// Those too, and those of the plane.
 inline std::vector<std::string> all_sample_signatures() {
   std::vector<std::string> all = sample_signatures();
   for (const std::string& signature : planar_signatures()) all.push_back(signature);
+  for (const std::string& signature : whole_signatures()) all.push_back(signature);
   return all;
 }
 

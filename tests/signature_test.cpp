@@ -72,6 +72,7 @@ double euler_characteristic(const ConwaySymbol& symbol) {
 
 /// Do the orders make one of the five closed families, or behind a star one of the five with mirrors only?
 bool spherical(std::vector<int> n) {
+  if (n.empty()) return true;  // nothing but a mirror, or nothing at all
   std::sort(n.begin(), n.end());
   if (n.size() == 2) return n[0] >= 2 && n[0] == n[1];
   if (n.size() != 3 || n[0] != 2) return false;
@@ -154,9 +155,9 @@ TEST(Signature, MarksHaveTheAnglesOfTheirOrders) {
   EXPECT_EQ((Mark{8.0, ConeKind::rotation}).order(), 0) << "more than a full turn";
 }
 
-TEST(Signature, OnlyTwoConesOrOneAloneLeaveARotationFree) {
+TEST(Signature, OnlyTwoConesOneAloneOrNoneLeaveARotationFree) {
   for (const SphericalOrbifold& expected : test::arranged_orbifolds()) {
-    const std::set<std::string> free = {"NN", "N*", "Nx"};
+    const std::set<std::string> free = {"NN", "N*", "Nx", "1", "*"};
     EXPECT_EQ(parse_orbifold(test::symbol(expected)).is_free_to_rotate, free.count(expected.family) > 0)
         << test::symbol(expected);
   }
@@ -247,7 +248,7 @@ TEST(Signature, OrdersOfZeroAreRefused) {
 }
 
 TEST(Signature, OrdersOfOneAreRefused) {
-  expect_refused({"1", "11", "12", "*1", "*11", "1,1", "1,1,1", "*1,1", "1,2,2", "221", "*221", "1,1*", "5*1",
+  expect_refused({"11", "12", "*1", "*11", "1,1", "1,1,1", "*1,1", "1,2,2", "221", "*221", "1,1*", "5*1",
                   "2*1,2", "1,1x", "1,2x"},
                  order_one);
 }
@@ -256,8 +257,14 @@ TEST(Signature, TheEmptyTextIsRefused) {
   EXPECT_EQ(refusal_of_symbol(""), "the signature is empty; see 'orbitutte types'");
 }
 
-TEST(Signature, AStarAloneMarksNothing) {
-  expect_refused({"*"}, " marks no vertex; every family embedded has one to four (see 'orbitutte types')");
+TEST(Signature, NothingIsMarkedOnTheWholeSphereAndTheHemisphere) {
+  for (const char* text : {"1", "sphere", "*", "1*", "hemisphere"}) {
+    const Target target = parse_orbifold(text);
+    EXPECT_TRUE(target.marks.empty()) << text;
+    const bool is_disk = target.topology == Topology::disk;
+    EXPECT_EQ(target.signature, is_disk ? "*" : "1") << text;
+    EXPECT_EQ(target.group_order, is_disk ? 2 : 1) << text;
+  }
 }
 
 TEST(Signature, OtherCharactersAreNoSymbol) {

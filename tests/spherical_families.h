@@ -32,7 +32,7 @@ inline std::string symbol(bool star, const std::vector<int>& orders, bool commas
     if (k == static_cast<int>(orders.size())) break;
     text += (commas && k != 0 && !(star && k == inside) ? "," : "") + std::to_string(orders[k]);
   }
-  return text;
+  return text.empty() ? "1" : text;
 }
 
 inline std::string symbol(const SphericalOrbifold& orbifold, bool commas) {
@@ -42,7 +42,8 @@ inline std::string symbol(const SphericalOrbifold& orbifold, bool commas) {
 
 /// One character per order while each is a single digit, commas otherwise.
 inline std::string symbol(const SphericalOrbifold& orbifold) {
-  return symbol(orbifold, *std::max_element(orbifold.orders.begin(), orbifold.orders.end()) >= 10);
+  return symbol(orbifold,
+                std::any_of(orbifold.orders.begin(), orbifold.orders.end(), [](int n) { return n >= 10; }));
 }
 
 /// All families that are embedded, those with a free order for N = 2, 3, 4, 8, 12, 100.
@@ -65,6 +66,8 @@ inline std::vector<SphericalOrbifold> spherical_orbifolds() {
     result.push_back({"N*", true, {N}, 2 * N, 1, 1});
   }
   for (const int N : {1, 2, 3, 4, 8, 12, 100}) result.push_back({"Nx", false, {N}, 2 * N, 1, 0, true});
+  result.push_back({"1", false, {}, 1});
+  result.push_back({"*", true, {}, 2, 0, 1});
   return result;
 }
 

@@ -91,7 +91,7 @@ class Embedding:
     moved_vertices : (k,) int32
         Input vertices that were moved to make thin triangles positive; they are no critical points of the energy.
     is_free_to_rotate : bool
-        Does the orbifold (NN, N* or Nx) fix the map only up to a rotation about its axis? See `rotation_to`.
+        Does the orbifold fix the map only up to a rotation about its axis (NN, N*, Nx and *), or about any (1)? See `rotation_to`.
     faces : (m, 3) int32
         The input faces on cut vertices. Faces of k corners are (m, k); if their numbers differ, a list of tuples.
     triangles : (t, 3) int32
@@ -365,12 +365,12 @@ class Embedding:
         -------
         (3, 3) float64
             ``points @ rotation.T`` lie where `other_points` do, as nearly as a rotation about the axis can bring them there, modulo the
-            group. The identity unless `is_free_to_rotate`.
+            group; of the whole sphere, a rotation about any axis. The identity unless `is_free_to_rotate`.
 
         Raises
         ------
         ArgumentError
-            The numbers of points differ, or all lie on the axis.
+            The numbers of points differ, or all lie on the axis, or on one line through the centre of the whole sphere.
         """
         first = _arrays.positions(_rows(points, 2), "points", "point")
         second = _arrays.positions(_rows(other_points, 2), "other_points", "point")

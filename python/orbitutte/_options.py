@@ -14,7 +14,7 @@ from . import _arrays, _orbitutte
 from .errors import ArgumentError
 
 #: Every option of `embed` but `progress` and those that say what the target is.
-NAMES = ("weights", "weights_file", "clamp", "cut_seed", "spread", "tolerance", "max_iterations", "threads")
+NAMES = ("weights", "weights_file", "clamp", "cut_seed", "spread", "tolerance", "max_iterations", "threads", "quotient", "centre", "points")
 
 
 #: Stands for an orbifold or cones that are to be chosen.
@@ -38,6 +38,12 @@ def options(**given: Any) -> _orbitutte.Options:
             setattr(result, name, whole(given[name], name, bits))
     if "spread" in given:
         result.set_spread(text(given["spread"], "spread"))
+    if "quotient" in given:
+        result.quotient = flag(given["quotient"], "quotient")
+    if given.get("centre") is not None:
+        result.set_centre(text(given["centre"], "centre"))
+    if given.get("points") is not None:
+        result.set_points(*_points(given["points"]))
     if given.get("weights_file") is not None:
         if given.get("weights") is not None:
             raise ArgumentError("give weights or weights_file, not both")
@@ -75,6 +81,10 @@ def marks(mesh: _orbitutte.Mesh, target: _orbitutte.Target | None, cones: Any) -
     """The vertices that `cones` names, or leaves to the program."""
     if target is not None and target.signature == "polygon":
         return Marks(target.corner_vertices, False)
+    if target is not None and target.mark_count == 0:
+        if cones is not None and not isinstance(cones, str) and len(cones):
+            raise ArgumentError(f"leave out cones: {target.signature} marks no vertex; points puts vertices at given points")
+        return Marks([], False)
     if cones is None:
         raise ArgumentError("cones is missing; give the vertices to be marked, as in [12, 40, 7], 'best' or 'extremities'")
     if isinstance(cones, str):
@@ -112,6 +122,12 @@ def whole(value: Any, name: str, bits: int = 31) -> int:
     if not 0 <= number < 2**bits:
         raise ArgumentError(f"{name} is {number}; it must be between 0 and {2**bits - 1}")
     return number
+
+
+def flag(value: Any, name: str) -> bool:
+    if not isinstance(value, (bool, np.bool_)):
+        raise TypeError(f"{name} is a {type(value).__name__}; True or False is expected")
+    return bool(value)
 
 
 def text(value: Any, name: str) -> str:
@@ -158,6 +174,18 @@ def _edges_of_sparse(matrix: Any) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return i, j, w
 
 
+def _points(points: Any) -> tuple[list[int], np.ndarray]:
+    """Vertices and unit vectors from a mapping {vertex: (x, y, z)}."""
+    try:
+        items = list(points.items())
+    except AttributeError:
+        raise TypeError(f"points is a {type(points).__name__}; a mapping of vertices to points, as in {{12: (0, 0, 1)}}, is expected") from None
+    if not items:
+        return [], np.zeros((0, 3))
+    vertices = [whole(vertex, "points: a vertex") for vertex, _ in items]
+    return vertices, _on_sphere(vertices, np.asarray([point for _, point in items], dtype=np.float64), "points: the point for")
+
+
 def _polygon(polygon: Any, cones: Any) -> _orbitutte.Target:
     if polygon is None:
         raise ArgumentError("polygon is missing; give its corners as k x 4 rows of vertex, x, y, z, or as k x 3 positions of the vertices in cones")
@@ -187,9 +215,15 @@ def _polygon(polygon: Any, cones: Any) -> _orbitutte.Target:
 def _polygon_of(vertices: list[int], points: np.ndarray) -> _orbitutte.Target:
     """Corners that are off the sphere by at most 1e-3, as rounded decimals are, are moved onto it."""
     points = _arrays.finite_positions(points, "polygon", "corner")
+    return _orbitutte.Target.polygon(vertices, _on_sphere(vertices, points, "polygon: the corner at"))
+
+
+def _on_sphere(vertices: list[int], points: np.ndarray, what: str) -> np.ndarray:
+    if points.ndim != 2 or points.shape[1] != 3:
+        raise ArgumentError(f"{what} vertex {vertices[0]} is not three numbers x, y, z")
     lengths = np.linalg.norm(points, axis=1)
-    off = np.abs(lengths - 1) > 1e-3
+    off = ~(np.abs(lengths - 1) <= 1e-3)
     if off.any():
         k = int(np.argmax(off))
-        raise ArgumentError(f"polygon: the corner at vertex {vertices[k]} is at distance {lengths[k]:.6g} from the centre, not on the unit sphere")
-    return _orbitutte.Target.polygon(vertices, points / lengths[:, None])
+        raise ArgumentError(f"{what} vertex {vertices[k]} is at distance {lengths[k]:.6g} from the centre, not on the unit sphere")
+    return points / lengths[:, None]

@@ -27,6 +27,7 @@ void bind_orbifold(py::module_& module) {
       .def_static("polygon_file", [](const std::string& path) { return polygon_target(read_corners(path)); })
       .def_readonly("signature", &Target::signature)
       .def_readonly("group_order", &Target::group_order)
+      .def_property_readonly("mark_count", [](const Target& target) { return target.marks.size(); })
       .def_property_readonly("space", [](const Target& target) { return target.space.name(); })
       .def_property_readonly("corner_vertices", &corner_vertices);
 }

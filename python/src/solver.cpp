@@ -198,6 +198,17 @@ void set_spread(EmbedOptions& options, const std::string& text) {
   options.spread = parse_choice<Spread>(text, "spread");
 }
 
+void set_centre(EmbedOptions& options, const std::string& text) {
+  options.quotient.centre = parse_choice<Centre>(text, "centre");
+}
+
+void set_points(EmbedOptions& options, const std::vector<int>& vertices, const DoubleArray& positions) {
+  const Points points = to_points(positions);
+  options.quotient.points.clear();
+  for (std::size_t k = 0; k < vertices.size(); ++k)
+    options.quotient.points.push_back({vertices[k], points.row(static_cast<Eigen::Index>(k))});
+}
+
 }  // namespace
 
 void bind_solver(py::module_& module) {
@@ -206,6 +217,11 @@ void bind_solver(py::module_& module) {
       .def("set_weights", &set_weights)
       .def("give_weights", &give_weights)
       .def("set_spread", &set_spread)
+      .def("set_centre", &set_centre)
+      .def("set_points", &set_points)
+      .def_property(
+          "quotient", [](const EmbedOptions& options) { return options.quotient.is_wanted; },
+          [](EmbedOptions& options, bool is_wanted) { options.quotient.is_wanted = is_wanted; })
       .def_readwrite("weights_file", &EmbedOptions::weights_file)
       .def_property(
           "clamp", [](const EmbedOptions& options) { return options.weights.clamp; },

@@ -11,7 +11,7 @@ import pytest
 from conftest import cube
 
 SHAPES = {"532": "figure", "332": "figure", "2,2,12": "figure", "55": "figure", "*432": "mask", "*22": "mask", "3*2": "mask", "2*3": "mask",
-          "5*": "mask", "1x": "boy", "3x": "boy"}
+          "5*": "mask", "1x": "boy", "3x": "boy", "1": "figure", "*": "mask"}
 
 
 @pytest.mark.parametrize("signature", SHAPES)
@@ -188,6 +188,51 @@ def test_a_fixed_boundary_is_held(mask):
     assert np.array_equal(orbitutte.embed(V, F, "polygon", None, polygon=rows).positions, embedding.positions)
     with pytest.raises(orbitutte.ArgumentError):
         orbitutte.tile(embedding)
+
+
+@pytest.mark.parametrize("name, signature", [("sphere", "1"), ("hemisphere", "*")])
+def test_the_whole_sphere_is_centred(figure, mask, name, signature):
+    V, F = figure if signature == "1" else mask
+    embedding = orbitutte.embed(V, F, name)
+    assert embedding.signature == signature and embedding.cones == [] and len(embedding.positions) == len(V)
+    assert embedding.report["quotient"] is True and embedding.report["centre"] == "area"
+    area = np.linalg.norm(np.cross(V[F[:, 1]] - V[F[:, 0]], V[F[:, 2]] - V[F[:, 0]]), axis=1)
+    mean = (area[:, None] * embedding.positions[F].mean(axis=1)).sum(axis=0) / area.sum()
+    assert np.abs(mean[: 3 if signature == "1" else 2]).max() < 1e-9
+    again = orbitutte.embed(V, F, name, centre="sigma")
+    assert again.bijective and again.distortion["sigma"] < embedding.distortion["sigma"]
+    with pytest.raises(orbitutte.ArgumentError, match="leave out cones"):
+        orbitutte.embed(V, F, name, [0, 1, 2])
+    with pytest.raises(orbitutte.ArgumentError, match="centre"):
+        orbitutte.embed(V, F, name, centre="middle")
+
+
+def test_vertices_come_to_lie_at_given_points(figure):
+    points = {0: (0, 0, 1), 100: (1, 0, 0), 200: (0, 1, 0)}
+    embedding = orbitutte.embed(*figure, "sphere", points=points)
+    assert embedding.bijective and np.allclose(embedding.positions[list(points)], list(points.values()), atol=1e-12)
+    with pytest.raises(orbitutte.ArgumentError, match="vertex 0 is at distance 2"):
+        orbitutte.embed(*figure, "sphere", points={0: (0, 0, 2)})
+    with pytest.raises(TypeError, match="mapping"):
+        orbitutte.embed(*figure, "sphere", points=[0, 0, 1])
+
+
+def test_a_quotient_has_the_marked_vertices_at_the_poles(figure):
+    cones = orbitutte.choose_cones(*figure, "33")
+    embedding = orbitutte.embed(*figure, "33", cones, quotient=True)
+    assert embedding.bijective and embedding.signature == "1"
+    assert np.allclose(embedding.positions[cones], [[0, 0, 1], [0, 0, -1]], atol=1e-9)
+    assert embedding.report["quotient_of"] == {"signature": "33", "cones": cones}
+    with pytest.raises(orbitutte.ArgumentError, match="432"):
+        orbitutte.embed(*figure, "432", quotient=True)
+    with pytest.raises(TypeError):
+        orbitutte.embed(*figure, "33", quotient=1)
+
+
+def test_two_maps_to_the_whole_sphere_differ_by_a_rotation(figure):
+    one, other = orbitutte.embed(*figure, "1"), orbitutte.embed(*figure, "1", points={7: (0, 1, 0)})
+    R = one.rotation_to(one.positions, other.positions)
+    assert np.allclose(one.positions @ R.T, other.positions, atol=1e-9)
 
 
 def test_the_plane_is_a_space_like_the_sphere(figure, tmp_path):

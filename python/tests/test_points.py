@@ -10,7 +10,7 @@ def directions(count, seed=1):
     return points / np.linalg.norm(points, axis=1)[:, None]
 
 
-@pytest.mark.parametrize("shape, signature", [("figure", "532"), ("mask", "*332"), ("mask", "2*3"), ("boy", "3x")])
+@pytest.mark.parametrize("shape, signature", [("figure", "532"), ("mask", "*332"), ("mask", "2*3"), ("boy", "3x"), ("figure", "1"), ("mask", "*")])
 def test_every_direction_is_located_and_comes_back(shape, signature):
     embedding = orbitutte.embed(*orbitutte.sample_mesh(shape, 300), signature)
     points = directions(5000)

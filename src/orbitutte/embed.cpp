@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "orbitutte/embed.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <functional>
 
@@ -8,7 +10,9 @@
 #include "orbitutte/inspect/weak_places.h"
 #include "orbitutte/parallel.h"
 #include "orbitutte/preparation.h"
+#include "orbitutte/quotient/quotient.h"
 #include "orbitutte/solve/remedies.h"
+#include "orbitutte/verify/energy.h"
 #include "orbitutte/warnings.h"
 
 namespace orbitutte {
@@ -22,10 +26,9 @@ void refuse(Certificate& certificate, const Minimum& minimum, double tolerance) 
 }
 
 // The gluing problem of the surface that is cut.
-GluingProblem gluing_problem(const EmbedRequest& request, const EdgeWeights& weights,
+GluingProblem gluing_problem(const EmbedRequest& request, const EdgeWeights& weights, const CutMesh& cut,
                              const EmbeddingCache& cache) {
   const Surface& surface = request.prepared.surface;
-  const CutMesh& cut = cache.cut.cut;
   const Tile tile = basic_tile(request.target, cut.arrangement);  // appendix A
   return {surface,
           cut,
@@ -56,10 +59,18 @@ void take(const GluingProblem& problem, const SpreadMap& map, EmbedResult& resul
   result.certificate = certify(problem.surface, result.embedding);
 }
 
-// Where the minimum, rounded to doubles, is no bijection: the first remedy that makes it one is taken.
-void mend(const GluingProblem& problem, const Placement& placed, EmbedResult& result) {
-  for (const auto& remedy : {with_faces_repaired, with_limbs_resolved, with_more_digits}) {
-    const std::optional<SpreadMap> map = remedy(problem, placed);
+using Remedy = std::function<std::optional<SpreadMap>(const GluingProblem&, const Placement&)>;
+
+// A map that was placed, and what is tried, in this order, if it is no bijection in doubles.
+struct PlacedMap {
+  const Placement& placed;
+  std::vector<Remedy> remedies = {with_faces_repaired, with_limbs_resolved, with_more_digits};
+};
+
+// The first remedy that makes it a bijection is taken.
+void mend(const GluingProblem& problem, const PlacedMap& placed, EmbedResult& result) {
+  for (const Remedy& remedy : placed.remedies) {
+    const std::optional<SpreadMap> map = remedy(problem, placed.placed);
     if (!map) continue;
     EmbedResult mended = result;
     take(problem, *map, mended);
@@ -106,29 +117,17 @@ std::vector<std::string> warnings_of(const EmbedRequest& request, const GluingPr
   return warnings;
 }
 
-// The method, from the surface to the certificate.
-EmbedResult embed_once(const EmbedRequest& request, EmbeddingCache& cache) {
+// From the map that was placed to the result: certified, mended where it is no bijection, and measured.
+void finish(const EmbedRequest& request, const GluingProblem& problem, const PlacedMap& map, Stages& stage,
+            EmbedResult& result) {
   const Surface& surface = request.prepared.surface;
-  const EmbedOptions& options = request.options;
-  EmbedResult result;
-  Stages stage(options.progress, result.timings);
-  result.threads = thread_count();
-  result.backend = options.laplacian.backend;
-
-  stage("weights", [&] { result.weights = find_weights(request, cache.weights); });  // section 4
-  stage("cut", [&] { find_cut(request, result.weights, cache); });                   // section 4.1
-  const GluingProblem problem = gluing_problem(request, result.weights, cache);
-  LbfgsOptions lbfgs;
-  lbfgs.tolerance = options.tolerance;
-  lbfgs.max_iterations = options.max_iterations;
-  const Placement placed = place(problem, lbfgs, stage);  // (2)
-  result.minimum = placed.minimum;
+  const Placement& placed = map.placed;
   const bool has_converged = placed.minimum.termination == Termination::converged;
   const auto needs_mending = [&] { return has_converged && !result.certificate.bijective; };
   stage("certify", [&] {
     // A map that turns faces over is mended before it is certified.
-    const SpreadMap map = spread_map(problem, placed);
-    if (!has_converged || !turns_faces_over(problem, map)) take(problem, map, result);
+    const SpreadMap spread = spread_map(problem, placed);
+    if (!has_converged || !turns_faces_over(problem, spread)) take(problem, spread, result);
     if (!needs_mending()) judge(request, result);
   });
   if (needs_mending()) {
@@ -136,7 +135,7 @@ EmbedResult embed_once(const EmbedRequest& request, EmbeddingCache& cache) {
     if (is_hopeless(collapsing, ears_of(problem, placed)))
       result.collapsing_faces = std::move(collapsing);
     else
-      stage("mend", [&] { mend(problem, placed, result); });
+      stage("mend", [&] { mend(problem, map, result); });
     stage("certify", [&] {
       if (result.certificate.checks.empty()) take(problem, spread_map(problem, placed), result);
       judge(request, result);
@@ -147,6 +146,25 @@ EmbedResult embed_once(const EmbedRequest& request, EmbeddingCache& cache) {
   result.topology = surface.topology;
   result.unreferenced_vertices = surface.unreferenced_vertices;
   result.zero_area_faces = surface.zero_area_faces;
+}
+
+// The method, from the surface to the certificate.
+EmbedResult embed_once(const EmbedRequest& request, EmbeddingCache& cache) {
+  const EmbedOptions& options = request.options;
+  EmbedResult result;
+  Stages stage(options.progress, result.timings);
+  result.threads = thread_count();
+  result.backend = options.laplacian.backend;
+
+  stage("weights", [&] { result.weights = find_weights(request, cache.weights); });  // section 4
+  stage("cut", [&] { find_cut(request, result.weights, cache); });                   // section 4.1
+  const GluingProblem problem = gluing_problem(request, result.weights, cache.cut.cut, cache);
+  LbfgsOptions lbfgs;
+  lbfgs.tolerance = options.tolerance;
+  lbfgs.max_iterations = options.max_iterations;
+  const Placement placed = place(problem, lbfgs, stage);  // (2)
+  result.minimum = placed.minimum;
+  finish(request, problem, {placed}, stage, result);
   return result;
 }
 
@@ -198,11 +216,123 @@ EmbedResult embed_with_some_weights(const EmbedRequest& request, EmbeddingCache&
   return std::move(*best);
 }
 
+// What a quotient is made from: a map to a target with marks, and whose they are.
+struct BaseMap {
+  Target target;
+  std::vector<int> cones;
+};
+
+BaseMap base_map(const EmbedRequest& request) {
+  if (!request.target.marks.empty()) return {request.target, request.cones};
+  const Target target = quotient_base(request.target);
+  return {target, choose_cones(request.prepared.surface, target)};
+}
+
+// Of the same kind as those of the map that the quotient is made from; no cone sharpens them.
+EdgeWeights weights_of_quotient(const EmbedRequest& request, const EmbedResult& base, EmbeddingCache& cache) {
+  EmbedOptions options = request.options;
+  if (base.requested_weights) options.weights.kind = base.weights.kind;
+  return find_weights({request.prepared, request.target, request.cones, options}, cache.weights);
+}
+
+// Where the quotient lies; vertices that were put at given points are held there.
+Placement placed_quotient(const GluingProblem& problem, const EmbedResult& base, const QuotientMap& quotient,
+                          const std::vector<PolygonCorner>& points) {
+  Placement placed = {base.minimum, problem.tile, problem.boundary, {}};
+  placed.minimum.positions = quotient.positions();
+  for (const PolygonCorner& held : points) {
+    placed.boundary.basis_of[held.vertex] = held_in_place;
+    placed.boundary.held.row(held.vertex) = held.position.transpose();
+  }
+  placed.boundary.make_feasible(placed.minimum.positions);
+  return placed;
+}
+
+// Vertices that were mended have moved the centre of mass, too: by as little, the map is centred again, if it
+// stays certified.
+void centre_again(const Surface& surface, EmbedResult& result) {
+  const bool is_mended = !result.moved_vertices.empty() || !result.embedding.offsets.empty() ||
+                         !result.embedding.placement.is_identity();
+  if (!result.certificate.bijective || !is_mended || !result.quotient->points.empty()) return;
+  Embedding centred = result.embedding;
+  centre_anew(surface, result.quotient->centre, centred);
+  Certificate certificate = certify(surface, centred);
+  if (!certificate.bijective) return;
+  result.embedding = std::move(centred);
+  result.certificate = std::move(certificate);
+  result.distortion = measure_distortion(surface, result.embedding);
+}
+
+// The options, with the centre that is meant if none is asked for.
+QuotientOptions complete_options(const EmbedRequest& request) {
+  QuotientOptions options = request.options.quotient;
+  if (!options.centre) options.centre = request.target.marks.empty() ? Centre::area : Centre::none;
+  return options;
+}
+
+// What is known of the quotient before it is computed.
+EmbedResult begin_quotient(const BaseMap& from, const EmbedResult& base, const QuotientOptions& options) {
+  EmbedResult result;
+  result.timings = base.timings;
+  result.threads = base.threads;
+  result.backend = base.backend;
+  result.requested_weights = base.requested_weights;
+  result.quotient = {from.target.signature, from.cones, *options.centre, options.points};
+  return result;
+}
+
+// Limbs have digits of their own; only if these do not do are they settled at the minimum of the energy.
+std::vector<Remedy> remedies_of(const QuotientMap& quotient) {
+  const auto with_its_digits = [&](const GluingProblem& problem, const Placement& placed) {
+    return with_digits_of([&](int v) { return quotient.precise_position(v); }, problem, placed);
+  };
+  return {with_faces_repaired, with_its_digits, with_limbs_resolved, with_more_digits};
+}
+
+// The quotient of a map by its group. It marks nothing, but the vertices that the other map marks keep what
+// it spreads out from becoming an arc.
+EmbedResult embed_quotient(const EmbedRequest& request, EmbeddingCache& cache) {
+  const Surface& surface = request.prepared.surface;
+  const QuotientOptions options = complete_options(request);
+  const BaseMap from = base_map(request);
+  const Target onto = quotient_target(from.target);
+  require_points(surface, onto, options.points);
+  const EmbedResult base =
+      embed_with_some_weights({request.prepared, from.target, from.cones, request.options}, cache);
+  const EmbedRequest whole = {request.prepared, onto, from.cones, request.options};
+
+  EmbedResult result = begin_quotient(from, base, options);
+  Stages stage(request.options.progress, result.timings);
+  result.weights = stage("weights", [&] { return weights_of_quotient(whole, base, cache); });
+  const CutMesh cut = stage("cut", [&] { return cut_to_disk(surface, {}, 0, request.options.cut); });
+  const GluingProblem problem = gluing_problem(whole, result.weights, cut, cache);
+  const QuotientMap quotient =
+      stage("quotient", [&] { return QuotientMap(surface, base.embedding, onto, options); });
+  const Placement placed = placed_quotient(problem, base, quotient, options.points);
+  result.minimum = placed.minimum;
+  finish(whole, problem, {placed, remedies_of(quotient)}, stage, result);
+  stage("centre", [&] {
+    centre_again(surface, result);
+    result.minimum.positions = result.embedding.positions.topRows(surface.vertex_count());
+    result.minimum.energy = dirichlet_energy(surface, result.weights, result.embedding);
+  });
+  if (base.requested_weights) result.warnings.push_back(base.warnings.back());
+  return result;
+}
+
 // Runs `compute` with the threads that the options ask for.
 template <typename Compute>
 auto with_threads_of(const EmbedOptions& options, const Compute& compute) {
   if (options.threads < 0) throw ArgumentError("the number of threads must not be negative");
   return with_threads(options.threads, compute);
+}
+
+// What is asked of a quotient means nothing to another map.
+void require_no_quotient_options(const QuotientOptions& options, const Target& target) {
+  if (options.centre || !options.points.empty())
+    throw ArgumentError(fmt::format(
+        "{} is no map to the whole sphere, which could be centred; ask for its quotient, or for 1 or *",
+        target.signature));
 }
 
 // Validates, as the first stage, what is then embedded. validate() returns the prepared surface.
@@ -215,7 +345,10 @@ EmbedResult embed_validated(const Validate& validate, const Target& target, cons
     const PreparedSurface prepared = stage("validate", validate);
     const EmbedRequest request = {prepared, target, cones, options};
     require_fit(request);
-    EmbedResult result = embed_with_some_weights(request, cache);
+    const bool is_quotient = target.marks.empty() || options.quotient.is_wanted;
+    if (!is_quotient) require_no_quotient_options(options.quotient, target);
+    EmbedResult result =
+        is_quotient ? embed_quotient(request, cache) : embed_with_some_weights(request, cache);
     result.timings.insert(result.timings.begin(), timings.begin(), timings.end());
     return result;
   });

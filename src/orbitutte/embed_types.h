@@ -28,12 +28,25 @@ struct EmbedOptions {
   LaplacianOptions laplacian;
   /// How boundary vertices are spread along the sides of a fixed polygon.
   Spread spread = Spread::arc_length;
+  /// For targets without marks, and for quotients of maps to others.
+  QuotientOptions quotient;
   /// The optimiser stops if the gradient and the last step are smaller (LbfgsOptions::tolerance).
   double tolerance = 1e-9;
   int max_iterations = 2000;
   /// 0: as many as the machine has. Results do not depend on it.
   int threads = 0;
   ProgressCallback progress;
+};
+
+/// What a quotient was made from, and which of all Möbius maps it was followed by.
+struct QuotientRecord {
+  /// The orbifold that the solved map is onto.
+  std::string signature;
+  /// Its marked vertices.
+  std::vector<int> cones;
+  Centre centre = Centre::none;
+  /// Where vertices were asked to lie.
+  std::vector<PolygonCorner> points;
 };
 
 /// The embedding, and everything that is known of it.
@@ -45,6 +58,9 @@ struct EmbedResult {
   std::optional<WeightKind> requested_weights;
   /// Where the optimiser ended. Its positions are those of the input vertices.
   Minimum minimum;
+  /// If the map is a quotient: then `minimum` tells how the map that it was made from was found, but for
+  /// positions and energy, which are the quotient's own.
+  std::optional<QuotientRecord> quotient;
   /// Input vertices that were moved off the minimum, so that thin triangles are positively oriented;
   /// ascending.
   std::vector<int> moved_vertices;

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "orbitutte/names.h"
+#include "orbitutte/types.h"
 
 namespace orbitutte {
 
@@ -28,6 +30,42 @@ template <>
 struct NameTable<Spread> {
   static constexpr NamedValue<Spread> rows[] = {{Spread::arc_length, "arc-length"},
                                                 {Spread::equidistant, "equidistant"}};
+};
+
+/// Which of all Möbius maps a map to the whole sphere, or to a hemisphere, is followed by.
+enum class Centre {
+  /// None: the map is as the quotient gives it.
+  none,
+  /// The centre of mass of the surface's area comes to lie at the centre of the sphere.
+  area,
+  /// The centre of mass of its vertices does, each counted alike.
+  vertices,
+  /// The scale of lengths varies least (Distortion::sigma).
+  sigma
+};
+
+/// Its names.
+template <>
+struct NameTable<Centre> {
+  static constexpr NamedValue<Centre> rows[] = {{Centre::none, "none"},
+                                                {Centre::area, "area"},
+                                                {Centre::vertices, "vertices"},
+                                                {Centre::sigma, "sigma"}};
+};
+
+/// How a map to the whole sphere (1) or to a hemisphere (*) is made from a map to an orbifold: as its
+/// quotient by the group.
+struct QuotientOptions {
+  /// Is the quotient of the map to a target with marks wanted in its place? Targets without marks have no
+  /// other map.
+  bool is_wanted = false;
+
+  /// If not given, area for targets without marks, none for the quotients of others.
+  std::optional<Centre> centre;
+
+  /// Up to three vertices that come to lie at given points. Three leave no choice to `centre`, two that along
+  /// the arc between them, one all.
+  std::vector<PolygonCorner> points;
 };
 
 /// The libraries that factorise sparse matrices.

@@ -168,7 +168,6 @@ void check_marks(const std::vector<int>& marks, const std::vector<int>& outgoing
 
 void check_marks_of_disk(const std::vector<int>& marks, int inner_marks,
                          const std::vector<char>& on_boundary) {
-  if (marks.empty()) throw MeshError("no vertex is marked on the boundary of the disk; mark one or more");
   for (int k = 0; k < static_cast<int>(marks.size()); ++k) {
     if (k >= inner_marks && !on_boundary[marks[k]])
       throw MeshError(
@@ -185,6 +184,7 @@ void check_marks_of_disk(const std::vector<int>& marks, int inner_marks,
 }
 
 void check_number_of_marks(const std::vector<int>& marks, bool one_sided) {
+  if (marks.empty() && !one_sided) return;
   const std::size_t fewest = one_sided ? 1 : 2, most = one_sided ? 1 : 4;
   if (marks.size() < fewest || marks.size() > most)
     throw MeshError(fmt::format("{} marked vertices on a {}", marks.size(),
@@ -275,6 +275,22 @@ void renumber_sector(int begin, int vertex, const std::vector<int>& opposite, Tr
   for (int h = begin; h >= 0; h = opposite[previous_halfedge(h)]) F.data()[h] = vertex;
 }
 
+// The vertex where the boundary of an unmarked disk begins: the first that lies on it and in more than one
+// face, so that no tip of an ear is an end of the mirror.
+int start_of_boundary(const Surface& surface, const std::vector<char>& on_boundary) {
+  std::vector<int> faces_at(on_boundary.size(), 0);
+  const FaceView faces = surface.faces();
+  for (int f = 0; f < faces.count(); ++f)
+    for (const int v : faces[f]) ++faces_at[v];
+  int first = -1;
+  for (int v = 0; v < static_cast<int>(on_boundary.size()); ++v) {
+    if (!on_boundary[v]) continue;
+    if (faces_at[v] > 1) return v;
+    if (first < 0) first = v;
+  }
+  return first;
+}
+
 // Follows the boundary of the opened mesh from a vertex. The first time it passes a vertex, the faces there
 // keep its index; every further time they get a new copy.
 CutMesh split_along_boundary(int from, OpenedMesh mesh) {
@@ -360,7 +376,9 @@ CutMesh cut_to_disk(const Surface& surface, const std::vector<int>& marks, int i
   const bool one_sided = closed && has_turned_faces(surface.triangles, opposite);
   if (closed) check_number_of_marks(marks, one_sided);
   if (!closed) check_marks_of_disk(marks, inner_marks, on_boundary);
-  CutPath path = {{marks[0]}, {}};  // for a disk that is not cut
+  if (closed && marks.empty()) return uncut(surface);
+  CutPath path = {{marks.empty() ? start_of_boundary(surface, on_boundary) : marks[0]},
+                  {}};  // if nothing is cut
   if (closed || inner_marks > 0) {
     EdgeGraph graph = edge_length_graph(surface);
     perturb_lengths(graph, options.seed);
@@ -373,7 +391,7 @@ CutMesh cut_to_disk(const Surface& surface, const std::vector<int>& marks, int i
   if (one_sided) turn_faces(opened);
   CutMesh cut = split_along_boundary(path.vertices.front(), std::move(opened));
   cut.marks = marks;
-  if (!closed && inner_marks > 0) cut.marks.push_back(path.vertices.back());
+  if (!closed && (inner_marks > 0 || marks.empty())) cut.marks.push_back(path.vertices.back());
   cut.arrangement = order_met(cut.boundary, cut.source_vertex, cut.marks);
   if (!closed) check_order_met(cut.arrangement, cut.marks);
   return cut;

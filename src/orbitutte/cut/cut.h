@@ -40,7 +40,9 @@ struct CutMesh {
 /// disjoint paths extend to the other two. A disk whose marks are on its boundary is left as it is. A disk
 /// with a mark inside is cut along the shortest edge path from it to an unmarked vertex of the boundary; the
 /// path meets the boundary only at its end. A projective plane with one mark is cut along a one-sided loop
-/// through the mark, and its faces are turned so that those of the disk agree (see one_sided_loop).
+/// through the mark, and its faces are turned so that those of the disk agree (see one_sided_loop). Without
+/// marks, a sphere stays closed, and a disk is left as it is: its boundary begins at its first vertex in more
+/// than one face, which takes the place of the end of a cut.
 ///
 /// Throws MeshError if a mark is not a vertex of a face, is given twice or lies in the wrong place, if there
 /// are too few or too many marks, or if a boundary meets its marks in another order than the given one, in

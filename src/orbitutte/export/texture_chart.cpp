@@ -161,13 +161,33 @@ std::vector<int> corner_vertices(const FaceView& faces) {
 
 }  // namespace
 
-TextureCoordinates texture_coordinates(const Embedding& embedding, TextureChart chart) {
-  if (chart != TextureChart::stereographic && !embedding.space().is_closed())
+namespace {
+
+// Has no chart in one piece.
+bool is_whole_sphere(const Target& target) { return target.group_order == 1 && target.corners.empty(); }
+
+void require_chart(const Target& target, TextureChart chart) {
+  if (chart != TextureChart::stereographic && !target.space.is_closed())
     throw ArgumentError(
         fmt::format("the {} chart is one of the sphere, but {} is {}; take stereographic, which "
                     "is the plane itself there",
-                    name_of(chart), embedding.target.signature, embedding.space().name()));
-  const Points seen = frame(embedding).on_rows(embedding.positions);
+                    name_of(chart), target.signature, target.space.name()));
+  if (chart == TextureChart::stereographic && is_whole_sphere(target))
+    throw ArgumentError(
+        "the stereographic chart lays one point of the whole sphere at infinity; take equirectangular or "
+        "octahedral");
+}
+
+}  // namespace
+
+TextureChart suitable_chart(const Embedding& embedding) {
+  return is_whole_sphere(embedding.target) ? TextureChart::equirectangular : TextureChart::stereographic;
+}
+
+TextureCoordinates texture_coordinates(const Embedding& embedding, TextureChart chart) {
+  require_chart(embedding.target, chart);
+  const Isometry seen_from = is_whole_sphere(embedding.target) ? Isometry() : frame(embedding);
+  const Points seen = seen_from.on_rows(embedding.positions);
   TextureCoordinates result;
   result.uv.resize(seen.rows(), 2);
   for (Eigen::Index v = 0; v < seen.rows(); ++v) {

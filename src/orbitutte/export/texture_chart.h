@@ -42,9 +42,13 @@ struct TextureCoordinates {
   int torn_faces = 0;
 };
 
+/// The chart that suits an embedding if none is asked for: stereographic, or equirectangular for the whole
+/// sphere.
+TextureChart suitable_chart(const Embedding& embedding);
+
 /// Texture coordinates in the unit square. In the equirectangular chart, faces across the date line reach
 /// beyond its right edge, where textures repeat. Throws ArgumentError if the embedding lies in the plane and
-/// the chart is one of the sphere only.
+/// the chart is one of the sphere only, and for the stereographic one of the whole sphere.
 TextureCoordinates texture_coordinates(const Embedding& embedding, TextureChart chart);
 
 }  // namespace orbitutte

@@ -38,7 +38,7 @@ void check_embedding(const Embedding& embedding, int copies) {
     check_vertices(seam.left, vertices);
     check_vertices(seam.right, vertices);
   }
-  if (embedding.seams.empty())
+  if (!embedding.target.corners.empty())
     throw ArgumentError(
         "the embedding has no seams, so that no symmetric copies of it tile the sphere; embed the mesh into "
         "an orbifold, not into a fixed polygon");
@@ -159,8 +159,9 @@ void unite_banks(const Seam& seam, const std::vector<int>& across, const Welding
   }
 }
 
-Welding weld(const Embedding& embedding, const TiledFaces& tiled,
-             const std::vector<std::vector<int>>& across) {
+// across: as copies_across_seams; so many copies.
+Welding weld(const Embedding& embedding, const TiledFaces& tiled, const std::vector<std::vector<int>>& across,
+             int copies) {
   const std::vector<char> in_face = vertices_in_faces(tiled, embedding.positions.rows());
   const std::vector<char> in_seam = vertices_in_seams(embedding);
   Welding welding;
@@ -170,7 +171,6 @@ Welding weld(const Embedding& embedding, const TiledFaces& tiled,
     if (in_face[v] && in_seam[v]) welding.on_seam[v] = welding.seam_vertices++;
   }
 
-  const int copies = static_cast<int>(across.front().size());
   DisjointSets sets(copies * welding.seam_vertices);
   for (std::size_t s = 0; s < across.size(); ++s) unite_banks(embedding.seams[s], across[s], welding, sets);
 
@@ -281,7 +281,7 @@ Tiling weld_copies(const Embedding& embedding, int copies) {
   const SymmetryGroup group = checked_group(embedding, copies);
   const std::vector<std::vector<int>> across = copies_across_seams(embedding, group);
   const TiledFaces tiled = tiled_faces(embedding, mirrors_of_vertices(embedding, across));
-  const Welding welding = weld(embedding, tiled, across);
+  const Welding welding = weld(embedding, tiled, across, group.order());
   const Eigen::Index faces = group.order() * tiled.triangles.rows();
   const bool closes_up = embedding.target.group_order > 0;
   if (closes_up) check_sphere(welding.vertices, faces);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "orbitutte/map/alignment.h"
 
+#include <Eigen/LU>
+#include <Eigen/SVD>
 #include <cmath>
 #include <complex>
 
@@ -38,6 +40,17 @@ Complex seen_from_above(const AxisSymmetry& symmetry, const Vector3& point) {
   return Complex(p.x(), p.y()) * (symmetry.flips ? std::abs(p.z()) : 1.0);
 }
 
+// W. Kabsch, "A solution for the best rotation to relate two sets of vectors", 1976.
+Isometry best_rotation_of_whole_sphere(const Points& from, const Points& to) {
+  const Eigen::JacobiSVD<Matrix3> svd(to.transpose() * from, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  if (!(svd.singularValues()[1] > 1e-12 * static_cast<double>(from.rows())))
+    throw ArgumentError(
+        "the points do not say which rotation to take; give points that lie on no line through the centre");
+  const Matrix3 &U = svd.matrixU(), &V = svd.matrixV();
+  const double handedness = (U * V.transpose()).determinant() < 0 ? -1 : 1;
+  return Space::sphere().isometry(U * Vector3(1, 1, handedness).asDiagonal() * V.transpose());
+}
+
 // z^n with the length of z.
 Complex turned(const Complex& z, int n) { return std::polar(std::abs(z), n * std::arg(z)); }
 
@@ -46,6 +59,7 @@ Complex turned(const Complex& z, int n) { return std::polar(std::abs(z), n * std
 Isometry best_rotation(const Target& target, const Points& from, const Points& to) {
   if (from.rows() != to.rows()) throw ArgumentError("the two lists of points differ in length");
   if (!target.is_free_to_rotate) return {};
+  if (target.group_order == 1) return best_rotation_of_whole_sphere(from, to);
   const AxisSymmetry symmetry = axis_symmetry(group_of(target));
   Complex sum = 0;
   for (Eigen::Index k = 0; k < from.rows(); ++k)

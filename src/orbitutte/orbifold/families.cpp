@@ -205,6 +205,18 @@ Tile crossed_lune(const Target& target, const Arrangement& marks) {
   return tile;
 }
 
+// 1: the whole sphere, which has no side.
+Tile whole_sphere(const Target& /*target*/, const Arrangement& /*marks*/) { return {}; }
+
+// *: the upper hemisphere. Its mirror, the equator, begins at any of its points.
+Tile hemisphere(const Target& /*target*/, const Arrangement& marks) {
+  Tile tile;
+  tile.sides = {arc(Vector3::UnitX(), Vector3::UnitY(), 2 * pi, marks[0])};
+  make_mirror(tile, 0);
+  tile.sides[0].slides = true;
+  return tile;
+}
+
 // Chambers (Family::chamber).
 
 std::vector<int> triangle_of_marks(const Target& target) {
@@ -219,6 +231,9 @@ std::vector<int> triangle_at_mirror(const Target& target) {
 // Between the meridians of longitude 0 and pi/2N and the equator: for N about one axis.
 std::vector<int> triangle_at_equator(const Target& target) { return {2 * target.marks[0].order(), 2, 2}; }
 
+// Between the three planes of coordinates: for the groups of no rotation.
+std::vector<int> octant(const Target& /*target*/) { return {2, 2, 2}; }
+
 std::vector<int> square_of_marks(const Target& /*target*/) { return {2, 2, 2, 2}; }
 
 constexpr int N = 0;  // the free order in a pattern
@@ -231,7 +246,11 @@ ConwaySymbol mixed(int rotation, std::vector<int> corners) {
 
 ConwaySymbol crossed(int rotation) { return {{rotation}, {}, false, true}; }
 
+const ConwaySymbol nothing_marked;
+const ConwaySymbol mirror_alone = {{}, {}, true, false};
+
 const std::string infinite = "infinite";
+const std::string none_marked = "none";
 const std::string three_vertices = "three vertices, in the order of the digits";
 const std::string four_vertices = "four vertices, in the order in which they go around";
 const std::string two_vertices = "two vertices";
@@ -264,6 +283,8 @@ const std::vector<Family>& family_table() {
       {"N*", "2N", one_vertex_inside, mixed(N, {}), disk, sector, triangle_at_equator, true},
       {"Nx", "2N", one_vertex, crossed(N), Topology::projective_plane, crossed_lune, triangle_at_equator,
        false, 1},
+      {"1", "1", none_marked, nothing_marked, sphere, whole_sphere, octant},
+      {"*", "2", none_marked, mirror_alone, disk, hemisphere, octant, true},
       {"333", infinite, three_vertices, rotations({3, 3, 3}), sphere, doubled_triangle, triangle_of_marks},
       {"442", infinite, three_vertices, rotations({2, 4, 4}), sphere, doubled_triangle, triangle_of_marks},
       {"632", infinite, three_vertices, rotations({2, 3, 6}), sphere, doubled_triangle, triangle_of_marks},

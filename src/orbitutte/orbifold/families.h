@@ -32,7 +32,8 @@ struct Family {
   /// with the k-th of these orders: of canonical_triangle, or of the unit square where there are four.
   std::vector<int> (*chamber)(const Target& target);
 
-  /// Is the second corner of the tile the end of the cut on the mirror?
+  /// Is the corner of the tile after the first mark, or its only corner, any point of the mirror: the end of
+  /// the cut?
   bool cut_to_mirror = false;
 
   /// The smallest N.

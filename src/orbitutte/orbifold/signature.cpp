@@ -147,9 +147,15 @@ Halves split(const std::string& text) {
   return halves;
 }
 
+// Names that people know for what has a symbol.
+std::string symbol_of(const std::string& name) {
+  return name == "sphere" ? "1" : name == "hemisphere" ? "*" : name;
+}
+
 std::vector<ConwaySymbol> all_readings(const std::string& text) {
   Halves halves = split(text);
-  if (halves.cross && halves.before.empty()) halves.before += '1';  // one vertex marked
+  if (halves.cross && halves.before.empty()) halves.before += '1';   // one vertex marked
+  if (!halves.cross && halves.before == "1") halves.before.clear();  // the trivial group's symbol
   std::vector<ConwaySymbol> result;
   for (const Orders& before : read_orders(text, halves.before)) {
     for (const Orders& after : read_orders(text, halves.after))
@@ -177,8 +183,6 @@ std::string objection(const ConwaySymbol& symbol) {
   if (any_above_largest(symbol.rotations) || any_above_largest(symbol.corners)) return above_largest();
   if (find_family(symbol)) return {};
   if (trivial_order(symbol)) return "has an order of 1, which marks nothing; orders are 2 or more";
-  if (symbol.rotations.empty() && symbol.corners.empty())
-    return "marks no vertex; every family embedded has one to four (see 'orbitutte types')";
   if (is_bad(symbol))
     return "is not an orbifold of the sphere: one order alone, or two different ones, close up no tiling (a "
            "teardrop or spindle)";
@@ -225,11 +229,12 @@ Space space_of(const Fraction& chi) {
 }  // namespace
 
 std::string ConwaySymbol::text() const {
+  if (rotations.empty() && corners.empty() && !star && !cross) return "1";
   return join(rotations) + (star ? "*" : "") + join(corners) + (cross ? "x" : "");
 }
 
 Target parse_orbifold(const std::string& signature) {
-  const ConwaySymbol symbol = choose(signature, all_readings(signature));
+  const ConwaySymbol symbol = choose(signature, all_readings(symbol_of(signature)));
   if (const std::string reason = objection(symbol); !reason.empty()) refuse(signature, reason);
   const Fraction chi = euler_characteristic(symbol);
   Target target;

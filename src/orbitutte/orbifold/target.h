@@ -19,7 +19,8 @@ struct ConwaySymbol {
   bool star = false;
   bool cross = false;
 
-  /// One character per order if all are single digits, otherwise commas; `x` for the cross.
+  /// One character per order if all are single digits, otherwise commas; `x` for the cross; `1` if there is
+  /// nothing.
   std::string text() const;
 };
 

@@ -28,16 +28,22 @@ Vector3 Tile::centroid() const {
   return space().retract(sum);
 }
 
+namespace {
+
+// Where the end of the cut stands in an arrangement of so many marks: after the first of them.
+int end_of_cut(int marks) { return std::min(marks, 1); }
+
+}  // namespace
+
 Tile basic_tile(const Target& target, const std::vector<int>& arrangement) {
   if (!target.corners.empty()) return polygon_tile(target.corners, arrangement);
   const Family& family = *find_family(target.symbol);
   const int marks = static_cast<int>(target.marks.size()), corners = marks + family.cut_to_mirror;
+  if (static_cast<int>(arrangement.size()) < corners) throw ArgumentError("the arrangement leaves marks out");
   for (const int mark : arrangement)
     if (mark < 0 || mark >= corners || std::count(arrangement.begin(), arrangement.end(), mark) != 1)
       throw ArgumentError("the arrangement of the marks is no permutation of them");
-  if (static_cast<int>(arrangement.size()) != corners)
-    throw ArgumentError("the arrangement leaves marks out");
-  if (family.cut_to_mirror && (arrangement[0] != 0 || arrangement[1] != marks))
+  if (family.cut_to_mirror && (arrangement.front() != 0 || arrangement[end_of_cut(marks)] != marks))
     throw ArgumentError("the arrangement does not begin with the cone and the end of the cut");
   return family.tile(target, arrangement);
 }
@@ -46,7 +52,8 @@ std::vector<int> first_arrangement(const Target& target) {
   std::vector<int> arrangement(target.marks.size());
   std::iota(arrangement.begin(), arrangement.end(), 0);
   if (target.corners.empty() && find_family(target.symbol)->cut_to_mirror)
-    arrangement.insert(arrangement.begin() + 1, static_cast<int>(target.marks.size()));
+    arrangement.insert(arrangement.begin() + end_of_cut(static_cast<int>(target.marks.size())),
+                       static_cast<int>(target.marks.size()));
   return arrangement;
 }
 

@@ -22,7 +22,7 @@ struct TileSide {
   /// The unit tangent there.
   Vector3 direction;
 
-  /// On the sphere at most pi.
+  /// On the sphere at most pi, or 2 pi where the side is a whole circle.
   double length = 0;
 
   /// The marked point at the start: an index into Target::marks, or marks.size() for the end of a cut.
@@ -49,11 +49,12 @@ struct TileSide {
 /// The shortest geodesic between two points, on the sphere not antipodal, as a side without a partner.
 TileSide geodesic_side(Space space, const Vector3& from, const Vector3& to, int mark);
 
-/// A polygon of geodesics; corner k is where side k begins. Counterclockwise from outside.
+/// A polygon of geodesics; corner k is where side k begins. Counterclockwise from outside. Without sides it is
+/// the whole sphere.
 struct Tile {
   std::vector<TileSide> sides;
 
-  Space space() const { return sides.front().space; }
+  Space space() const { return sides.empty() ? Space::sphere() : sides.front().space; }
 
   /// A point in the middle. On the sphere it is the direction of the integral of the position over the tile,
   /// which is half the sum of length * pole over the sides. This also works for lunes and hemispheres, where
@@ -64,7 +65,7 @@ struct Tile {
 /// The tile whose boundary meets the target's marks in the order `arrangement` (a permutation of their
 /// indices; every other corner is a further image of one of them). A disk with a cone inside is cut from the
 /// cone to the mirror. Then index marks.size() stands for the end of the cut, and comes second, after the
-/// cone.
+/// cone. A disk without marks has this index alone, for the point at which its boundary begins.
 ///
 /// The tile lies in the target's canonical frame, which does not depend on the arrangement: mark 0 has an
 /// image at (0, 0, 1). From there, mark 1 or a mirror has an image in the direction of x, so that the marks

@@ -81,7 +81,7 @@ std::string check_meaning(const std::string& name) {
   static const std::map<std::string, std::string> meanings = {
       {"cut_mesh", "The embedding has the input's faces and vertices: offences"},
       {"unit_positions", "Positions are unit vectors: largest error"},
-      {"seam_gluing", "Seams pair the whole boundary of one disk, once: offences"},
+      {"seam_gluing", "Seams pair the whole boundary of one disk, once, if there is any: offences"},
       {"seam_transforms", "Seams are glued by rotations and reflections: offences"},
       {"cones", "Cones and corners are those of the orbifold: offences"},
       {"group_order", "Order of the group that the seams generate"},

@@ -21,13 +21,23 @@ const char* tile_caption(const Embedding& embedding) {
                                        : "Its tile in the plane, and copies";
 }
 
-std::string summary(const RenderSubject& subject) {
+// What the source mesh is drawn with.
+const char* source_caption(const Embedding& embedding) {
+  if (!embedding.target.corners.empty()) return "Source mesh and the corners of the polygon";
+  return embedding.cones.empty() ? "Source mesh" : "Source mesh, marked vertices and seams";
+}
+
+std::string marked_vertices_text(const Embedding& embedding) {
   std::vector<int> marked;
-  for (const ConeCopies& cone : subject.embedding.cones) marked.push_back(cone.vertex);
+  for (const ConeCopies& cone : embedding.cones) marked.push_back(cone.vertex);
+  return marked.empty() ? std::string() : fmt::format("marked vertices {},  ", fmt::join(marked, ", "));
+}
+
+std::string summary(const RenderSubject& subject) {
   const Report& report = subject.report;
-  return fmt::format("{} faces,  marked vertices {},  {},  energy {:.6g},  {}",
-                     grouped_digits(subject.embedding.faces().count()), fmt::join(marked, ", "),
-                     group_text(report), report.energy,
+  return fmt::format("{} faces,  {}{},  energy {:.6g},  {}",
+                     grouped_digits(subject.embedding.faces().count()),
+                     marked_vertices_text(subject.embedding), group_text(report), report.energy,
                      report.bijective ? "certified bijective" : "not certified");
 }
 
@@ -61,10 +71,7 @@ void draw_sheet(Canvas& canvas, const Box& box, PictureParts& parts) {
   const auto cell = [&](int column, int row) {
     return Box{body.x + column * (width + gap), body.y + row * (height + gap), width, height};
   };
-  const bool is_tiling = !parts.embedding().seams.empty();
-  draw_captioned(canvas, cell(0, 0), parts,
-                 {Panel::source, is_tiling ? "Source mesh, marked vertices and seams"
-                                           : "Source mesh and the corners of the polygon"});
+  draw_captioned(canvas, cell(0, 0), parts, {Panel::source, source_caption(parts.embedding())});
   draw_captioned(canvas, cell(1, 0), parts, {Panel::sphere, tile_caption(parts.embedding())});
   draw_captioned(canvas, cell(2, 0), parts, {Panel::checkerboard, "Checkerboard through the map"});
   draw_captioned(canvas, cell(0, 1), parts, {Panel::area, "Area distortion"});

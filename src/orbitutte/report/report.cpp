@@ -46,6 +46,15 @@ Json to_json(const Seam& seam) {
           {"transform", to_json(seam.transform.matrix())}};
 }
 
+Json to_json(const PolygonCorner& at) {
+  return {{"vertex", at.vertex}, {"position", {at.position.x(), at.position.y(), at.position.z()}}};
+}
+
+// Of the map that the quotient was made from.
+Json base_json(const QuotientRecord& quotient) {
+  return {{"signature", quotient.signature}, {"cones", quotient.cones}};
+}
+
 Json weights_json(const EmbedResult& result) {
   const EdgeWeights& weights = result.weights;
   Json json = {
@@ -232,6 +241,24 @@ WeightOptions to_weights(const Json& json) {
   return {kind, number(json, "clamp"), {}};
 }
 
+Vector3 vector(const Json& json, const char* key) {
+  const char* const type = "a list of three numbers";
+  const Json& row = array(json, key);
+  typed(row, key, row.size() == 3, type);
+  return {to_number(row[0], key), to_number(row[1], key), to_number(row[2], key)};
+}
+
+PolygonCorner to_point(const Json& json) { return {integer(json, "vertex"), vector(json, "position")}; }
+
+QuotientRecord to_quotient(const Json& json) {
+  const Json& base = object(json, "quotient_of");
+  QuotientRecord quotient = {text(base, "signature"), integers(base, "cones"), Centre::none, {}};
+  if (json.contains("centre")) quotient.centre = to_kind<Centre>(text(json, "centre"), "the centre");
+  if (json.contains("points"))
+    for (const Json& at : array(json, "points")) quotient.points.push_back(to_point(at));
+  return quotient;
+}
+
 std::vector<Iteration> to_history(const Json& rows) {
   std::vector<Iteration> history;
   for (const Json& row : rows) {
@@ -253,6 +280,7 @@ Report to_report(const Json& json) {
     if (report.group_order < 1) throw MeshError("the value of 'group_order' is not positive");
   }
   if (json.contains("moved_vertices")) report.moved_vertices = integers(json, "moved_vertices");
+  if (json.contains("quotient") && boolean(json, "quotient")) report.quotient = to_quotient(json);
   if (json.contains("placement")) report.placement = report.space.isometry(matrix(json, "placement"));
   for (const Json& seam : array(json, "seams")) report.seams.push_back(to_seam(report.space, seam));
   for (const Json& cone : array(json, "cones")) report.cones.push_back(to_cone(cone));
@@ -302,6 +330,13 @@ std::string report_json(const EmbedResult& result, const RunRecord& run) {
                {"timings", timings_json(result.timings, run)},
                {"peak_memory_bytes", run.peak_memory_bytes},
                {"environment", environment_json(result, run)}};
+  if (result.quotient) {
+    json["quotient"] = true;
+    json["quotient_of"] = base_json(*result.quotient);
+    json["centre"] = name_of(result.quotient->centre);
+    if (!result.quotient->points.empty())
+      json["points"] = list(result.quotient->points, [](const PolygonCorner& at) { return to_json(at); });
+  }
   if (result.floor) json["floor"] = to_json(*result.floor);
   if (!result.moved_vertices.empty()) json["moved_vertices"] = result.moved_vertices;
   if (result.intrinsic_certificate) json["intrinsic_certificate"] = to_json(*result.intrinsic_certificate);

@@ -48,6 +48,9 @@ struct Report {
 
   /// Input vertices.
   std::vector<int> moved_vertices;
+
+  /// If the map is a quotient.
+  std::optional<QuotientRecord> quotient;
   double energy = 0;
   std::vector<Iteration> history;
   bool converged = false;

@@ -9,6 +9,7 @@
 
 #include "orbitutte/orbifold/precise_group.h"
 #include "orbitutte/orbifold/signature.h"
+#include "orbitutte/quotient/quotient.h"
 #include "orbitutte/verify/energy.h"
 #include "orbitutte/weights/cone_weights.h"
 
@@ -64,6 +65,15 @@ Theorem2 theorem2_of(const Surface& surface, const std::optional<EdgeWeights>& w
   return check_theorem2(surface, *weights, embedding);
 }
 
+// Is the map no minimum of the energy, of which the theorem speaks?
+bool is_no_minimum(const Report& report) { return report.quotient || !report.moved_vertices.empty(); }
+
+const char* reason_for_no_minimum(const Report& report) {
+  return report.quotient ? "the map is the quotient of a minimum of the energy, and none itself"
+                         : "vertices were moved off the minimum of the energy, of which the theorem "
+                           "speaks (moved_vertices in the report)";
+}
+
 // What the report says of the triangulation that has the weights.
 Check intrinsic_claim(const Surface& surface, const Embedding& embedding, const EdgeWeights& weights,
                       const Report& report) {
@@ -99,6 +109,29 @@ Check moved_vertices_claim(const Surface& surface, const Report& report) {
                holds ? std::string()
                      : fmt::format("the report says that vertex {} was moved, but there are {}", *first,
                                    surface.vertex_count()));
+}
+
+// The centre of mass is where the report says, and vertices lie at the points that it names.
+std::vector<Check> quotient_claims(const Surface& surface, const Embedding& embedding,
+                                   const QuotientRecord& quotient) {
+  constexpr double bound = 1e-9;
+  std::vector<Check> checks;
+  const auto at_most = [&](const char* name, double value, const char* what) {
+    Check check = {name, value <= bound, value, bound, {}};
+    if (!check.passed) check.detail = fmt::format("{} by {:.3g}", what, value);
+    checks.push_back(std::move(check));
+  };
+  const bool has_centre = quotient.centre == Centre::area || quotient.centre == Centre::vertices;
+  if (has_centre && quotient.points.size() < 2)
+    at_most("report_centre", distance_from_centre(surface, quotient.centre, embedding),
+            "the centre of mass is off the centre of the sphere");
+  const Points positions = embedding.canonical_positions();
+  for (const PolygonCorner& at : quotient.points) {
+    const bool is_vertex = at.vertex >= 0 && at.vertex < surface.vertex_count();
+    at_most("report_points", is_vertex ? (Vector3(positions.row(at.vertex)) - at.position).norm() : 2.0,
+            "a vertex is off the point that the report names");
+  }
+  return checks;
 }
 
 std::vector<Check> check_claims(const Certificate& certificate, const Report& report) {
@@ -158,6 +191,9 @@ Verdict verify(const Surface& surface, const Embedding& embedding, const Report&
   for (Check& check : check_claims(certificate, report)) verdict.checks.push_back(std::move(check));
   if (report.placement && has_passed(certificate, "cones"))
     verdict.checks.push_back(placement_claim(embedding, *report.placement));
+  if (report.quotient && has_passed(certificate, "cut_mesh") && embedding.target.marks.empty())
+    for (Check& check : quotient_claims(surface, embedding, *report.quotient))
+      verdict.checks.push_back(std::move(check));
   if (!report.moved_vertices.empty()) verdict.checks.push_back(moved_vertices_claim(surface, report));
   if (certificate.bijective && weights)
     verdict.checks.push_back(energy_check(dirichlet_energy(surface, *weights, embedding), report));
@@ -168,11 +204,8 @@ Verdict verify(const Surface& surface, const Embedding& embedding, const Report&
   verdict.converged = report.converged;
   verdict.bijective = verdict.sound && report.converged;
   if (options.theorem2)
-    verdict.theorem2 = report.moved_vertices.empty()
-                           ? theorem2_of(surface, weights, embedding, certificate)
-                           : not_run(
-                                 "vertices were moved off the minimum of the energy, of which the theorem "
-                                 "speaks (moved_vertices in the report)");
+    verdict.theorem2 = is_no_minimum(report) ? not_run(reason_for_no_minimum(report))
+                                             : theorem2_of(surface, weights, embedding, certificate);
   return verdict;
 }
 

@@ -90,7 +90,7 @@ std::vector<std::vector<int>> boundary_sides(const CutMesh& cut, const Tile& til
     const int mark = tile.sides[corners.size()].mark;
     if (cut.source_vertex[cut.boundary[k]] == cut.marks[mark]) corners.push_back(k);
   }
-  if (corners.size() != tile.sides.size() || corners.front() != 0)
+  if (corners.size() != tile.sides.size() || (!corners.empty() && corners.front() != 0))
     throw std::logic_error(
         "the boundary of the cut mesh does not meet the marked vertices as the tile's corners do");
   std::vector<std::vector<int>> sides(corners.size());

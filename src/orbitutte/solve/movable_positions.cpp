@@ -139,6 +139,11 @@ void PrecisePositions<Real>::refine(int v) {
   if (!is_refined(v)) store(v, feasible(v, precise(v)));
 }
 
+template <typename Real>
+void PrecisePositions<Real>::refine_to(int v, const Vector3Of<Real>& point) {
+  store(v, feasible(v, point));
+}
+
 // As it will be stored: what has no more digits is a double at every copy.
 template <typename Real>
 typename PrecisePositions<Real>::Vector PrecisePositions<Real>::cut_position(int cut_vertex) const {

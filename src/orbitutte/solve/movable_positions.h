@@ -94,6 +94,9 @@ class PrecisePositions final : public MovablePositions {
   /// Gives a vertex more digits where it is: where it is held, on its mirror, in its space.
   void refine(int v);
 
+  /// The same at a point near to where it is.
+  void refine_to(int v, const Vector3Of<Real>& point);
+
   /// Positions of all cut vertices (n_cut x 3), and the offsets of every copy of a refined vertex, down to a
   /// small part of its shortest edge. shortest_edge: n.
   Points spread(const std::vector<double>& shortest_edge, std::vector<Offset>& offsets) const;

@@ -14,6 +14,7 @@ namespace orbitutte {
 namespace {
 
 constexpr double small = 1e-6;  // edges shorter than this belong to a limb
+constexpr double finest_edge = 1e-60, finest_edge_of_all = 1e-290;  // of Precise and MostPrecise
 
 // The map's gluing, and all that its remedies ask of it.
 struct Site {
@@ -171,22 +172,38 @@ SpreadMap spread_map(const GluingProblem& problem, Placement placed, std::vector
   return {std::move(placed), std::move(all), {}, std::move(moved)};
 }
 
-// With the limbs refined; nothing as in with_more_digits. too_coarse: told if Real has too few digits.
+// Gives the limbs more digits where they belong; false if that fails.
 template <typename Real>
-std::optional<SpreadMap> refined(const GluingProblem& problem, const Placement& placed, double finest,
-                                 bool& too_coarse) {
+using RefineLimbs = std::function<bool(Site&, const std::vector<int>&, PrecisePositions<Real>&)>;
+
+// At the minimum.
+template <typename Real>
+bool refine_and_settle(Site& site, const std::vector<int>& limbs, PrecisePositions<Real>& positions) {
+  for (const int v : limbs) positions.refine(v);
+  return settle_limbs(site, limbs, positions);
+}
+
+// The shortest edge that so many digits are enough for, and what is told if there is a shorter one.
+struct Resolution {
+  double finest;
+  bool is_too_coarse = false;
+};
+
+// With the limbs refined; nothing if there are none, or if that fails.
+template <typename Real>
+std::optional<SpreadMap> refined(const GluingProblem& problem, const Placement& placed,
+                                 Resolution& resolution, const RefineLimbs<Real>& refine) {
   Site site(problem, placed);
   SpreadMap result = {placed, {}, {}, {}};
   PrecisePositions<Real> positions(site.gluing, result.placed.minimum.positions, problem.target);
   const std::vector<int> limbs = vertices_of_limbs(site, positions);
   if (limbs.empty()) return std::nullopt;
-  for (const int v : limbs) positions.refine(v);
-  const bool has_settled = settle_limbs(site, limbs, positions);
+  const bool are_refined = refine(site, limbs, positions);
   std::vector<double> shortest(site.may_move.size(), std::numeric_limits<double>::infinity());
   double least = 1;
   for (const int v : limbs) least = std::min(least, shortest_edge(site, positions, v));
-  too_coarse = least < finest;
-  if (!has_settled || too_coarse) return std::nullopt;
+  resolution.is_too_coarse = least < resolution.finest;
+  if (!are_refined || resolution.is_too_coarse) return std::nullopt;
   const std::optional<std::vector<int>> moved = put_right(site, turned_faces(site, positions), positions);
   if (!moved) return std::nullopt;
   for (const int v : limbs) shortest[v] = shortest_edge(site, positions, v);
@@ -249,11 +266,21 @@ std::optional<SpreadMap> with_limbs_resolved(const GluingProblem& problem, const
   return spread_map(problem, std::move(result), std::move(*moved_vertices));
 }
 
+std::optional<SpreadMap> with_digits_of(const PrecisePoint& point, const GluingProblem& problem,
+                                        const Placement& placed) {
+  Resolution resolution = {finest_edge};
+  return refined<Precise>(problem, placed, resolution,
+                          [&](Site&, const std::vector<int>& limbs, PrecisePositions<Precise>& positions) {
+                            for (const int v : limbs) positions.refine_to(v, point(v));
+                            return true;
+                          });
+}
+
 std::optional<SpreadMap> with_more_digits(const GluingProblem& problem, const Placement& placed) {
-  constexpr double finest = 1e-60, finest_of_all = 1e-290;  // edges
-  bool too_coarse = false;
-  std::optional<SpreadMap> result = refined<Precise>(problem, placed, finest, too_coarse);
-  if (too_coarse) result = refined<MorePrecise>(problem, placed, finest_of_all, too_coarse);
+  Resolution fine = {finest_edge}, finest = {finest_edge_of_all};
+  std::optional<SpreadMap> result = refined<Precise>(problem, placed, fine, refine_and_settle<Precise>);
+  if (fine.is_too_coarse)
+    result = refined<MorePrecise>(problem, placed, finest, refine_and_settle<MorePrecise>);
   return result;
 }
 

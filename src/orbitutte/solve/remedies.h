@@ -3,9 +3,11 @@
 // that shrink below what doubles resolve.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
+#include "orbitutte/geometry/precise.h"
 #include "orbitutte/solve/ears.h"
 #include "orbitutte/solve/placement.h"
 
@@ -40,6 +42,14 @@ std::optional<SpreadMap> with_faces_repaired(const GluingProblem& problem, const
 /// The same turned to where doubles resolve the smallest limb, all limbs settled there, and turned faces
 /// repaired. Nothing if no edge is shorter than 1e-6, if the tile may not be turned, or if that fails.
 std::optional<SpreadMap> with_limbs_resolved(const GluingProblem& problem, const Placement& placed);
+
+/// Where input vertices lie, with more digits than doubles have.
+using PrecisePoint = std::function<Vector3Of<Precise>(int)>;
+
+/// The same with the vertices of limbs put where `point` says, near to where they are, and turned faces
+/// repaired. Nothing if there are no limbs, if edges are shorter than 1e-60, or if that fails.
+std::optional<SpreadMap> with_digits_of(const PrecisePoint& point, const GluingProblem& problem,
+                                        const Placement& placed);
 
 /// The same with more digits in the limbs, as many as the shortest edge asks for.
 std::optional<SpreadMap> with_more_digits(const GluingProblem& problem, const Placement& placed);

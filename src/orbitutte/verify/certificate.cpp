@@ -140,9 +140,9 @@ Check surface_check(const Embedding& embedding) {
 }
 
 // The boundary half-edges of the cut mesh, each by its origin; empty, with an offence, unless the cut mesh is
-// a disk: every edge has one face, or two that run along it in opposite directions, there is one simple
-// boundary loop, and V - E + F = 1.
-std::unordered_map<int, int> disk_boundary(const Embedding& embedding, Offences& offences) {
+// a disk or a sphere: every edge has one face, or two that run along it in opposite directions, there is one
+// simple boundary loop and V - E + F = 1, or there is none and V - E + F = 2.
+std::unordered_map<int, int> boundary_of_cut_mesh(const Embedding& embedding, Offences& offences) {
   const Triangles& F = embedding.triangles;
   const int n_cut = static_cast<int>(embedding.source_vertex.size());
   const Connectivity connectivity = connectivity_of(F, n_cut);
@@ -162,7 +162,8 @@ std::unordered_map<int, int> disk_boundary(const Embedding& embedding, Offences&
   }
   const long long euler =
       std::count(used.begin(), used.end(), 1) - static_cast<long long>(connectivity.edges.size()) + F.rows();
-  if (euler != 1) offences.add("the cut mesh has Euler characteristic {}; a disk has 1", euler);
+  if (euler != (next.empty() ? 2 : 1))
+    offences.add("the cut mesh has Euler characteristic {}; a disk has 1, and a closed sphere 2", euler);
   if (offences.any() || next.empty()) return {};
   std::size_t steps = 0;
   const int start = next.begin()->first;
@@ -221,7 +222,7 @@ std::vector<int> fixed_corners(const Embedding& embedding) {
 Check seam_gluing_check(const Embedding& embedding) {
   Offences offences;
   const int n_cut = static_cast<int>(embedding.source_vertex.size());
-  std::unordered_map<int, int> uncovered = disk_boundary(embedding, offences);
+  std::unordered_map<int, int> uncovered = boundary_of_cut_mesh(embedding, offences);
   for (std::size_t s = 0; s < embedding.seams.size() && !offences.any(); ++s) {
     const Seam& seam = embedding.seams[s];
     if (seam.left.size() != seam.right.size() || seam.left.size() < 2) {
@@ -251,7 +252,7 @@ Check held_sides_check(const Embedding& embedding) {
   const std::vector<int> corners = fixed_corners(embedding);
   if (corners.empty()) return none(name, 0, {});
   Offences offences;
-  const std::unordered_map<int, int> next = disk_boundary(embedding, offences);
+  const std::unordered_map<int, int> next = boundary_of_cut_mesh(embedding, offences);
   if (next.empty()) return none(name, 1, "the cut mesh is no disk");
   const int start = next.begin()->first;
   std::vector<int> boundary = {start};
@@ -366,7 +367,7 @@ ExpectedAngles expected_angles(const Embedding& triangles) {
       for (const int v : seam.left) expected.angle[surface_vertex(triangles, v)] = pi;
   if (!fixed_corners(triangles).empty()) {
     Offences ignored;  // held_sides_check tells of them
-    for (const auto& [from, to] : disk_boundary(triangles, ignored))
+    for (const auto& [from, to] : boundary_of_cut_mesh(triangles, ignored))
       expected.angle[surface_vertex(triangles, from)] = 0;
   }
   for (const ConeCopies& cone : triangles.cones) {
