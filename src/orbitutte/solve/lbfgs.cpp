@@ -17,8 +17,8 @@ template <typename Vector>
 using Vectors = std::vector<const Vector*>;
 
 // <v, a_i> for every i, summed in double precision.
-template <typename Vector>
-std::vector<double> inner_products(const Vectors<Vector>& vectors, const Points& a) {
+template <typename Vector, typename Other>
+std::vector<double> inner_products(const Vectors<Vector>& vectors, const Other& a) {
   constexpr int length = 2048;  // rows
   const int rows = static_cast<int>(a.rows()), ranges = (rows + length - 1) / length;
   std::vector<std::vector<double>> partial(ranges, std::vector<double>(vectors.size()));
@@ -28,7 +28,7 @@ std::vector<double> inner_products(const Vectors<Vector>& vectors, const Points&
       partial[r][k] = vectors[k]
                           ->middleRows(begin, count)
                           .template cast<double>()
-                          .cwiseProduct(a.middleRows(begin, count))
+                          .cwiseProduct(a.middleRows(begin, count).template cast<double>())
                           .sum();
   });
   std::vector<double> result(vectors.size(), 0.0);
@@ -43,23 +43,21 @@ double max_norm(const Points& a) {
   return parallel_max(static_cast<int>(a.rows()), [&](int v) { return a.row(v).cwiseAbs().maxCoeff(); });
 }
 
-Points difference(const Points& a, const Points& b) {
-  Points result(a.rows(), 3);
-  parallel_ranges(static_cast<int>(a.rows()), [&](int begin, int end) {
-    result.middleRows(begin, end - begin) =
-        a.middleRows(begin, end - begin) - b.middleRows(begin, end - begin);
-  });
-  return result;
+double max_difference(const Points& a, const Points& b) {
+  return parallel_max(static_cast<int>(a.rows()),
+                      [&](int v) { return (a.row(v) - b.row(v)).cwiseAbs().maxCoeff(); });
 }
 
 // What is remembered of a pair, in single precision: it shapes the direction in which a minimum is looked
 // for, not the minimum. This halves the memory of large meshes.
 using Remembered = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
-Remembered remembered(const Points& a) {
+// a - b.
+Remembered difference(const Points& a, const Points& b) {
   Remembered result(a.rows(), 3);
   parallel_ranges(static_cast<int>(a.rows()), [&](int begin, int end) {
-    result.middleRows(begin, end - begin) = a.middleRows(begin, end - begin).cast<float>();
+    result.middleRows(begin, end - begin) =
+        (a.middleRows(begin, end - begin) - b.middleRows(begin, end - begin)).cast<float>();
   });
   return result;
 }
@@ -104,9 +102,14 @@ class InverseHessian {
     return direction;
   }
 
+  struct Pair {
+    Remembered s, y, Py;  // step, difference of gradients, its image under the preconditioner
+  };
+
   // Keeps the pair unless its curvature is not positive.
-  void update(const Points& s, const Points& y, const Points& Py) {
-    pairs_.push_back({remembered(s), remembered(y), remembered(Py)});
+  void update(Pair newest) {
+    pairs_.push_back(std::move(newest));
+    const auto& [s, y, Py] = pairs_.back();
     Vectors<Remembered> all_s, all_y, all_images;
     for (const Pair& pair : pairs_) {
       all_s.push_back(&pair.s);
@@ -141,9 +144,6 @@ class InverseHessian {
   bool empty() const { return pairs_.empty(); }
 
  private:
-  struct Pair {
-    Remembered s, y, Py;  // step, difference of gradients, its image under the preconditioner
-  };
   using Table = std::deque<std::deque<double>>;
 
   void drop_oldest() {
@@ -263,11 +263,11 @@ Minimum minimize(const DirichletEnergy& energy, const LaplacianSolver& laplacian
       continue;
     }
     ++result.iterations;
-    const Points s = difference(next.x, state.x);
-    last_step = max_norm(s);
+    last_step = max_difference(next.x, state.x);
     Points next_preconditioned = laplacian.precondition(next.value.gradient);
-    inverse_hessian.update(s, difference(next.value.gradient, state.value.gradient),
-                           difference(next_preconditioned, preconditioned));
+    inverse_hessian.update({difference(next.x, state.x),
+                            difference(next.value.gradient, state.value.gradient),
+                            difference(next_preconditioned, preconditioned)});
     preconditioned = std::move(next_preconditioned);
     std::swap(state, next);
     record();
