@@ -160,6 +160,9 @@ class InverseHessian {
   Table sy_, ypy_;          // s_i' y_j, and y_i' P y_j
 };
 
+// Changes of the energy below this share of it are hidden by rounding.
+constexpr double energy_rounding = 1e-14;
+
 struct State {
   Points x;
   DirichletEnergy::Value value;
@@ -187,7 +190,6 @@ class LineSearch {
 
  private:
   static constexpr double armijo = 1e-4;
-  static constexpr double energy_rounding = 1e-14;
 
   static bool accept(const State& from, const State& to, const Points& direction, double t, double slope) {
     const double change = to.value.energy - from.value.energy;
@@ -212,6 +214,15 @@ bool gradient_vanishes(const Points& gradient, const Eigen::VectorXd& rounding_f
   return parallel_max(static_cast<int>(gradient.rows()), [&](int v) {
            return gradient.row(v).cwiseAbs().maxCoeff() / std::max(rounding_floor[v], tolerance);
          }) <= 1;
+}
+
+// Is the next step as short as asked? If weights are so large that some gradients are known less exactly than
+// asked, so are steps: there it is enough that the step promises less than the energy's rounding hides.
+bool step_vanishes(const State& state, const Points& direction, const Eigen::VectorXd& rounding_floor,
+                   double tolerance) {
+  if (max_norm(direction) <= std::max(tolerance, 1e-12)) return true;
+  return rounding_floor.maxCoeff() > tolerance &&
+         std::abs(dot(state.value.gradient, direction)) <= energy_rounding * state.value.energy;
 }
 
 void check(const LbfgsOptions& options) {
@@ -241,9 +252,8 @@ Minimum minimize(const DirichletEnergy& energy, const LaplacianSolver& laplacian
   for (;;) {
     Points direction = inverse_hessian.descent(state.value.gradient, preconditioned);
     energy.make_feasible(direction);  // but for the single precision of what is remembered, it is
-    const double step_tolerance = std::max(options.tolerance, 1e-12);
     if (gradient_vanishes(state.value.gradient, energy.rounding_floor(), options.tolerance) &&
-        max_norm(direction) <= step_tolerance) {
+        step_vanishes(state, direction, energy.rounding_floor(), options.tolerance)) {
       result.termination = Termination::converged;
       break;
     }
