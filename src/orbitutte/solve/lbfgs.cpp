@@ -216,13 +216,10 @@ bool gradient_vanishes(const Points& gradient, const Eigen::VectorXd& rounding_f
          }) <= 1;
 }
 
-// Is the next step as short as asked? If weights are so large that some gradients are known less exactly than
-// asked, so are steps: there it is enough that the step promises less than the energy's rounding hides.
-bool step_vanishes(const State& state, const Points& direction, const Eigen::VectorXd& rounding_floor,
-                   double tolerance) {
-  if (max_norm(direction) <= std::max(tolerance, 1e-12)) return true;
-  return rounding_floor.maxCoeff() > tolerance &&
-         std::abs(dot(state.value.gradient, direction)) <= energy_rounding * state.value.energy;
+// Does rounding hide this change of the energy, and are weights so large that some gradients are known less
+// exactly than asked? Differences of gradients and steps are nothing but rounding then.
+bool is_noise(double change, const State& state, const Eigen::VectorXd& rounding_floor, double tolerance) {
+  return rounding_floor.maxCoeff() > tolerance && std::abs(change) <= energy_rounding * state.value.energy;
 }
 
 void check(const LbfgsOptions& options) {
@@ -252,8 +249,11 @@ Minimum minimize(const DirichletEnergy& energy, const LaplacianSolver& laplacian
   for (;;) {
     Points direction = inverse_hessian.descent(state.value.gradient, preconditioned);
     energy.make_feasible(direction);  // but for the single precision of what is remembered, it is
+    const double step_tolerance = std::max(options.tolerance, 1e-12);
+    const double promised = dot(state.value.gradient, direction);
     if (gradient_vanishes(state.value.gradient, energy.rounding_floor(), options.tolerance) &&
-        step_vanishes(state, direction, energy.rounding_floor(), options.tolerance)) {
+        (max_norm(direction) <= step_tolerance ||
+         is_noise(promised, state, energy.rounding_floor(), options.tolerance))) {
       result.termination = Termination::converged;
       break;
     }
@@ -275,9 +275,13 @@ Minimum minimize(const DirichletEnergy& energy, const LaplacianSolver& laplacian
     ++result.iterations;
     last_step = max_difference(next.x, state.x);
     Points next_preconditioned = laplacian.precondition(next.value.gradient);
-    inverse_hessian.update({difference(next.x, state.x),
-                            difference(next.value.gradient, state.value.gradient),
-                            difference(next_preconditioned, preconditioned)});
+    const double change = next.value.energy - state.value.energy;
+    if (is_noise(change, state, energy.rounding_floor(), options.tolerance))
+      inverse_hessian.forget();
+    else
+      inverse_hessian.update({difference(next.x, state.x),
+                              difference(next.value.gradient, state.value.gradient),
+                              difference(next_preconditioned, preconditioned)});
     preconditioned = std::move(next_preconditioned);
     std::swap(state, next);
     record();
