@@ -5,6 +5,6 @@
 
 int main(int argc, char** argv) {
   orbitutte::cli::occupy_closed_streams();
-  orbitutte::keep_freed_memory();
+  orbitutte::use_huge_pages();
   return orbitutte::cli::run_command_line(argc, argv);
 }

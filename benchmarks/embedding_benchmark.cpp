@@ -142,7 +142,7 @@ nlohmann::json run_again(const Arguments& arguments, const Input& input) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  orbitutte::keep_freed_memory();
+  orbitutte::use_huge_pages();
   Arguments arguments;
   CLI::App app{"Times embeddings beside T0, one factorisation of the mesh's Laplacian by CHOLMOD"};
   app.add_option("mesh", arguments.mesh, "figure:FACES, mask:FACES, or a mesh file")->required();

@@ -20,7 +20,7 @@ STAGES = ("validate", "weights", "cut", "factorize", "initialize", "optimize", "
 CALL = """
 import json, sys, time
 import numpy, orbitutte
-orbitutte.keep_freed_memory()  # as the command line does
+orbitutte.use_huge_pages()  # as the command line does
 V, F = orbitutte.read_mesh(sys.argv[1])
 V, F = V.copy(), F.astype(numpy.int64)  # NumPy's default integers, which have to be converted
 start = time.perf_counter()

@@ -546,7 +546,8 @@ TEST_P(FlippedEdges, PreconditionerInvertsTwiceTheirLaplacian) {
     const Room& room = c->boundary.basis(static_cast<int>(v));
     Lx.row(v) = room * (room.transpose() * Vector3(Lx.row(v)));
   }
-  EXPECT_LT((laplacian.precondition(Lx) - x).cwiseAbs().maxCoeff(), 1e-9);
+  // The factor is in single precision.
+  EXPECT_LT((laplacian.precondition(Lx) - x).cwiseAbs().maxCoeff(), 1e-5);
 }
 
 // --- embeddings, certificate

@@ -23,7 +23,7 @@ sample_mesh(shape, faces) -> (V, F)     a mesh to try things with
 read_mesh(path) -> (V, F)               OBJ, OFF, PLY and STL
 write_mesh(path, V, F)
 build() -> dict                         version, commit, linear algebra
-keep_freed_memory()                     for programs that embed many large meshes
+keep_freed_memory(), use_huge_pages()   for programs that embed many large meshes
 Embedding                               positions, faces, source_vertex, seams, group, energy, certificate, ...;
     map_points(triangle, barycentric[, copy])      points of the surface to the sphere
     locate(points) -> (triangle, barycentric, copy)    and back, from anywhere on the tiled sphere
@@ -41,8 +41,8 @@ except ImportError as error:
                       "PYTHONPATH=build/python finds it; it belongs to the Python that it was built for") from error
 
 from ._api import (
-    Solver, Tiling, build, choose, choose_cones, distortion, distortion_floor, embed, families, info, keep_freed_memory, read_mesh, sample_mesh, signatures, tile, verify,
-    write_mesh,
+    Solver, Tiling, build, choose, choose_cones, distortion, distortion_floor, embed, families, info, keep_freed_memory, read_mesh, sample_mesh, signatures, tile,
+    use_huge_pages, verify, write_mesh,
 )
 from ._embedding import Cone, EdgeWeights, Embedding, Location, Offsets, Seam
 from ._orbitutte import __version__
@@ -51,5 +51,6 @@ from .errors import ArgumentError, Cancelled, EmbeddingWarning, Error, FileError
 __all__ = [
     "ArgumentError", "Cancelled", "Cone", "EdgeWeights", "Embedding", "EmbeddingWarning", "Error", "FileError",
     "Location", "MeshError", "MeshWarning", "Offsets", "Seam", "Solver", "Tiling", "__version__", "build", "choose", "choose_cones", "distortion",
-    "distortion_floor", "embed", "families", "info", "keep_freed_memory", "read_mesh", "sample_mesh", "signatures", "tile", "verify", "write_mesh",
+    "distortion_floor", "embed", "families", "info", "keep_freed_memory", "read_mesh", "sample_mesh", "signatures", "tile",
+    "use_huge_pages", "verify", "write_mesh",
 ]

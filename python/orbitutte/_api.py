@@ -286,9 +286,17 @@ def build() -> dict[str, str]:
 def keep_freed_memory() -> None:
     """Make this process keep memory that is freed, until its end, instead of giving it back to the operating system.
 
-    This makes many embeddings of large meshes up to a third faster; the command line does it, too. Nothing changes if malloc is not glibc's.
+    This makes many embeddings of large meshes up to a third faster. Nothing changes if malloc is not glibc's.
     """
     _orbitutte.keep_freed_memory()
+
+
+def use_huge_pages() -> None:
+    """Do what `keep_freed_memory` does, and ask Linux to back the heap of this process by huge pages; the command line does it, too.
+
+    Call it once, before threads are started: from then on they all share one heap. Nothing changes if malloc is not glibc's.
+    """
+    _orbitutte.use_huge_pages()
 
 
 def read_mesh(path: str | os.PathLike) -> tuple[npt.NDArray[np.float64], _arrays.Faces]:

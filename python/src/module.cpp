@@ -25,6 +25,7 @@ PYBIND11_MODULE(_orbitutte, module) {
   module.attr("__version__") = version;
   module.def("build", build);
   module.def("keep_freed_memory", keep_freed_memory);
+  module.def("use_huge_pages", use_huge_pages);
   python::bind_errors(module);
   python::bind_mesh(module);
   python::bind_orbifold(module);

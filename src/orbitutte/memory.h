@@ -10,4 +10,9 @@ namespace orbitutte {
 /// ends, so the library never calls this; a program may call it in its main.
 void keep_freed_memory();
 
+/// Does the same, and asks Linux to back glibc's heap by huge pages, which most systems give only to those
+/// who ask: pages are touched for the first time 512 at a time. For a program to call in its main, before it
+/// starts threads: they all share the one heap from then on.
+void use_huge_pages();
+
 }  // namespace orbitutte

@@ -70,6 +70,16 @@ void parallel_ranges(int count, const Body& body) {
   });
 }
 
+/// Calls body(begin, end) for one range of 0 .. count - 1 a thread: for bodies that read everything and write
+/// what belongs to their range. What they write must not depend on the ranges.
+template <typename Body>
+void parallel_parts(int count, const Body& body) {
+  constexpr int shortest = 10000;
+  const int parts = std::max(1, std::min(thread_count(), count / shortest));
+  const auto bound = [&](int part) { return static_cast<int>(static_cast<long long>(count) * part / parts); };
+  parallel_for(parts, [&](int part) { body(bound(part), bound(part + 1)); });
+}
+
 /// The sum of term(i) over i = 0 .. count - 1: the same bits whatever the number of threads.
 template <typename Term>
 double parallel_sum(int count, const Term& term) {
@@ -83,6 +93,20 @@ double parallel_sum(int count, const Term& term) {
   double total = 0;
   for (const double sum : partial) total += sum;
   return total;
+}
+
+/// The i in 0 .. count - 1 that are chosen, ascending.
+template <typename IsChosen>
+std::vector<int> parallel_select(int count, const IsChosen& is_chosen) {
+  constexpr int length = 8192;
+  std::vector<std::vector<int>> chosen((count + length - 1) / length);
+  parallel_for(static_cast<int>(chosen.size()), [&](int r) {
+    for (int i = r * length, end = std::min(count - i, length) + i; i < end; ++i)
+      if (is_chosen(i)) chosen[r].push_back(i);
+  });
+  std::vector<int> result;
+  for (const std::vector<int>& some : chosen) result.insert(result.end(), some.begin(), some.end());
+  return result;
 }
 
 /// The largest term(i) over i = 0 .. count - 1, or 0 if all are negative; NaN is ignored.

@@ -7,12 +7,12 @@
 #include <cholmod.h>
 #include <dlfcn.h>
 
-#include <algorithm>
 #include <new>
 #include <numeric>
 #include <vector>
 
 #include "orbitutte/linear/dense_factor.h"
+#include "orbitutte/linear/multifrontal.h"
 
 namespace orbitutte {
 namespace {
@@ -66,11 +66,11 @@ cholmod_sparse sparse_view(const SparseMatrix& lower) {
   return view;
 }
 
-class CholmodFactor : public SparseFactor {
+// A matrix's supernodes in the given order, but for a postorder. The trailing rows stay where they are.
+class Analysis {
  public:
-  CholmodFactor(const SparseMatrix& lower, long trailing) : trailing_(trailing) {
+  Analysis(const SparseMatrix& lower, long trailing) {
     use_one_blas_thread();
-    const SerialRegions serial;
     cholmod_l_start(&common_);
     common_.print = 0;
     common_.error_handler = nullptr;
@@ -78,105 +78,46 @@ class CholmodFactor : public SparseFactor {
     common_.method[0].ordering = CHOLMOD_GIVEN;
     common_.postorder = 0;
     common_.supernodal = CHOLMOD_SUPERNODAL;
+    order_ = postorder(lower, lower.rows() - trailing);
     cholmod_sparse A = sparse_view(lower);
-    order_ = postorder(lower);
-    factor_ = cholmod_l_analyze_p(&A, order_.data(), nullptr, 0, &common_);
-    if (factor_) cholmod_l_factorize(&A, factor_, &common_);
-    if (common_.status != CHOLMOD_OK) fail();
-    for (std::size_t k = 0; k < factor_->nsuper; ++k) max_rows_ = std::max(max_rows_, supernode(k).L.rows);
+    if (!order_.empty() || lower.rows() == 0)
+      factor_ = cholmod_l_analyze_p(&A, order_.data(), nullptr, 0, &common_);
+    if (factor_) return;
+    release();
+    throw std::bad_alloc();
   }
 
-  ~CholmodFactor() override { release(); }
-  CholmodFactor(const CholmodFactor&) = delete;
-  CholmodFactor& operator=(const CholmodFactor&) = delete;
+  ~Analysis() { release(); }
+  Analysis(const Analysis&) = delete;
+  Analysis& operator=(const Analysis&) = delete;
 
-  Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const override {
-    cholmod_dense b = dense_view(B);
-    cholmod_dense* x = cholmod_l_solve(CHOLMOD_A, factor_, &b, &common_);
-    if (!x) throw std::bad_alloc();
-    Eigen::MatrixXd X = Eigen::Map<Eigen::MatrixXd>(static_cast<double*>(x->x), B.rows(), B.cols());
-    cholmod_l_free_dense(&x, &common_);
-    return X;
+  SupernodePattern pattern() const {
+    const std::size_t count = factor_->nsuper + 1;
+    return {std::vector<int>(order_.begin(), order_.end()),
+            {static_cast<const long*>(factor_->super), count},
+            {static_cast<const long*>(factor_->pi), count},
+            {static_cast<const long*>(factor_->s), factor_->ssize}};
   }
 
-  void forward(Points& y) const override {
-    Points permuted(y.rows(), 3);
-    for (Eigen::Index k = 0; k < y.rows(); ++k) permuted.row(k) = y.row(order_[k]);
-    y.swap(permuted);
-    std::vector<double> pull(3 * max_rows_);
-    for (std::size_t k = 0; k < factor_->nsuper; ++k) {
-      const Supernode s = leading_part(k);
-      orbitutte::forward(s.L, y.data() + 3 * s.first, pull.data());
-      for (long r = 0, border = s.L.border(); r < border; ++r)
-        for (int c = 0; c < 3; ++c) y(s.row[s.L.columns + r], c) -= pull[r + c * border];
-    }
-  }
-
-  void backward(Points& y) const override {
-    std::vector<double> x(3 * max_rows_);
-    for (std::size_t k = factor_->nsuper; k-- > 0;) {
-      const Supernode s = leading_part(k);
-      for (long r = 0, border = s.L.border(); r < border; ++r)
-        for (int c = 0; c < 3; ++c) x[r + c * border] = y(s.row[s.L.columns + r], c);
-      orbitutte::backward(s.L, y.data() + 3 * s.first, x.data());
-    }
-    Points permuted(y.rows(), 3);
-    for (Eigen::Index k = 0; k < y.rows(); ++k) permuted.row(order_[k]) = y.row(k);
-    y.swap(permuted);
-  }
-
-  Eigen::MatrixXd schur_complement() const override {
-    const long leading = static_cast<long>(factor_->n) - trailing_;
-    Eigen::MatrixXd S = Eigen::MatrixXd::Zero(trailing_, trailing_);
-    for (std::size_t k = 0; k < factor_->nsuper; ++k) {
-      const Supernode s = supernode(k);
-      for (long j = std::max(0L, leading - s.first); j < s.L.columns; ++j)
-        for (long r = j; r < s.L.rows; ++r)
-          S(s.row[r] - leading, s.first + j - leading) = s.L.values[r + j * s.L.stride];
-    }
-    multiply_by_transpose(S);
-    return S;
-  }
+  // Row k of the factor is row order()[k] of the matrix.
+  const std::vector<long>& order() const { return order_; }
+  cholmod_factor* factor() const { return factor_; }
+  cholmod_common* common() const { return &common_; }
 
  private:
-  // Consecutive columns with the same rows below them.
-  struct Supernode {
-    long first;       // the first column
-    const long* row;  // the row of L in which each stored row lies
-    DenseColumns L;
-  };
-
-  Supernode supernode(std::size_t k) const {
-    const auto* super = static_cast<const long*>(factor_->super);
-    const auto* row_start = static_cast<const long*>(factor_->pi);
-    const auto* value_start = static_cast<const long*>(factor_->px);
-    const long rows = row_start[k + 1] - row_start[k];
-    return {super[k],
-            static_cast<const long*>(factor_->s) + row_start[k],
-            {static_cast<const double*>(factor_->x) + value_start[k], rows, super[k + 1] - super[k], rows}};
-  }
-
-  // The columns of a supernode that are not trailing.
-  Supernode leading_part(std::size_t k) const {
-    Supernode s = supernode(k);
-    s.L.columns = std::clamp(static_cast<long>(factor_->n) - trailing_ - s.first, 0L, s.L.columns);
-    return s;
-  }
-
-  // The order of A's rows in the factor: a postorder of the leading part's elimination tree, as supernodes
-  // require; the trailing rows keep their order.
-  std::vector<long> postorder(const SparseMatrix& lower) {
-    const long leading = lower.rows() - trailing_;
+  // A postorder of the leading part's elimination tree, as supernodes require; empty if memory does not
+  // suffice.
+  std::vector<long> postorder(const SparseMatrix& lower, long leading) {
     std::vector<long> order(lower.rows());
     std::iota(order.begin(), order.end(), 0L);
     SparseMatrix upper = SparseMatrix(lower.topLeftCorner(leading, leading)).transpose();
     cholmod_sparse view = sparse_view(upper);
     view.stype = 1;
     std::vector<long> parent(leading + 1);
-    if (!cholmod_l_etree(&view, parent.data(), &common_) ||
-        cholmod_l_postorder(parent.data(), leading, nullptr, order.data(), &common_) != leading)
-      fail();
-    return order;
+    const bool is_done =
+        cholmod_l_etree(&view, parent.data(), &common_) &&
+        cholmod_l_postorder(parent.data(), leading, nullptr, order.data(), &common_) == leading;
+    return is_done ? order : std::vector<long>();
   }
 
   void release() {
@@ -184,25 +125,44 @@ class CholmodFactor : public SparseFactor {
     cholmod_l_finish(&common_);
   }
 
-  [[noreturn]] void fail() {
-    const int status = common_.status;
-    const long column = factor_ && status == CHOLMOD_NOT_POSDEF ? order_[factor_->minor] : -1;
-    release();
-    if (status == CHOLMOD_NOT_POSDEF) throw NotPositiveDefinite(column);
-    throw std::bad_alloc();
-  }
-
   mutable cholmod_common common_;
   cholmod_factor* factor_ = nullptr;
-  long trailing_;
-  long max_rows_ = 0;
-  std::vector<long> order_;  // row k of the factor is row order_[k] of A
+  std::vector<long> order_;
+};
+
+class CholmodFactor : public SparseFactor {
+ public:
+  explicit CholmodFactor(const SparseMatrix& lower) : analysis_(lower, 0) {
+    const SerialRegions serial;
+    cholmod_sparse A = sparse_view(lower);
+    cholmod_l_factorize(&A, analysis_.factor(), analysis_.common());
+    const int status = analysis_.common()->status;
+    if (status == CHOLMOD_NOT_POSDEF) throw NotPositiveDefinite(analysis_.order()[analysis_.factor()->minor]);
+    if (status != CHOLMOD_OK) throw std::bad_alloc();
+  }
+
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const override {
+    cholmod_dense b = dense_view(B);
+    cholmod_dense* x = cholmod_l_solve(CHOLMOD_A, analysis_.factor(), &b, analysis_.common());
+    if (!x) throw std::bad_alloc();
+    Eigen::MatrixXd X = Eigen::Map<Eigen::MatrixXd>(static_cast<double*>(x->x), B.rows(), B.cols());
+    cholmod_l_free_dense(&x, analysis_.common());
+    return X;
+  }
+
+ private:
+  Analysis analysis_;
 };
 
 }  // namespace
 
-std::unique_ptr<SparseFactor> cholmod_factorize(const SparseMatrix& lower, long trailing) {
-  return std::make_unique<CholmodFactor>(lower, trailing);
+std::unique_ptr<SparseFactor> cholmod_factorize(const SparseMatrix& lower) {
+  return std::make_unique<CholmodFactor>(lower);
+}
+
+Elimination cholmod_eliminate(const SparseMatrix& lower, long trailing) {
+  const Analysis analysis(lower, trailing);
+  return eliminate_along(analysis.pattern(), lower, trailing);
 }
 
 }  // namespace orbitutte

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// CHOLMOD behind SparseFactor. Private to linear/ and solve/; its supernodal module is GPL.
+// CHOLMOD behind sparse_factor.h. Private to linear/ and solve/; its supernodal module is GPL.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,8 @@
 namespace orbitutte {
 
 #ifdef ORBITUTTE_HAS_CHOLMOD
-std::unique_ptr<SparseFactor> cholmod_factorize(const SparseMatrix& lower, long trailing);
+std::unique_ptr<SparseFactor> cholmod_factorize(const SparseMatrix& lower);
+Elimination cholmod_eliminate(const SparseMatrix& lower, long trailing);
 #endif
 
 }  // namespace orbitutte

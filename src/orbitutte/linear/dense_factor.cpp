@@ -37,16 +37,16 @@ std::vector<Range> tiles(Eigen::Index begin, Eigen::Index end) {
 
 // pull += L_BO y for up to four columns of L at a time, so that pull is read and written less often.
 template <int columns>
-void add_columns(const DenseColumns& L, long first, const double* y, double* pull) {
-  const double* column[columns];
+void add_columns(const DenseColumns& L, long first, const float* y, float* pull) {
+  const float* column[columns];
   for (int j = 0; j < columns; ++j) column[j] = L.values + L.columns + (first + j) * L.stride;
   const long border = L.border();
   for (int c = 0; c < 3; ++c) {
-    double factor[columns];
+    float factor[columns];
     for (int j = 0; j < columns; ++j) factor[j] = y[3 * (first + j) + c];
-    double* __restrict target = pull + c * border;
+    float* __restrict target = pull + c * border;
     for (long i = 0; i < border; ++i) {
-      double sum = target[i];
+      float sum = target[i];
       for (int j = 0; j < columns; ++j) sum += column[j][i] * factor[j];
       target[i] = sum;
     }
@@ -107,26 +107,26 @@ void multiply_by_transpose(Eigen::MatrixXd& L) {
   L = std::move(product);
 }
 
-void forward(const DenseColumns& L, double* y, double* pull) {
+void forward(const DenseColumns& L, float* y, float* pull) {
   for (long j = 0; j < L.columns; ++j) {
-    const double* column = L.values + j * L.stride;
-    double* here = y + 3 * j;
+    const float* column = L.values + j * L.stride;
+    float* here = y + 3 * j;
     for (int c = 0; c < 3; ++c) here[c] /= column[j];
     for (long i = j + 1; i < L.columns; ++i)
       for (int c = 0; c < 3; ++c) y[3 * i + c] -= column[i] * here[c];
   }
-  std::fill(pull, pull + 3 * L.border(), 0.0);
+  std::fill(pull, pull + 3 * L.border(), 0.0F);
   long j = 0;
   for (; j + 4 <= L.columns; j += 4) add_columns<4>(L, j, y, pull);
   for (; j < L.columns; ++j) add_columns<1>(L, j, y, pull);
 }
 
-void backward(const DenseColumns& L, double* y, const double* x) {
-  using Column = Eigen::Map<const Eigen::VectorXd>;
+void backward(const DenseColumns& L, float* y, const float* x) {
+  using Column = Eigen::Map<const Eigen::VectorXf>;
   const long border = L.border();
   for (long j = L.columns; j-- > 0;) {
-    const double* column = L.values + j * L.stride;
-    double* here = y + 3 * j;
+    const float* column = L.values + j * L.stride;
+    float* here = y + 3 * j;
     const Column below(column + L.columns, border);
     for (int c = 0; c < 3; ++c) here[c] -= below.dot(Column(x + c * border, border));
     for (long i = j + 1; i < L.columns; ++i)

@@ -6,6 +6,10 @@
 
 namespace orbitutte {
 
+/// n x 3, right-hand sides or solutions. Solves run in single precision: they shape steps and starts, whose
+/// errors the optimiser's gradient, which is in double precision, tells it to remove.
+using SinglePoints = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
 /// A matrix that is zero in its lower triangle and undefined above.
 Eigen::MatrixXd zero_lower_triangle(Eigen::Index n);
 
@@ -22,7 +26,7 @@ void multiply_by_transpose(Eigen::MatrixXd& L);
 /// of their border.
 struct DenseColumns {
   /// rows x columns, column by column.
-  const double* values;
+  const float* values;
   long rows, columns, stride;
 
   long border() const { return rows - columns; }
@@ -30,10 +34,10 @@ struct DenseColumns {
 
 /// y <- L_OO^-1 y, then pull = L_BO y, where L_OO is the columns' own block and L_BO their border's. y:
 /// columns x 3, row by row; pull: border x 3, column by column.
-void forward(const DenseColumns& L, double* y, double* pull);
+void forward(const DenseColumns& L, float* y, float* pull);
 
 /// y <- L_OO^-T (y - L_BO' x). y: columns x 3, row by row; x: border x 3, column by column.
-void backward(const DenseColumns& L, double* y, const double* x);
+void backward(const DenseColumns& L, float* y, const float* x);
 
 /// Makes BLAS calls run on the calling thread: two BLAS threads gain little on small fronts and lose much on
 /// a busy machine.

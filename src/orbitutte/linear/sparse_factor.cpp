@@ -4,6 +4,9 @@
 #include <dlfcn.h>
 
 #include <Eigen/SparseCholesky>
+#include <numeric>
+#include <utility>
+#include <vector>
 
 #include "orbitutte/linear/cholmod_factor.h"
 #include "orbitutte/linear/dense_factor.h"
@@ -11,46 +14,35 @@
 namespace orbitutte {
 namespace {
 
+using EigenCholesky =
+    Eigen::SimplicialLLT<SparseMatrix, Eigen::Lower, Eigen::NaturalOrdering<SparseMatrix::StorageIndex>>;
+
 class EigenFactor : public SparseFactor {
  public:
-  EigenFactor(const SparseMatrix& lower, long trailing) : factor_(lower), trailing_(trailing) {
+  explicit EigenFactor(const SparseMatrix& lower) : factor_(lower) {
     if (factor_.info() != Eigen::Success) throw NotPositiveDefinite(-1);
   }
 
   Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const override { return factor_.solve(B); }
 
-  void forward(Points& y) const override {
-    const SparseMatrix& L = factor_.matrixL().nestedExpression();
-    for (long column = 0; column < y.rows() - trailing_; ++column) {
-      SparseMatrix::InnerIterator entry(L, column);
-      const Eigen::RowVector3d here = y.row(column) /= entry.value();
-      for (++entry; entry; ++entry) y.row(entry.row()) -= entry.value() * here;
-    }
-  }
-
-  void backward(Points& y) const override {
-    const SparseMatrix& L = factor_.matrixL().nestedExpression();
-    for (long column = y.rows() - trailing_; column-- > 0;) {
-      SparseMatrix::InnerIterator entry(L, column);
-      const double diagonal = entry.value();
-      Eigen::RowVector3d here = y.row(column);
-      for (++entry; entry; ++entry) here -= entry.value() * y.row(entry.row());
-      y.row(column) = here / diagonal;
-    }
-  }
-
-  Eigen::MatrixXd schur_complement() const override {
-    const SparseMatrix& L = factor_.matrixL().nestedExpression();
-    Eigen::MatrixXd S = L.bottomRightCorner(trailing_, trailing_);
-    multiply_by_transpose(S);
-    return S;
-  }
-
  private:
-  Eigen::SimplicialLLT<SparseMatrix, Eigen::Lower, Eigen::NaturalOrdering<SparseMatrix::StorageIndex>>
-      factor_;
-  long trailing_;
+  EigenCholesky factor_;
 };
+
+Elimination eigen_eliminate(const SparseMatrix& lower, long trailing) {
+  const EigenCholesky cholesky(lower);
+  if (cholesky.info() != Eigen::Success) throw NotPositiveDefinite(-1);
+  const SparseMatrix& L = cholesky.matrixL().nestedExpression();
+  std::vector<int> order(L.rows());
+  std::iota(order.begin(), order.end(), 0);
+  Elimination result = {LeadingFactor(std::move(order)), L.bottomRightCorner(trailing, trailing)};
+  multiply_by_transpose(result.schur_complement);
+  for (long column = 0; column < L.cols() - trailing; ++column) {
+    const long begin = L.outerIndexPtr()[column], end = L.outerIndexPtr()[column + 1];
+    result.factor.append({L.innerIndexPtr() + begin, L.valuePtr() + begin, end - begin, 1});
+  }
+  return result;
+}
 
 }  // namespace
 
@@ -76,13 +68,26 @@ std::string blas_description() {
   return describe ? describe() : "unknown";
 }
 
-std::unique_ptr<SparseFactor> factorize(const SparseMatrix& lower, Backend backend, long trailing) {
-  if (backend == Backend::eigen) return std::make_unique<EigenFactor>(lower, trailing);
-#ifdef ORBITUTTE_HAS_CHOLMOD
-  return cholmod_factorize(lower, trailing);
-#else
+#ifndef ORBITUTTE_HAS_CHOLMOD
+namespace {
+
+// What stands for CHOLMOD where it was not built in.
+[[noreturn]] void refuse_cholmod() {
   throw ArgumentError("this binary was built without CHOLMOD; its linear solver is Eigen's");
+}
+std::unique_ptr<SparseFactor> cholmod_factorize(const SparseMatrix&) { refuse_cholmod(); }
+Elimination cholmod_eliminate(const SparseMatrix&, long) { refuse_cholmod(); }
+
+}  // namespace
 #endif
+
+std::unique_ptr<SparseFactor> factorize(const SparseMatrix& lower, Backend backend) {
+  if (backend == Backend::eigen) return std::make_unique<EigenFactor>(lower);
+  return cholmod_factorize(lower);
+}
+
+Elimination eliminate(const SparseMatrix& lower, Backend backend, long trailing) {
+  return backend == Backend::eigen ? eigen_eliminate(lower, trailing) : cholmod_eliminate(lower, trailing);
 }
 
 }  // namespace orbitutte

@@ -5,6 +5,7 @@
 #include <Eigen/SparseCore>
 #include <memory>
 
+#include "orbitutte/linear/leading_factor.h"
 #include "orbitutte/options.h"
 #include "orbitutte/types.h"
 
@@ -24,30 +25,28 @@ class NotPositiveDefinite : public Error {
   long column;
 };
 
-/// The factor of A = [A_LL, A_TL'; A_TL, A_TT], where T are the trailing rows (none by default): A_LL = L_LL
-/// L_LL' and L_TL = A_TL L_LL^-T.
+/// The factor of a matrix A, in double precision.
 class SparseFactor {
  public:
   virtual ~SparseFactor() = default;
 
   /// Returns X with A X = B, for all columns of B (n x k).
   virtual Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const = 0;
-
-  /// y_L <- L_LL^-1 y_L, y_T <- y_T - L_TL y_L (n x 3). Leaves the leading rows in the factor's own order,
-  /// which `backward` expects.
-  virtual void forward(Points& y) const = 0;
-
-  /// y_L <- L_LL^-T (y_L - L_TL' y_T) (n x 3). Takes the leading rows in the factor's order and returns them
-  /// in A's.
-  virtual void backward(Points& y) const = 0;
-
-  /// The lower triangle of A_TT - L_TL L_TL'.
-  virtual Eigen::MatrixXd schur_complement() const = 0;
 };
 
 /// Factorises a symmetric positive definite matrix, given by its lower triangle. Its rows and columns must
-/// already be in an order that keeps L sparse (`dissect`). The last `trailing` rows and columns stay last.
-/// Throws NotPositiveDefinite, and ArgumentError if the backend is not in this binary.
-std::unique_ptr<SparseFactor> factorize(const SparseMatrix& lower, Backend backend, long trailing = 0);
+/// already be in an order that keeps L sparse (`dissect`). Throws NotPositiveDefinite, and ArgumentError if
+/// the backend is not in this binary.
+std::unique_ptr<SparseFactor> factorize(const SparseMatrix& lower, Backend backend);
+
+/// What is left of A = [A_LL, A_TL'; A_TL, A_TT], where T are the trailing rows, once L is eliminated.
+struct Elimination {
+  LeadingFactor factor;
+  /// The lower triangle of A_TT - L_TL L_TL', in double precision.
+  Eigen::MatrixXd schur_complement;
+};
+
+/// Eliminates all but the last `trailing` rows and columns; otherwise as `factorize`.
+Elimination eliminate(const SparseMatrix& lower, Backend backend, long trailing);
 
 }  // namespace orbitutte

@@ -16,9 +16,9 @@ struct Substructure::Piece {
   std::vector<int> children;  // indices of pieces
   // Without children: the matrix that is factorised, and its factor.
   SparseMatrix equations;
-  std::shared_ptr<const SparseFactor> sparse;
+  std::shared_ptr<const Elimination> sparse;
   // With children: the block's columns of L, with the border's rows below.
-  Eigen::MatrixXd front;
+  Eigen::MatrixXf front;
   // The last rows and columns are what the elimination adds to K on the border. Empty once the parent has
   // taken them.
   Eigen::MatrixXd update;
@@ -37,7 +37,7 @@ struct Substructure::Piece {
 
 namespace {
 
-using Border = Eigen::Matrix<double, Eigen::Dynamic, 3>;
+using Border = Eigen::Matrix<float, Eigen::Dynamic, 3>;
 
 void sort_uniquely(std::vector<long>& numbers) {
   std::sort(numbers.begin(), numbers.end());
@@ -91,13 +91,13 @@ void factorize_sparse(const SparseMatrix& lower, Backend backend, const Piece* e
     piece.sparse = earlier->sparse;
   } else {
     try {
-      piece.sparse = factorize(piece.equations, backend, border);
+      piece.sparse = std::make_shared<Elimination>(eliminate(piece.equations, backend, border));
     } catch (const NotPositiveDefinite& error) {
       throw NotPositiveDefinite(error.column < 0 ? -1
                                                  : piece.begin + std::min(error.column, piece.own() - 1));
     }
   }
-  piece.update = piece.sparse->schur_complement();
+  piece.update = piece.sparse->schur_complement;
   for (long k = 0; k < border; ++k)
     piece.update(k, k) -= piece.equations.valuePtr()[piece.equations.outerIndexPtr()[piece.own() + k]];
 }
@@ -131,7 +131,7 @@ void factorize_dense(const SparseMatrix& lower, std::vector<Piece>& pieces, Piec
   } catch (const NotPositiveDefinite& error) {
     throw NotPositiveDefinite(piece.begin + error.column);
   }
-  piece.front = A.leftCols(piece.own());
+  piece.front = A.leftCols(piece.own()).template cast<float>();
   piece.update = std::move(A);
 }
 
@@ -193,9 +193,9 @@ void Substructure::release_what_solving_does_not_need() {
 Substructure::~Substructure() = default;
 Substructure::Substructure(Substructure&&) noexcept = default;
 
-void Substructure::forward(Points& y) const {
-  std::vector<Points> pull(pieces_.size());  // what each piece adds to y on its border
-  const auto take = [&](const Piece& piece, Points& local) {
+void Substructure::forward(SinglePoints& y) const {
+  std::vector<SinglePoints> pull(pieces_.size());  // what each piece adds to y on its border
+  const auto take = [&](const Piece& piece, SinglePoints& local) {
     for (const int child : piece.children) {
       const std::vector<long>& border = pieces_[child].border;
       for (std::size_t k = 0; k < border.size(); ++k)
@@ -206,11 +206,11 @@ void Substructure::forward(Points& y) const {
   for (const std::vector<int>& level : by_depth_) {
     parallel_for(static_cast<int>(level.size()), [&](int k) {
       const Piece& piece = pieces_[level[k]];
-      Points local = Points::Zero(piece.size(), 3);
+      SinglePoints local = SinglePoints::Zero(piece.size(), 3);
       local.topRows(piece.own()) = y.middleRows(piece.begin, piece.own());
       take(piece, local);
       if (piece.sparse) {
-        piece.sparse->forward(local);
+        piece.sparse->factor.forward(local);
       } else if (piece.own() > 0) {
         Border change(piece.size() - piece.own(), 3);
         orbitutte::forward(piece.dense(), local.data(), change.data());
@@ -225,17 +225,17 @@ void Substructure::forward(Points& y) const {
   for (std::size_t k = 0; k < border.size(); ++k) y.row(border[k]) += pull.back().row(static_cast<long>(k));
 }
 
-void Substructure::backward(Points& y) const {
+void Substructure::backward(SinglePoints& y) const {
   for (auto level = by_depth_.rbegin(); level != by_depth_.rend(); ++level) {
     parallel_for(static_cast<int>(level->size()), [&](int k) {
       const Piece& piece = pieces_[(*level)[k]];
       if (piece.own() == 0) return;
-      Points local(piece.size(), 3);
+      SinglePoints local(piece.size(), 3);
       local.topRows(piece.own()) = y.middleRows(piece.begin, piece.own());
       for (std::size_t b = 0; b < piece.border.size(); ++b)
         local.row(piece.own() + static_cast<long>(b)) = y.row(piece.border[b]);
       if (piece.sparse) {
-        piece.sparse->backward(local);
+        piece.sparse->factor.backward(local);
       } else {
         const Border x = local.bottomRows(piece.size() - piece.own());
         orbitutte::backward(piece.dense(), local.data(), x.data());

@@ -35,10 +35,10 @@ class Substructure {
   Substructure(Substructure&&) noexcept;
 
   /// y_I <- L_II^-1 y_I, left in an order of its own; y_B <- y_B - L_BI y_I.
-  void forward(Points& y) const;
+  void forward(SinglePoints& y) const;
 
   /// y_I <- L_II^-T (y_I - L_BI' y_B), back in K's order.
-  void backward(Points& y) const;
+  void backward(SinglePoints& y) const;
 
   /// K_BB - L_BI L_BI', both triangles.
   const Eigen::MatrixXd& schur_complement() const { return schur_complement_; }

@@ -16,17 +16,6 @@ Key key(int upper, int h) { return static_cast<Key>(upper) << 32 | static_cast<K
 int upper_vertex(Key k) { return static_cast<int>(k >> 32); }
 int halfedge(Key k) { return static_cast<int>(k & 0xffffffffu); }
 
-// Calls visit(begin, end) for one range of vertices a thread; each reads the whole mesh and writes what
-// belongs to its vertices.
-template <typename Visit>
-void for_vertex_ranges(int vertex_count, const Visit& visit) {
-  const int ranges = std::max(1, std::min(thread_count(), vertex_count / 10000));
-  const auto bound = [&](int r) {
-    return static_cast<int>(static_cast<long long>(vertex_count) * r / ranges);
-  };
-  parallel_for(ranges, [&](int r) { visit(bound(r), bound(r + 1)); });
-}
-
 // Calls visit(lower, upper, half-edge) for every half-edge whose lower vertex is in begin .. end - 1, in
 // ascending order.
 template <typename Visit>
@@ -45,12 +34,12 @@ void for_halfedges(const Triangles& F, int begin, int end, const Visit& visit) {
 Connectivity connectivity_of(const Triangles& F, int vertex_count) {
   // A counting sort by the lower vertex, then a sort of each short bucket.
   std::vector<int> start(vertex_count + 1, 0), first_edge(vertex_count + 1, 0);
-  for_vertex_ranges(vertex_count, [&](int begin, int end) {
+  parallel_parts(vertex_count, [&](int begin, int end) {
     for_halfedges(F, begin, end, [&](int lower, int, int) { ++start[lower + 1]; });
   });
   std::partial_sum(start.begin(), start.end(), start.begin());
   std::vector<Key> keys(F.size());
-  for_vertex_ranges(vertex_count, [&](int begin, int end) {
+  parallel_parts(vertex_count, [&](int begin, int end) {
     std::vector<int> fill(start.begin() + begin, start.begin() + end);
     for_halfedges(F, begin, end,
                   [&](int lower, int upper, int h) { keys[fill[lower - begin]++] = key(upper, h); });
@@ -66,7 +55,7 @@ Connectivity connectivity_of(const Triangles& F, int vertex_count) {
   result.edge_of.resize(F.size());
   result.opposite.resize(F.size());
   result.edges.resize(first_edge.back());
-  for_vertex_ranges(vertex_count, [&](int begin, int end) {
+  parallel_parts(vertex_count, [&](int begin, int end) {
     for (int v = begin; v < end; ++v) {
       int edge = first_edge[v] - 1;
       for (int k = start[v]; k < start[v + 1]; ++k) {
@@ -85,21 +74,26 @@ Connectivity connectivity_of(const Triangles& F, int vertex_count) {
 Neighbors vertex_neighbors(const std::vector<std::array<int, 2>>& edges, int vertex_count) {
   Neighbors result;
   result.start.assign(vertex_count + 1, 0);
-  for (const auto& [i, j] : edges) {
-    ++result.start[i + 1];
-    ++result.start[j + 1];
-  }
+  parallel_parts(vertex_count, [&](int begin, int end) {
+    for (const auto& ends : edges)
+      for (const int v : ends)
+        if (v >= begin && v < end) ++result.start[v + 1];
+  });
   std::partial_sum(result.start.begin(), result.start.end(), result.start.begin());
   result.neighbor.resize(2 * edges.size());
   result.edge.resize(2 * edges.size());
-  std::vector<int> fill(result.start.begin(), result.start.end() - 1);
-  for (int e = 0; e < static_cast<int>(edges.size()); ++e) {
-    const auto [i, j] = edges[e];
-    result.neighbor[fill[i]] = j;
-    result.edge[fill[i]++] = e;
-    result.neighbor[fill[j]] = i;
-    result.edge[fill[j]++] = e;
-  }
+  parallel_parts(vertex_count, [&](int begin, int end) {
+    std::vector<int> fill(result.start.begin() + begin, result.start.begin() + end);
+    for (int e = 0; e < static_cast<int>(edges.size()); ++e) {
+      for (const int side : {0, 1}) {
+        const int v = edges[e][side];
+        if (v < begin || v >= end) continue;
+        const int at = fill[v - begin]++;
+        result.neighbor[at] = edges[e][1 - side];
+        result.edge[at] = e;
+      }
+    }
+  });
   return result;
 }
 

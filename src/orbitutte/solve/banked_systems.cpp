@@ -139,37 +139,45 @@ class BankedSystems : public LaplacianSystems {
   }
 
   Points solve_disk(const Points& f) const override {
-    Points y = Points::Zero(disk_.count(), 3);
-    for (int k = 0; k < disk_.inner; ++k) y.row(k) = f.row(disk_.node[k]);
-    for (const int k : open_banks_) y.row(disk_.inner + k) = f.row(disk_.bank(k));
+    SinglePoints y = of_inner_nodes(f);
+    for (const int k : open_banks_) y.row(disk_.inner + k) = f.row(disk_.bank(k)).cast<float>();
     factor_->forward(y);
     settle_open_banks(y);
     factor_->backward(y);
-    Points result = Points::Zero(f.rows(), 3);
-    for (int k = 0; k < disk_.count(); ++k) result.row(disk_.node[k]) = y.row(k);
-    return result;
+    return of_all_nodes(y, f.rows());
   }
 
   // Eliminating the inner vertices leaves f_B - K_BI K_II^-1 f_I on the banks, before they are glued; and
   // once their positions x_B are known, those of the inner vertices follow.
   Points solve_glued(const Points& f) const override {
-    Points y(disk_.count(), 3);
-    y.bottomRows(disk_.banks()).setZero();
-    parallel_ranges(disk_.inner, [&](int begin, int end) {
-      for (int k = begin; k < end; ++k) y.row(k) = f.row(disk_.node[k]);
-    });
+    SinglePoints y = of_inner_nodes(f);
     factor_->forward(y);
     if (glued_.total > 0) solve_banks(f, y);
     factor_->backward(y);
-    Points result = Points::Zero(f.rows(), 3);
+    return of_all_nodes(y, f.rows());
+  }
+
+ private:
+  // The rows of the inner nodes in the order of the unknowns, and zero on the banks.
+  SinglePoints of_inner_nodes(const Points& f) const {
+    SinglePoints y(disk_.count(), 3);
+    parallel_ranges(disk_.inner, [&](int begin, int end) {
+      for (int k = begin; k < end; ++k) y.row(k) = f.row(disk_.node[k]).cast<float>();
+    });
+    y.bottomRows(disk_.banks()).setZero();
+    return y;
+  }
+
+  // The unknowns, each at its node, those of the first `count` nodes.
+  Points of_all_nodes(const SinglePoints& y, Eigen::Index count) const {
+    Points result = Points::Zero(count, 3);
     parallel_ranges(disk_.count(), [&](int begin, int end) {
       for (int k = begin; k < end; ++k)
-        if (disk_.node[k] < f.rows()) result.row(disk_.node[k]) = y.row(k);
+        if (disk_.node[k] < count) result.row(disk_.node[k]) = y.row(k).cast<double>();
     });
     return result;
   }
 
- private:
   std::shared_ptr<Substructure> factorized(const SparseMatrix& K, Backend backend,
                                            const Substructure* earlier) const {
     try {
@@ -184,6 +192,10 @@ class BankedSystems : public LaplacianSystems {
   // The 3 x k matrix that takes the unknowns of a bank node's vertex to its position.
   Block placement(int bank) const {
     return graph_.transform(disk_.bank(bank)).matrix() * boundary_.basis(source(bank));
+  }
+
+  Eigen::Matrix<float, 3, Eigen::Dynamic, Eigen::ColMajor, 3, 3> single_placement(int bank) const {
+    return placement(bank).cast<float>();
   }
 
   // Numbers the unknowns of the vertices on the banks; the bank nodes that are images of each.
@@ -226,25 +238,29 @@ class BankedSystems : public LaplacianSystems {
       for (const Block& right : distinct) products.emplace_back(left.transpose() * right);
 
     const Eigen::MatrixXd& S = factor_->schur_complement();
-    glued_factor_.resize(glued_.total, glued_.total);
+    Eigen::MatrixXd glued(glued_.total, glued_.total);
     parallel_for(static_cast<int>(copies.size()), [&](int at) {
       const long first = glued_.first[glued_.order[at]];
-      glued_factor_.middleCols(first, glued_.count[glued_.order[at]]).setZero();
+      glued.middleCols(first, glued_.count[glued_.order[at]]).setZero();
       for (const int k : copies[at]) {
         for (int l = 0; l < banks; ++l) {
           if (row[l] < first) continue;
           const Block& product = products[kind[l] * kinds + kind[k]];
           for (int c = 0; c < product.cols(); ++c)
-            for (int r = 0; r < product.rows(); ++r)
-              glued_factor_(row[l] + r, first + c) += S(l, k) * product(r, c);
+            for (int r = 0; r < product.rows(); ++r) glued(row[l] + r, first + c) += S(l, k) * product(r, c);
         }
       }
     });
     try {
-      partial_cholesky(glued_factor_, glued_.total);
+      partial_cholesky(glued, glued_.total);
     } catch (const NotPositiveDefinite& error) {
       throw not_tied(holder(glued_, error.column));
     }
+    glued_factor_.resize(glued_.total, glued_.total);
+    parallel_for(static_cast<int>(glued_.total), [&](int column) {
+      glued_factor_.col(column).tail(glued_.total - column) =
+          glued.col(column).tail(glued_.total - column).cast<float>();
+    });
   }
 
   // The start does not know where those bank nodes are that the cut's boundary does not name. Few are: their
@@ -261,28 +277,31 @@ class BankedSystems : public LaplacianSystems {
   }
 
   // Replaces the right-hand sides of the bank nodes in y by their positions in the start: zero where given.
-  void settle_open_banks(Points& y) const {
+  void settle_open_banks(SinglePoints& y) const {
     Points open(static_cast<Eigen::Index>(open_banks_.size()), 3);
-    for (Eigen::Index k = 0; k < open.rows(); ++k) open.row(k) = y.row(disk_.inner + open_banks_[k]);
+    for (Eigen::Index k = 0; k < open.rows(); ++k)
+      open.row(k) = y.row(disk_.inner + open_banks_[k]).cast<double>();
     if (open.rows() > 0) open = start_factor_.solve(open);
     y.bottomRows(disk_.banks()).setZero();
-    for (Eigen::Index k = 0; k < open.rows(); ++k) y.row(disk_.inner + open_banks_[k]) = open.row(k);
+    for (Eigen::Index k = 0; k < open.rows(); ++k)
+      y.row(disk_.inner + open_banks_[k]) = open.row(k).cast<float>();
   }
 
   // Replaces the right-hand sides of the bank nodes in y, before gluing, by their positions; f holds those
   // of their vertices.
-  void solve_banks(const Points& f, Points& y) const {
-    Eigen::VectorXd x(glued_.total);
+  void solve_banks(const Points& f, SinglePoints& y) const {
+    Eigen::VectorXf x(glued_.total);
     for (const int v : glued_.order)
-      x.segment(glued_.first[v], glued_.count[v]) = boundary_.basis(v).transpose() * f.row(v).transpose();
+      x.segment(glued_.first[v], glued_.count[v]) =
+          (boundary_.basis(v).transpose() * f.row(v).transpose()).cast<float>();
     for (int k = 0; k < disk_.banks(); ++k)
       x.segment(glued_.first[source(k)], glued_.count[source(k)]) +=
-          placement(k).transpose() * y.row(disk_.inner + k).transpose();
+          single_placement(k).transpose() * y.row(disk_.inner + k).transpose();
     glued_factor_.triangularView<Eigen::Lower>().solveInPlace(x);
     glued_factor_.transpose().triangularView<Eigen::Upper>().solveInPlace(x);
     for (int k = 0; k < disk_.banks(); ++k)
       y.row(disk_.inner + k) =
-          (placement(k) * x.segment(glued_.first[source(k)], glued_.count[source(k)])).transpose();
+          (single_placement(k) * x.segment(glued_.first[source(k)], glued_.count[source(k)])).transpose();
   }
 
   const DiskGraph& graph_;
@@ -290,7 +309,7 @@ class BankedSystems : public LaplacianSystems {
   DiskUnknowns disk_;
   std::shared_ptr<const Substructure> factor_;
   Unknowns glued_;                            // of the vertices on the banks
-  Eigen::MatrixXd glued_factor_;              // the Cholesky factor of N'(S x I3)N
+  Eigen::MatrixXf glued_factor_;              // the Cholesky factor of N'(S x I3)N
   std::vector<int> open_banks_;               // bank nodes that are unknown at the start
   Eigen::LLT<Eigen::MatrixXd> start_factor_;  // of their part of S
 };

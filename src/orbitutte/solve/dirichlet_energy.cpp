@@ -40,30 +40,36 @@ DirichletEnergy::DirichletEnergy(const GluedEdges& glued, const EdgeWeights& wei
     projectors_.push_back(0.5 * (Matrix3::Identity() + mirror.matrix()));
   projectors_[held_in_place].setZero();
   start_.assign(n + 1, 0);
-  for (const GluedEdge& edge : glued.edges) {
-    ++start_[edge.i + 1];
-    ++start_[edge.j + 1];
-  }
+  parallel_parts(n, [&](int begin, int end) {
+    for (const GluedEdge& edge : glued.edges)
+      for (const int v : {edge.i, edge.j})
+        if (v >= begin && v < end) ++start_[v + 1];
+  });
   std::partial_sum(start_.begin(), start_.end(), start_.begin());
   incidences_.resize(2 * glued.edges.size());
-  std::vector<int> fill(start_.begin(), start_.end() - 1);
-  for (std::size_t e = 0; e < glued.edges.size(); ++e) {
-    const auto [i, j, t] = glued.edges[e];
-    const double w = weights.w[static_cast<Eigen::Index>(e)];
-    incidences_[fill[i]++] = {j, 2 * t, w};
-    incidences_[fill[j]++] = {i, 2 * t + 1, w};
-  }
-  rounding_floor_.resize(n);
-  for (int v = 0; v < n; ++v) {
-    double sum = 0;
-    for (int k = start_[v]; k < start_[v + 1]; ++k) sum += incidences_[k].w;
-    rounding_floor_[v] = 4 * std::numeric_limits<double>::epsilon() * sum;
-  }
+  rounding_floor_.setZero(n);
+  parallel_parts(n, [&](int begin, int end) {
+    std::vector<int> fill(start_.begin() + begin, start_.begin() + end);
+    const auto add = [&](int v, const Incidence& incidence) {
+      if (v < begin || v >= end) return;
+      incidences_[fill[v - begin]++] = incidence;
+      rounding_floor_[v] += 4 * std::numeric_limits<double>::epsilon() * incidence.w;
+    };
+    for (std::size_t e = 0; e < glued.edges.size(); ++e) {
+      const auto [i, j, t] = glued.edges[e];
+      const double w = weights.w[static_cast<Eigen::Index>(e)];
+      add(i, {j, 2 * t, w});
+      add(j, {i, 2 * t + 1, w});
+    }
+  });
 }
 
-Vector3 DirichletEnergy::image(const Points& p, const Incidence& incidence) const {
-  Vector3 q = p.row(incidence.neighbor);
-  if (incidence.transform < 2) return q;
+inline Vector3 DirichletEnergy::image(const Points& p, const Incidence& incidence) const {
+  const Vector3 q = p.row(incidence.neighbor);
+  return incidence.transform < 2 ? q : moved(q, incidence);
+}
+
+Vector3 DirichletEnergy::moved(const Vector3& q, const Incidence& incidence) const {
   const Isometry& g = transforms_[incidence.transform / 2];
   return incidence.transform % 2 == 0 ? g.matrix() * q : g.inverse_matrix() * q;
 }

@@ -77,7 +77,10 @@ class DirichletEnergy {
     double w;
   };
 
+  // Where the vertex sees its neighbour.
   Vector3 image(const Points& p, const Incidence& incidence) const;
+  // The same of a neighbour at q behind a seam.
+  Vector3 moved(const Vector3& q, const Incidence& incidence) const;
 
   // The tangential, feasible part of sum over j of w_ij d/sn d (g_ij p_j - p_i) at vertex i.
   struct Pull {

@@ -5,6 +5,8 @@
 #include <map>
 #include <utility>
 
+#include "orbitutte/parallel.h"
+
 namespace orbitutte {
 namespace {
 
@@ -59,23 +61,26 @@ std::map<CutEdge, int> changes_at_banks(const std::vector<Seam>& seams, ElementT
 // The faces in their frames, all of them the cut mesh's before the first flip.
 class Frames {
  public:
-  Frames(const Triangles& F, const CutMesh& cut, const BoundaryConditions& boundary, ElementTable& elements)
-      : elements_(elements), corner_(F.size()), change_(F.size(), 0) {
-    for (int h = 0; h < static_cast<int>(F.size()); ++h)
-      corner_[h] = boundary.transform_of[copy_at(F, cut, h)];
+  Frames(const CutMesh& cut, const BoundaryConditions& boundary, ElementTable& elements)
+      : elements_(elements), corner_(cut.F.size()), change_(cut.F.size(), 0) {
+    parallel_ranges(static_cast<int>(corner_.size()), [&](int begin, int end) {
+      for (int h = begin; h < end; ++h) corner_[h] = boundary.transform_of[copy_at(cut, h)];
+    });
   }
 
   // The changes of frame at the half-edges along the cut.
-  void open_banks(const Triangles& F, const Connectivity& connectivity, const CutMesh& cut,
+  void open_banks(const Connectivity& connectivity, const CutMesh& cut,
                   const std::map<CutEdge, int>& changes) {
     if (changes.empty()) return;
-    for (int h = 0; h < static_cast<int>(F.size()); ++h) {
-      const int g = connectivity.opposite[h];
-      if (g < 0) continue;
-      const CutEdge here = cut_edge(copy_at(F, cut, h), copy_at(F, cut, next_halfedge(h))),
-                    there = cut_edge(copy_at(F, cut, g), copy_at(F, cut, next_halfedge(g)));
-      if (here != there) change_[h] = changes.at(here);
-    }
+    parallel_ranges(static_cast<int>(change_.size()), [&](int begin, int end) {
+      for (int h = begin; h < end; ++h) {
+        const int g = connectivity.opposite[h];
+        if (g < 0) continue;
+        const CutEdge here = cut_edge(copy_at(cut, h), copy_at(cut, next_halfedge(h))),
+                      there = cut_edge(copy_at(cut, g), copy_at(cut, next_halfedge(g)));
+        if (here != there) change_[h] = changes.at(here);
+      }
+    });
   }
 
   void apply(const Flip& flip) {
@@ -95,19 +100,21 @@ class Frames {
     change_[lb_now] = changes[2], change_[bk_now] = changes[3];
   }
 
+  // Has the vertex where the half-edge ends the transform of that where it begins?
+  bool is_plain(int h) const { return corner_[h] == corner_[next_halfedge(h)]; }
+
   // Seen from where the half-edge begins, the transform of the vertex where it ends.
   int along(int h) const {
-    const int from = corner_[h], to = corner_[next_halfedge(h)];
-    return from == to ? 0 : elements_.product(elements_.inverse(from), to);
+    return is_plain(h) ? 0 : elements_.product(elements_.inverse(corner_[h]), corner_[next_halfedge(h)]);
   }
 
  private:
   // The copy in the cut mesh of the vertex where a half-edge of the mesh begins; the cut mesh may have its
   // face turned over.
-  static int copy_at(const Triangles& F, const CutMesh& cut, int h) {
-    for (int k = 0; k < 3; ++k)
-      if (cut.source_vertex[cut.F(h / 3, k)] == halfedge_origin(F, h)) return cut.F(h / 3, k);
-    return -1;
+  static int copy_at(const CutMesh& cut, int h) {
+    const int face = h / 3, k = h % 3;
+    const bool is_turned = !cut.turned.empty() && cut.turned[face] != 0;
+    return cut.F(face, is_turned && k > 0 ? 3 - k : k);
   }
 
   ElementTable& elements_;
@@ -119,18 +126,23 @@ class Frames {
 
 GluedEdges flipped_edges(const Surface& surface, const IntrinsicTriangulation& triangulation,
                          const CutMesh& cut, const BoundaryConditions& boundary) {
-  const Triangles& F = surface.triangles;
   ElementTable elements(boundary.transforms);
-  Frames frames(F, cut, boundary, elements);
-  frames.open_banks(F, surface.connectivity, cut, changes_at_banks(boundary.seams, elements));
+  Frames frames(cut, boundary, elements);
+  frames.open_banks(surface.connectivity, cut, changes_at_banks(boundary.seams, elements));
   for (const Flip& flip : triangulation.flips) frames.apply(flip);
 
   GluedEdges result;
-  result.edges.resize(triangulation.connectivity.edges.size());
-  const Triangles& flipped = triangulation.F;
-  for (int h = static_cast<int>(flipped.size()) - 1; h >= 0; --h)
-    result.edges[triangulation.connectivity.edge_of[h]] = {halfedge_origin(flipped, h),
-                                                           halfedge_target(flipped, h), frames.along(h)};
+  const auto& [edges, edge_of, opposite] = triangulation.connectivity;
+  result.edges.resize(edges.size());
+  // Each edge by the first of its half-edges. Few edges need the table of elements, which has no locks.
+  const std::vector<int> glued = parallel_select(static_cast<int>(edge_of.size()), [&, &edge_of = edge_of,
+                                                                                    &opposite =
+                                                                                        opposite](int h) {
+    if (opposite[h] >= 0 && opposite[h] < h) return false;
+    result.edges[edge_of[h]] = {halfedge_origin(triangulation.F, h), halfedge_target(triangulation.F, h), 0};
+    return !frames.is_plain(h);
+  });
+  for (const int h : glued) result.edges[edge_of[h]].t = frames.along(h);
   result.transforms = elements.release();
   return result;
 }

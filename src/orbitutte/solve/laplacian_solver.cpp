@@ -16,6 +16,10 @@ bool banks_are_short(const CutMesh& cut, std::size_t vertex_count) {
   return static_cast<double>(cut.boundary.size()) <= 200 + 4 * std::sqrt(static_cast<double>(vertex_count));
 }
 
+// Solutions are in single precision. Along edges with larger weights than this, their errors would be forces
+// of the size of those that they are to remove.
+constexpr double stiff = 1e6;
+
 }  // namespace
 
 std::vector<std::array<int, 2>> ends(const GluedEdges& glued) {
@@ -27,7 +31,10 @@ std::vector<std::array<int, 2>> ends(const GluedEdges& glued) {
 
 LaplacianSolver::LaplacianSolver(const CutMesh& cut, const GluedEdges& glued, const EdgeWeights& weights,
                                  const BoundaryConditions& boundary, const LaplacianSetup& setup)
-    : w_(weights.w), graph_(std::make_unique<DiskGraph>(disk_graph(cut, glued, boundary))) {
+    : w_(weights.w),
+      glued_(glued),
+      is_stiff_(weights.w.size() > 0 && weights.w.maxCoeff() > stiff),
+      graph_(std::make_unique<DiskGraph>(disk_graph(cut, glued, boundary))) {
   const std::size_t n = boundary.basis_of.size();
   const std::shared_ptr<LaplacianReuse> reuse = setup.reuse ? setup.reuse : reusable_laplacians(Kept::order);
   if (!reuse->dissection) order_ahead(*reuse, ends(glued), static_cast<int>(n));
@@ -71,8 +78,21 @@ Points LaplacianSolver::extend_harmonically(const Points& positions) const {
   return result;
 }
 
+Points LaplacianSolver::glued_laplacian(const Points& x) const {
+  Points result = Points::Zero(x.rows(), 3);
+  for (std::size_t e = 0; e < glued_.edges.size(); ++e) {
+    const auto [i, j, t] = glued_.edges[e];
+    const Isometry& g = glued_.transforms[t];
+    const Vector3 pull = w_[static_cast<Eigen::Index>(e)] * (Vector3(x.row(i)) - g * Vector3(x.row(j)));
+    result.row(i) += pull;
+    result.row(j) -= g.inverse() * pull;
+  }
+  return result;
+}
+
 Points LaplacianSolver::precondition(const Points& gradient) const {
   Points result = systems_->solve_glued(gradient);
+  if (is_stiff_) result += systems_->solve_glued(gradient - glued_laplacian(result));  // a refinement
   parallel_ranges(static_cast<int>(result.rows()),
                   [&](int begin, int end) { result.middleRows(begin, end - begin) *= 0.5; });
   return result;

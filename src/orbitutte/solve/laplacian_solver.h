@@ -58,7 +58,13 @@ class LaplacianSolver {
   Points precondition(const Points& gradient) const;
 
  private:
+  /// L x, before it is projected onto the unknowns of the boundary conditions. x and the result: n x 3.
+  Points glued_laplacian(const Points& x) const;
+
   const Eigen::VectorXd& w_;
+  const GluedEdges& glued_;
+  /// Are there weights for which single precision does not suffice?
+  bool is_stiff_;
   std::unique_ptr<const DiskGraph> graph_;
   std::unique_ptr<LaplacianSystems> systems_;
 };

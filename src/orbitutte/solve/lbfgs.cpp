@@ -17,8 +17,8 @@ template <typename Vector>
 using Vectors = std::vector<const Vector*>;
 
 // <v, a_i> for every i, summed in double precision.
-template <typename Vector>
-std::vector<double> inner_products(const Vectors<Vector>& vectors, const Points& a) {
+template <typename Vector, typename Other>
+std::vector<double> inner_products(const Vectors<Vector>& vectors, const Other& a) {
   constexpr int length = 2048;  // rows
   const int rows = static_cast<int>(a.rows()), ranges = (rows + length - 1) / length;
   std::vector<std::vector<double>> partial(ranges, std::vector<double>(vectors.size()));
@@ -28,7 +28,7 @@ std::vector<double> inner_products(const Vectors<Vector>& vectors, const Points&
       partial[r][k] = vectors[k]
                           ->middleRows(begin, count)
                           .template cast<double>()
-                          .cwiseProduct(a.middleRows(begin, count))
+                          .cwiseProduct(a.middleRows(begin, count).template cast<double>())
                           .sum();
   });
   std::vector<double> result(vectors.size(), 0.0);
@@ -43,23 +43,21 @@ double max_norm(const Points& a) {
   return parallel_max(static_cast<int>(a.rows()), [&](int v) { return a.row(v).cwiseAbs().maxCoeff(); });
 }
 
-Points difference(const Points& a, const Points& b) {
-  Points result(a.rows(), 3);
-  parallel_ranges(static_cast<int>(a.rows()), [&](int begin, int end) {
-    result.middleRows(begin, end - begin) =
-        a.middleRows(begin, end - begin) - b.middleRows(begin, end - begin);
-  });
-  return result;
+double max_difference(const Points& a, const Points& b) {
+  return parallel_max(static_cast<int>(a.rows()),
+                      [&](int v) { return (a.row(v) - b.row(v)).cwiseAbs().maxCoeff(); });
 }
 
 // What is remembered of a pair, in single precision: it shapes the direction in which a minimum is looked
 // for, not the minimum. This halves the memory of large meshes.
 using Remembered = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
-Remembered remembered(const Points& a) {
+// a - b.
+Remembered difference(const Points& a, const Points& b) {
   Remembered result(a.rows(), 3);
   parallel_ranges(static_cast<int>(a.rows()), [&](int begin, int end) {
-    result.middleRows(begin, end - begin) = a.middleRows(begin, end - begin).cast<float>();
+    result.middleRows(begin, end - begin) =
+        (a.middleRows(begin, end - begin) - b.middleRows(begin, end - begin)).cast<float>();
   });
   return result;
 }
@@ -104,9 +102,14 @@ class InverseHessian {
     return direction;
   }
 
+  struct Pair {
+    Remembered s, y, Py;  // step, difference of gradients, its image under the preconditioner
+  };
+
   // Keeps the pair unless its curvature is not positive.
-  void update(const Points& s, const Points& y, const Points& Py) {
-    pairs_.push_back({remembered(s), remembered(y), remembered(Py)});
+  void update(Pair newest) {
+    pairs_.push_back(std::move(newest));
+    const auto& [s, y, Py] = pairs_.back();
     Vectors<Remembered> all_s, all_y, all_images;
     for (const Pair& pair : pairs_) {
       all_s.push_back(&pair.s);
@@ -141,9 +144,6 @@ class InverseHessian {
   bool empty() const { return pairs_.empty(); }
 
  private:
-  struct Pair {
-    Remembered s, y, Py;  // step, difference of gradients, its image under the preconditioner
-  };
   using Table = std::deque<std::deque<double>>;
 
   void drop_oldest() {
@@ -159,6 +159,9 @@ class InverseHessian {
   std::deque<Pair> pairs_;  // oldest first
   Table sy_, ypy_;          // s_i' y_j, and y_i' P y_j
 };
+
+// Changes of the energy below this share of it are hidden by rounding.
+constexpr double energy_rounding = 1e-14;
 
 struct State {
   Points x;
@@ -187,7 +190,6 @@ class LineSearch {
 
  private:
   static constexpr double armijo = 1e-4;
-  static constexpr double energy_rounding = 1e-14;
 
   static bool accept(const State& from, const State& to, const Points& direction, double t, double slope) {
     const double change = to.value.energy - from.value.energy;
@@ -212,6 +214,12 @@ bool gradient_vanishes(const Points& gradient, const Eigen::VectorXd& rounding_f
   return parallel_max(static_cast<int>(gradient.rows()), [&](int v) {
            return gradient.row(v).cwiseAbs().maxCoeff() / std::max(rounding_floor[v], tolerance);
          }) <= 1;
+}
+
+// Does rounding hide this change of the energy, and are weights so large that some gradients are known less
+// exactly than asked? Differences of gradients and steps are nothing but rounding then.
+bool is_noise(double change, const State& state, const Eigen::VectorXd& rounding_floor, double tolerance) {
+  return rounding_floor.maxCoeff() > tolerance && std::abs(change) <= energy_rounding * state.value.energy;
 }
 
 void check(const LbfgsOptions& options) {
@@ -242,8 +250,10 @@ Minimum minimize(const DirichletEnergy& energy, const LaplacianSolver& laplacian
     Points direction = inverse_hessian.descent(state.value.gradient, preconditioned);
     energy.make_feasible(direction);  // but for the single precision of what is remembered, it is
     const double step_tolerance = std::max(options.tolerance, 1e-12);
+    const double promised = dot(state.value.gradient, direction);
     if (gradient_vanishes(state.value.gradient, energy.rounding_floor(), options.tolerance) &&
-        max_norm(direction) <= step_tolerance) {
+        (max_norm(direction) <= step_tolerance ||
+         is_noise(promised, state, energy.rounding_floor(), options.tolerance))) {
       result.termination = Termination::converged;
       break;
     }
@@ -263,11 +273,15 @@ Minimum minimize(const DirichletEnergy& energy, const LaplacianSolver& laplacian
       continue;
     }
     ++result.iterations;
-    const Points s = difference(next.x, state.x);
-    last_step = max_norm(s);
+    last_step = max_difference(next.x, state.x);
     Points next_preconditioned = laplacian.precondition(next.value.gradient);
-    inverse_hessian.update(s, difference(next.value.gradient, state.value.gradient),
-                           difference(next_preconditioned, preconditioned));
+    const double change = next.value.energy - state.value.energy;
+    if (is_noise(change, state, energy.rounding_floor(), options.tolerance))
+      inverse_hessian.forget();
+    else
+      inverse_hessian.update({difference(next.x, state.x),
+                              difference(next.value.gradient, state.value.gradient),
+                              difference(next_preconditioned, preconditioned)});
     preconditioned = std::move(next_preconditioned);
     std::swap(state, next);
     record();

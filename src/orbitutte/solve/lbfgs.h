@@ -15,7 +15,8 @@ using IterationCallback = std::function<bool(int iteration, const Iteration&)>;
 /// When to stop.
 struct LbfgsOptions {
   /// Converged when |grad_i E| <= max(tolerance, its rounding floor) at every vertex, and the next
-  /// quasi-Newton step would move no vertex by more than max(tolerance, 1e-12) radians.
+  /// quasi-Newton step would move no vertex by more than max(tolerance, 1e-12) radians; or, if the rounding
+  /// floor of some vertex is above the tolerance, would change the energy by less than its rounding hides.
   double tolerance = 1e-9;
   int max_iterations = 2000;
   /// Pairs of steps and gradient differences kept.

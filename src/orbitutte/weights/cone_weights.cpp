@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "orbitutte/parallel.h"
 #include "orbitutte/weights/delaunay_flips.h"
 
 namespace orbitutte {
@@ -25,10 +26,14 @@ double third_side(double p, double q, double angle) {
 
 // The half-edges that leave each cone.
 std::vector<std::vector<int>> leaving(const IntrinsicTriangulation& T, const std::vector<ConeAngle>& cones) {
+  const auto begins_at = [&](int h, const ConeAngle& cone) { return halfedge_origin(T.F, h) == cone.vertex; };
+  const std::vector<int> at_cones = parallel_select(static_cast<int>(T.F.size()), [&](int h) {
+    return std::any_of(cones.begin(), cones.end(), [&](const ConeAngle& cone) { return begins_at(h, cone); });
+  });
   std::vector<std::vector<int>> result(cones.size());
-  for (int h = 0; h < static_cast<int>(T.F.size()); ++h)
+  for (const int h : at_cones)
     for (std::size_t k = 0; k < cones.size(); ++k)
-      if (halfedge_origin(T.F, h) == cones[k].vertex) result[k].push_back(h);
+      if (begins_at(h, cones[k])) result[k].push_back(h);
   return result;
 }
 

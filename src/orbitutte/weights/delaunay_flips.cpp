@@ -43,13 +43,18 @@ class DelaunayFlips {
         halfedge_(triangulation.connectivity.edges.size()),
         waiting_(triangulation.connectivity.edges.size(), 0),
         kept_(triangulation.connectivity.edges.size(), 0) {
-    for (int h = 0; h < static_cast<int>(edge_of_.size()); ++h) halfedge_[edge_of_[h]] = h;
+    parallel_ranges(static_cast<int>(edge_of_.size()), [&](int begin, int end) {
+      for (int h = begin; h < end; ++h)
+        if (opposite_[h] < h) halfedge_[edge_of_[h]] = h;
+    });
     for (const int f : triangulation.kept_faces)
       for (int h = 3 * f; h < 3 * f + 3; ++h) kept_[edge_of_[h]] = 1;
   }
 
   void run(const std::vector<int>& edges) {
-    for (const int e : edges) push(e);
+    const std::vector<int> flippable =
+        parallel_select(static_cast<int>(edges.size()), [&](int k) { return !is_delaunay(edges[k]); });
+    for (const int k : flippable) push(edges[k]);
     const std::size_t most_flips = T_.flips.size() + most_flips_per_edge * halfedge_.size();
     std::size_t before = 0;
     do {
@@ -192,12 +197,16 @@ std::vector<double> mollified_lengths(const Surface& surface) {
   std::vector<double> length(count);
   const double total = parallel_sum(count, [&](int e) { return length[e] = (scale * difference(e)).norm(); });
   const double mean = total > 0 ? total / count : 1.0;
-  for (double& l : length) l /= mean;
+  parallel_ranges(count, [&](int begin, int end) {
+    for (int e = begin; e < end; ++e) length[e] /= mean;
+  });
   const auto side = [&](int h) { return length[connectivity.edge_of[h]]; };
   const double missing = parallel_max(static_cast<int>(connectivity.edge_of.size()), [&](int h) {
     return mollification + side(h) - side(next_halfedge(h)) - side(previous_halfedge(h));
   });
-  for (double& l : length) l += missing;
+  parallel_ranges(count, [&](int begin, int end) {
+    for (int e = begin; e < end; ++e) length[e] += missing;
+  });
   return length;
 }
 

@@ -66,12 +66,14 @@ EdgeWeights cotangent_weights(const Surface& surface, double clamp) {
                                     halfedge_origin(F, previous_halfedge(h)));
   });
   result.w = summed_over_sides(surface.connectivity, cotangent);
-  for (double& w : result.w) {
-    if (!(w > 0)) {
-      w = clamp;
-      ++result.clamped_edges;
-    }
-  }
+  const auto is_clamped = [&](int e) {
+    double& w = result.w[e];
+    if (w > 0) return false;
+    w = clamp;
+    return true;
+  };
+  result.clamped_edges =
+      static_cast<int>(parallel_select(static_cast<int>(result.w.size()), is_clamped).size());
   return result;
 }
 
@@ -206,13 +208,14 @@ EdgeWeights intrinsic_weights(IntrinsicTriangulation triangulation, double clamp
   result.kind = WeightKind::delaunay;
   result.clamp = clamp;
   result.w = summed_over_sides(triangulation.connectivity, triangulation.half_cotangent);
-  for (double& w : result.w) {
-    if (w < -concyclic_weight) {
-      w = clamp;
-      ++result.clamped_edges;
-    }
-    w = std::max(w, concyclic_weight);
-  }
+  const auto is_clamped = [&](int e) {
+    double& w = result.w[e];
+    const bool is_negative = w < -concyclic_weight;
+    w = std::max(is_negative ? clamp : w, concyclic_weight);
+    return is_negative;
+  };
+  result.clamped_edges =
+      static_cast<int>(parallel_select(static_cast<int>(result.w.size()), is_clamped).size());
   result.triangulation = std::make_shared<IntrinsicTriangulation>(std::move(triangulation));
   return result;
 }
