@@ -87,6 +87,9 @@ bool takes_cones(const Target& target, const Surface& surface, const Candidates&
 
 // The spherical families that the surface embeds into and that take the cones; or the given target alone.
 std::vector<Contest> contests(const Surface& surface, const Candidates& all, const ChooseOptions& options) {
+  if (options.target && options.target->marks.empty())
+    throw ArgumentError(fmt::format("{} marks no vertex: there are no cones to choose; embed into it",
+                                    options.target->signature));
   if (options.target) return {{*options.target, std::nullopt}};
   std::vector<Contest> result;
   for (const Family& family : family_table()) {
