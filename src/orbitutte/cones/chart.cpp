@@ -60,7 +60,7 @@ ChartPoint chart_point(const Vector3& p) {
   return {Z.numerator, Z.denominator, nullptr};
 }
 
-ChartPoint chart_point(const Vector3Of<Precise>& p) {
+ChartPoint precise_chart_point(const Vector3Of<Precise>& p) {
   const Precise length = sqrt(p.dot(p));
   const Ratio<PreciseComplex> Z = invariant<PreciseComplex, Precise>(p / length);
   return {to_double(Z.numerator), to_double(Z.denominator),
@@ -68,6 +68,11 @@ ChartPoint chart_point(const Vector3Of<Precise>& p) {
 }
 
 }  // namespace
+
+ChartPoint exact_point(double numerator, double denominator) {
+  return {numerator, denominator,
+          std::make_shared<PreciseChartPoint>(PreciseChartPoint{{numerator, 0}, {denominator, 0}})};
+}
 
 Complex bracket(const ChartPoint& a, const ChartPoint& b) {
   if (!a.precise || !b.precise) return a.numerator * b.denominator - b.numerator * a.denominator;
@@ -117,18 +122,18 @@ Vector3Of<Precise> OrbifoldChart::precise_position(int v) const {
 }
 
 ChartPoint OrbifoldChart::of_vertex(int v) const {
-  if (needs_digits(v)) return chart_point(precise_position(v));
-  return chart_point(Vector3(to_canonical_ * embedding_.positions.row(v).transpose()));
+  if (needs_digits(v)) return precise_chart_point(precise_position(v));
+  return chart_point(to_canonical_ * embedding_.positions.row(v).transpose());
 }
 
 ChartPoint OrbifoldChart::of_triangle(int f) const {
   const auto v = embedding_.triangles.row(f);
   if (needs_digits(v[0]) || needs_digits(v[1]) || needs_digits(v[2])) {
     const Vector3Of<Precise> sum = precise_position(v[0]) + precise_position(v[1]) + precise_position(v[2]);
-    return chart_point(sum);
+    return precise_chart_point(sum);
   }
   const Points& X = embedding_.positions;
-  return chart_point(Vector3(to_canonical_ * (X.row(v[0]) + X.row(v[1]) + X.row(v[2])).transpose()));
+  return chart_point(to_canonical_ * (X.row(v[0]) + X.row(v[1]) + X.row(v[2])).transpose());
 }
 
 }  // namespace orbitutte

@@ -28,6 +28,9 @@ struct ChartPoint {
   std::shared_ptr<const PreciseChartPoint> precise;
 };
 
+/// The point numerator : denominator, neither larger than 1 and one of them 1, with all digits.
+ChartPoint exact_point(double numerator, double denominator);
+
 /// n_a d_b - n_b d_a: zero if the points are the same, and right to some 1e-6 of itself however near they
 /// are.
 Complex bracket(const ChartPoint& a, const ChartPoint& b);
