@@ -5,10 +5,10 @@
 // 4 pi/|G|, it covers the sphere once, so it is one at the vertices too. Seams that match leave the angles
 // around a vertex a multiple of what they have to be: the checks of angles only have to tell multiples apart,
 // and may follow the rounding of short edges. Positions are exact sums of doubles, offsets included; lengths,
-// angles and areas are those of their differences. A polygon stands for the triangles
-// between its edges and its middle; that it is convex is checked besides. Where the boundary is held on a
-// convex polygon instead, positive triangles cover every point as often as the boundary goes around it: once
-// inside the polygon, and not at all outside.
+// angles and areas are those of their differences. A closed sphere without seams is a copy by itself. A
+// polygon stands for the triangles between its edges and its middle; that it is convex is checked besides.
+// Where the boundary is held on a convex polygon instead, positive triangles cover every point as often as
+// the boundary goes around it: once inside the polygon, and not at all outside.
 #include "orbitutte/verify/certificate.h"
 
 #include <fmt/format.h>
