@@ -18,7 +18,7 @@ std::string cell(const Known& known, const Number& number) {
   return known ? number(*known) : "-";
 }
 
-std::string percent(double share) { return fmt::format("{:.2f} %", 100 * share); }
+std::string exact_percent(double share) { return fmt::format("{:.2f} %", 100 * share); }
 
 std::string verdict(const Choice& choice) {
   if (!choice.refusal.empty()) return choice.refusal;
@@ -28,9 +28,10 @@ std::string verdict(const Choice& choice) {
 
 void print_row(const Choice& choice) {
   const auto sigma = [](const auto& of) { return fmt::format("{:.4f}", of.sigma); };
-  const auto within = [](const auto& of) { return percent(of.within_4); };
-  const auto below = [](const auto& of) { return percent(of.below_64); };
-  const auto &predicted = choice.predicted, &solved = choice.solved;
+  const auto within = [](const auto& of) { return exact_percent(of.within_4); };
+  const auto below = [](const auto& of) { return exact_percent(of.below_64); };
+  const auto& predicted = choice.predicted;
+  const auto& solved = choice.solved;
   fmt::print("{:<9} {:<24} {:>8} {:>9} {:>9}  {:>8} {:>9} {:>9}  {}\n", choice.target.signature,
              fmt::format("{}", fmt::join(choice.cones, ",")), cell(predicted, sigma), cell(predicted, within),
              cell(predicted, below), cell(solved, sigma), cell(solved, within), cell(solved, below),
