@@ -71,7 +71,7 @@ Wish wish_from(const EmbedArguments& arguments) {
     throw ArgumentError(
         fmt::format("--polygon gives the corners of a fixed boundary, but {} has no such boundary; give "
                     "--orbifold polygon",
-                    arguments.orbifold));
+                    arguments.orbifold.empty() ? "the best orbifold" : arguments.orbifold));
   if (!polygon) return parse_wish(arguments.orbifold, arguments.cones);
   if (arguments.polygon.empty())
     throw ArgumentError(

@@ -194,6 +194,7 @@ Meshes
 
 .. autofunction:: info
 .. autofunction:: families
+.. autofunction:: choose
 .. autofunction:: choose_cones
 .. autofunction:: sample_mesh
 .. autofunction:: read_mesh
