@@ -30,7 +30,8 @@ void print_row(const Choice& choice) {
   const auto sigma = [](const auto& of) { return fmt::format("{:.4f}", of.sigma); };
   const auto within = [](const auto& of) { return percent(of.within_4); };
   const auto below = [](const auto& of) { return percent(of.below_64); };
-  const auto &predicted = choice.predicted, &solved = choice.solved;
+  const auto& predicted = choice.predicted;
+  const auto& solved = choice.solved;
   fmt::print("{:<9} {:<24} {:>8} {:>9} {:>9}  {:>8} {:>9} {:>9}  {}\n", choice.target.signature,
              fmt::format("{}", fmt::join(choice.cones, ",")), cell(predicted, sigma), cell(predicted, within),
              cell(predicted, below), cell(solved, sigma), cell(solved, within), cell(solved, below),
