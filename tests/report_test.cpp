@@ -127,7 +127,7 @@ TEST(Report, HoldsEveryKeyWithItsType) {
       EXPECT_TRUE(all(cone.at("copies"), is_integer));
     }
     ASSERT_TRUE(json.at("seams").is_array());
-    EXPECT_EQ(json.at("seams").empty(), signature == "1");
+    EXPECT_EQ(json.at("seams").empty(), signature == "1") << signature;
     for (const Json& seam : json.at("seams")) {
       EXPECT_THAT(seam.at("kind"), AnyOf("reflection", "rotation", "rotoreflection"));
       EXPECT_TRUE(all(seam.at("left"), is_integer));
