@@ -27,7 +27,7 @@ def without_what_varies(report):
 def test_the_command_line_writes_the_same(shape, signature, command, tmp_path):
     V, F = orbitutte.sample_mesh(shape, 300)
     orbitutte.write_mesh(tmp_path / "mesh.ply", V, F)
-    embedding = orbitutte.embed(V, F, signature)
+    embedding = orbitutte.embed(V, F, signature, "extremities")
     embedding.save(tmp_path / "python.ply", tmp_path / "python.json")
     run(command, "embed", tmp_path / "mesh.ply", "--orbifold", signature, "--cones", "extremities", "-o", tmp_path / "map.ply",
         "--report", tmp_path / "map.json", "--quiet")

@@ -101,10 +101,10 @@ def test_threads_compute_at_the_same_time_with_the_same_result(figure):
 def test_a_solver_computes_one_thing_at_a_time(figure):
     solver = orbitutte.Solver(*figure)
     def again(*_):
-        solver.embed("332")
+        solver.embed("332", "extremities")
     with pytest.raises(orbitutte.ArgumentError, match="computing already"):
-        solver.embed("432", progress=again)
-    assert solver.embed("432").bijective
+        solver.embed("432", "extremities", progress=again)
+    assert solver.embed("432", "extremities").bijective
 
 
 def resident_bytes():

@@ -283,6 +283,16 @@ std::vector<Choice> choices_to_try(const Surface& surface, const std::vector<Con
   return result;
 }
 
+// What is chosen is the map that a quotient is made from.
+EmbedOptions without_quotient(EmbedOptions options) {
+  options.quotient = {};
+  return options;
+}
+
+bool asks_for_quotient(const QuotientOptions& options) {
+  return options.is_wanted || options.centre || !options.points.empty();
+}
+
 // Which rows of the table are moved to where they are best, vertex by vertex.
 enum class Polished { all, contenders };
 
@@ -293,7 +303,7 @@ class Choosing {
       : surface_(std::move(surface)),
         options_(options),
         polished_(polished),
-        solver_(surface_, options.embed) {}
+        solver_(surface_, without_quotient(options.embed)) {}
 
   std::vector<Choice> table() {
     const Candidates all = all_places(*surface_);
@@ -403,9 +413,9 @@ auto with_threads_for(const ChooseOptions& options, const Compute& compute) {
 
 }  // namespace
 
-BestEmbedding embed_best(std::shared_ptr<const Surface> surface, const ChooseOptions& options) {
+BestEmbedding embed_best(const std::shared_ptr<const Surface>& surface, const ChooseOptions& options) {
   return with_threads_for(options, [&] {
-    Choosing choosing(std::move(surface), options, Polished::contenders);
+    Choosing choosing(surface, options, Polished::contenders);
     BestEmbedding best = {options.objective, choosing.table(), -1, {}};
     std::string first_refusal;
     double least = 0;
@@ -428,6 +438,8 @@ BestEmbedding embed_best(std::shared_ptr<const Surface> surface, const ChooseOpt
       }
     }
     if (best.taken < 0) throw MeshError(first_refusal);
+    if (asks_for_quotient(options.embed.quotient))
+      best.result = embed(*surface, best.choice().target, best.choice().cones, options.embed);
     best.result.timings.insert(best.result.timings.begin(), {"choose", choosing.seconds()});
     add_warnings(best);
     return best;

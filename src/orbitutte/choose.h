@@ -61,7 +61,7 @@ struct BestEmbedding {
 
 /// Chooses and embeds. EmbedResult::warnings says if a better choice was not certified. Throws as embed does;
 /// MeshError if no orbifold takes such cones.
-BestEmbedding embed_best(std::shared_ptr<const Surface> surface, const ChooseOptions& options = {});
+BestEmbedding embed_best(const std::shared_ptr<const Surface>& surface, const ChooseOptions& options = {});
 
 /// The table, the first `solved` rows of it embedded.
 std::vector<Choice> choose(std::shared_ptr<const Surface> surface, const ChooseOptions& options = {},

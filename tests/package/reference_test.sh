@@ -60,7 +60,7 @@ completes_symbols '\*4' '\*432' '\*44' '\*442'
 completes_symbols "'*4" '*432' '*44' '*442'
 completes_symbols poly polygon
 for shell in _orbitutte orbitutte.fish; do
-  grep -q '532 432 332 222 .* \\\*532 .* 3\\\*2 .* 6x 333 .* \\\*2222 polygon' "$documents/$shell" || same "symbols in $shell" "532 ... polygon" "none"
+  grep -q '532 432 332 222 .* \\\*532 .* 3\\\*2 .* 6x 1 \\\* 333 .* \\\*2222 polygon best' "$documents/$shell" || same "symbols in $shell" "532 ... polygon" "none"
 done
 same "a file" " " "$(completed orbitutte embed fig)"
 if command -v groff >/dev/null; then
