@@ -49,8 +49,8 @@ struct TileSide {
 /// The shortest geodesic between two points, on the sphere not antipodal, as a side without a partner.
 TileSide geodesic_side(Space space, const Vector3& from, const Vector3& to, int mark);
 
-/// A polygon of geodesics; corner k is where side k begins. Counterclockwise from outside. Without sides it is
-/// the whole sphere.
+/// A polygon of geodesics; corner k is where side k begins. Counterclockwise from outside. Without sides it
+/// is the whole sphere.
 struct Tile {
   std::vector<TileSide> sides;
 
