@@ -46,7 +46,8 @@ Ratio<Number> normalised(const Ratio<Number>& ratio) {
 // Z = (w^2 + 1)^2/(4 w^2) of a point of the unit sphere, w = (x + iy)/(1 + z) = (1 - z)/(x - iy).
 template <typename Number, typename Real>
 Ratio<Number> invariant(const Vector3Of<Real>& p) {
-  const Real x = p[0], y = p[1], z = p[2], one = 1, minus_y = -y;
+  const Real &x = p[0], &y = p[1], &z = p[2];
+  const Real one = 1, minus_y = -y;
   const bool is_upper = z >= 0;
   const Number a = is_upper ? Number{x, y} : Number{one - z, Real(0)},
                b = is_upper ? Number{one + z, Real(0)} : Number{x, minus_y};

@@ -138,13 +138,13 @@ double ConeMetric::log_scale(const ConeCoordinates& P) const {
          n.log_denominator(std::exp(n.a * to_zero), -P[i] / P[k]) - 2 * std::log(std::abs(P[k]));
 }
 
-double ConeMetric::quick_log_scale(const ConeCoordinates& log_P) const {
-  const auto [i, j, k] = ranks([&](int m) { return log_P[m].real(); });
+double ConeMetric::quick_log_scale(const ConeCoordinates& logs) const {
+  const auto [i, j, k] = ranks([&](int m) { return logs[m].real(); });
   const Numbering& n = numbering(i, k);
-  const Complex log_z = log_P[i] - log_P[k];
-  const double to_one = log_P[j].real() - log_P[k].real();
+  const Complex log_z = logs[i] - logs[k];
+  const double to_one = logs[j].real() - logs[k].real();
   return n.log_factor + (n.a - 1) * log_z.real() + (n.b - 1) * to_one -
-         n.table_value(std::exp(n.a * log_z.real()), unsigned_angle(log_z.imag() + pi)) - 2 * log_P[k].real();
+         n.table_value(std::exp(n.a * log_z.real()), unsigned_angle(log_z.imag() + pi)) - 2 * logs[k].real();
 }
 
 double ConeMetric::area() const { return 2 * pi * (angles_[0] + angles_[1] + angles_[2] - 1); }

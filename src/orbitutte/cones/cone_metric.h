@@ -31,7 +31,7 @@ class ConeMetric {
   double log_scale(const ConeCoordinates& P) const;
 
   /// The same from the logarithms log|P| + i arg P, by a table: 2e-4 off at most.
-  double quick_log_scale(const ConeCoordinates& log_P) const;
+  double quick_log_scale(const ConeCoordinates& logs) const;
 
   /// By Gauss and Bonnet: 2 pi (a[0] + a[1] + a[2] - 1).
   double area() const;

@@ -44,8 +44,8 @@ std::vector<int> farthest_first(const Points& V, const std::vector<int>& among, 
 std::vector<int> thinned(const std::vector<int>& vertices, int count) {
   const int n = static_cast<int>(vertices.size());
   if (n <= count) return vertices;
-  std::vector<int> result;
-  for (int k = 0; k < count; ++k) result.push_back(vertices[static_cast<long long>(k) * n / count]);
+  std::vector<int> result(count);
+  for (int k = 0; k < count; ++k) result[k] = vertices[static_cast<long long>(k) * n / count];
   return result;
 }
 

@@ -35,7 +35,8 @@ Vector3 step_to_centre(const Points& positions, const Eigen::VectorXd& shares, c
 /// p -> b + (1 - <b, b>) (p + b)/<p + b, p + b>, which has as many digits as Real.
 template <typename Real>
 Vector3Of<Real> boosted(const Vector3& half_way, const Vector3Of<Real>& point) {
-  const Vector3Of<Real> b = half_way.cast<Real>(), sum = point + b;
+  const auto b = half_way.cast<Real>().eval();
+  const Vector3Of<Real> sum = point + b;
   const Real scale = (Real(1) - b.dot(b)) / sum.dot(sum);
   return b + scale * sum;
 }

@@ -183,7 +183,7 @@ Moebius wanted_map(const SphereImages& images, const QuotientOptions& options) {
   const std::vector<PolygonCorner>& at = options.points;
   if (at.size() == 3) return through_three(images.points, at);
   if (at.size() == 2) return through_two(images, options);
-  const Moebius centred = centring(images, options.centre.value_or(Centre::area));
+  Moebius centred = centring(images, options.centre.value_or(Centre::area));
   if (at.empty()) return centred;
   const Vector3 now = sphere_point(centred(images.points[at[0].vertex]));
   return Moebius::rotation(rotation_between(now, at[0].position)) * centred;

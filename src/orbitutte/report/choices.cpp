@@ -44,7 +44,7 @@ std::string choices_json(const std::vector<Choice>& choices, Objective objective
 }
 
 std::string report_json(const BestEmbedding& embedded, const RunRecord& run) {
-  const std::string plain = report_json(embedded.result, run);
+  std::string plain = report_json(embedded.result, run);
   if (embedded.choices.empty()) return plain;
   Json json = Json::parse(plain);
   json["choice"] = table_to_json(embedded.choices, embedded.objective);
