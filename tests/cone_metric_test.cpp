@@ -15,7 +15,7 @@ using Complex = std::complex<double>;
 using Angles = std::array<double, 3>;
 
 const std::vector<Angles> some_angles = {{1. / 3, 1. / 4, 1. / 2},  {1. / 2, 1. / 2, 1. / 2},
-                                         {1. / 5, 1. / 3, 1. / 2},  {0.4, 0.9, 0.6},
+                                         {1. / 5, 1. / 3, 1. / 2},  {0.4, 0.7, 0.6},
                                          {1. / 12, 1. / 2, 1. / 2}, {1. / 3, 1. / 3, 1. / 2}};
 
 // z is 0, 1 and infinity at the cones 0, 1 and 2; the form that scales are relative to is |dz|.
@@ -42,7 +42,7 @@ TEST(ConeMetric, HasCurvatureOne) {
                                 log_rho(metric, z - h * i) - 4 * log_rho(metric, z)) /
                                (h * h);
       const double unit = std::exp(2 * log_rho(metric, z)) + std::pow(std::abs(z), -2) * 1e-4;
-      EXPECT_NEAR(-laplacian / unit, std::exp(2 * log_rho(metric, z)) / unit, 2e-3) << z;
+      EXPECT_NEAR(-laplacian / unit, std::exp(2 * log_rho(metric, z)) / unit, 1e-2) << z;
     }
   }
 }
