@@ -16,7 +16,18 @@
 namespace orbitutte {
 namespace {
 
-constexpr int candidate_count = 60, coarse_samples = 200, fine_samples = 1000, finest_samples = 8000;
+constexpr int candidate_count = 60;
+
+// How many samples the search, its end and the table take.
+struct SampleCounts {
+  int coarse = 200, fine = 1000, finest = 8000;
+};
+
+// Extremes are seen by many samples only.
+SampleCounts sample_counts(Objective objective) {
+  return objective == Objective::sigma ? SampleCounts() : SampleCounts{400, 4000, 8000};
+}
+
 constexpr int highest_order = 12;
 
 // A family with its free order.
@@ -141,9 +152,11 @@ class BestCones {
         faces_(measure_triangles(surface, base.embedding)),
         order_(order_in_space(surface)),
         candidates_(candidates(base)),
-        coarse_(chart_, stars_, samples(base, coarse_samples)),
-        fine_(chart_, stars_, samples(base, fine_samples)),
-        finest_(chart_, stars_, samples(base, finest_samples)),
+        coarse_(chart_, stars_, samples(base, sample_counts(options.objective).coarse)),
+        fine_(chart_, stars_, samples(base, sample_counts(options.objective).fine)),
+        finest_(chart_, stars_, samples(base, sample_counts(options.objective).finest)),
+        smooth_search_(coarse_, surface, neighbors_, Objective::sigma),
+        fine_smooth_search_(fine_, surface, neighbors_, Objective::sigma),
         search_(coarse_, surface, neighbors_, options.objective),
         fine_search_(fine_, surface, neighbors_, options.objective),
         freedom_{kept_vertices(options), !options.target.has_value()} {}
@@ -165,7 +178,10 @@ class BestCones {
 
   // Moves the vertices of the choice to where they are best, by few samples and then by more.
   void polish(Scored& scored) {
-    search_.polish(scored.choice, freedom_);
+    if (options_.objective == Objective::sigma)
+      search_.polish(scored.choice, freedom_);
+    else
+      fine_smooth_search_.polish(scored.choice, freedom_);
     scored.score = fine_search_.polish(scored.choice, freedom_);
   }
 
@@ -205,6 +221,8 @@ class BestCones {
     for (const std::vector<int>& cones : starts) {
       Scored scored = {{target, cones}, {}};
       if (!search_.is_possible(scored.choice)) continue;
+      if (options_.objective != Objective::sigma)
+        smooth_search_.descend(scored.choice, candidates_, freedom_);
       scored.score = search_.descend(scored.choice, candidates_, freedom_);
       if (!best || scored.score < best->score) best = std::move(scored);
     }
@@ -230,6 +248,10 @@ class BestCones {
   std::vector<int> order_;
   Candidates candidates_;
   ScaleField coarse_, fine_, finest_;
+
+  /// By sigma, from which the search for other objectives begins: they have many local minima.
+  ConeSearch smooth_search_, fine_smooth_search_;
+
   ConeSearch search_, fine_search_;
   Freedom freedom_;
 
