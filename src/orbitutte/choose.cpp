@@ -20,7 +20,7 @@ constexpr int candidate_count = 60;
 
 // How many samples the search, its end and the table take.
 struct SampleCounts {
-  int coarse = 200, fine = 1000, finest = 8000;
+  int coarse = 250, fine = 1000, finest = 8000;
 };
 
 // Extremes are seen by many samples only.

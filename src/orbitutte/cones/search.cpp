@@ -152,7 +152,7 @@ Score ConeSearch::descend(MarkedTarget& choice, const Candidates& candidates, co
 }
 
 std::vector<int> ConeSearch::rings_around(int vertex) const {
-  constexpr int farthest = 8, of_each = 8;
+  constexpr int farthest = 32, of_each = 8;
   std::vector<int> ring = {vertex}, seen = {vertex}, result;
   for (int distance = 1; distance <= farthest && !ring.empty(); ++distance) {
     std::vector<int> next;

@@ -80,7 +80,7 @@ class ConeSearch {
   /// long as that helps.
   Score descend(MarkedTarget& choice, const Candidates& candidates, const Freedom& freedom);
 
-  /// Moves one vertex at a time by one, two, four or eight rings of neighbours, as long as that helps.
+  /// Moves one vertex at a time by one, two, four ... 32 rings of neighbours, as long as that helps.
   Score polish(MarkedTarget& choice, const Freedom& freedom);
 
   /// May these vertices carry the marks? All differ, and no edge joins two that come to lie at opposite
@@ -93,7 +93,7 @@ class ConeSearch {
   bool try_exchanges(MarkedTarget& choice, const Freedom& freedom, Score& best);
   bool try_candidates(MarkedTarget& choice, int mark, const std::vector<int>& candidates, Score& best);
 
-  /// The vertices at one, two, four and eight rings from one, up to eight of each, that may carry its mark.
+  /// The vertices at one, two, four ... 32 rings from one, up to eight of each, that may carry its mark.
   std::vector<int> rings_around(int vertex) const;
 
   ScaleField& field_;
