@@ -30,12 +30,12 @@ def embed(V: npt.ArrayLike, F: Any, signature: str = "best", cones: Cones = "bes
     F : (m, 3) array_like of int, (m, k), or list of sequences
         Faces, counterclockwise seen from outside, 0-based; sequences of different lengths are polygons.
     signature : str
-        Conway's symbol, such as "432" (see `families`); "best", the one of least distortion; "1" or "sphere" for the whole sphere, "*"
+        Conway's symbol, such as "432" (see `families`); "best", the one of least distortion; "1" or "sphere" for the whole sphere, ``"*"``
         or "hemisphere" for a disk; or "polygon" for a fixed boundary.
     cones : sequence of int and "best", "best", or "extremities"
         The vertices to be marked, in the order of the symbol; "best" in place of those, or all, that are to be chosen so that the map
         distorts least. "auto" is an older name of "best". "extremities" takes vertices that are far from each other. None for "1" and
-        "*".
+        ``"*"``.
     objective : "sigma", "symmetric-dirichlet" or "range"
         What the best have least of: the standard deviation of the logarithm of the scale, the mean of the symmetric Dirichlet energy,
         or the ratio of the largest scale to the smallest.
@@ -63,12 +63,13 @@ def embed(V: npt.ArrayLike, F: Any, signature: str = "best", cones: Cones = "bes
     threads : int
         0, as many as the machine has. Results do not depend on it.
     centre : str
-        Of "1" and "*": what comes to lie at the centre of the sphere, "area" of the surface (the default) or its "vertices"; "sigma"
+        Of "1" and ``"*"``: what comes to lie at the centre of the sphere, "area" of the surface (the default) or its "vertices"; "sigma"
         for the least distortion of areas; or "none".
     points : mapping of int to (x, y, z)
-        Of "1" and "*": up to three vertices, and the points of the unit sphere at which they come to lie.
+        Of "1" and ``"*"``: up to three vertices, and the points of the unit sphere at which they come to lie.
     quotient : bool
-        Take the quotient of the map by its group, a map to the whole sphere or a hemisphere; for NN, *NN, N*, 222 and *222.
+        Take the quotient of the map by its group, a map to the whole sphere or a hemisphere; for ``NN``, ``*NN``, ``N*``, ``222``
+        and ``*222``.
 
     Returns
     -------

@@ -91,7 +91,7 @@ class Embedding:
     moved_vertices : (k,) int32
         Input vertices that were moved to make thin triangles positive; they are no critical points of the energy.
     is_free_to_rotate : bool
-        Does the orbifold fix the map only up to a rotation about its axis (NN, N*, Nx and *), or about any (1)? See `rotation_to`.
+        Does the orbifold fix the map only up to a rotation about its axis (``NN``, ``N*``, ``Nx`` and ``*``), or about any (``1``)? See `rotation_to`.
     faces : (m, 3) int32
         The input faces on cut vertices. Faces of k corners are (m, k); if their numbers differ, a list of tuples.
     triangles : (t, 3) int32
