@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "command_arguments.h"
 #include "commands.h"
 #include "orbitutte/io/file.h"
 #include "orbitutte/io/mesh_io.h"
 #include "orbitutte/report/choices.h"
+#include "page_pictures.h"
 
 namespace orbitutte::cli {
 namespace {
@@ -38,6 +41,26 @@ void print_row(const Choice& choice) {
              verdict(choice));
 }
 
+std::vector<int> candidates_of(const Surface& surface, const Target& target) {
+  if (surface.topology == Topology::projective_plane) return choose_cones(surface, target);
+  const Candidates candidates = cone_candidates(surface);
+  std::vector<int> all = candidates.inside;
+  all.insert(all.end(), candidates.on_boundary.begin(), candidates.on_boundary.end());
+  return all;
+}
+
+// The best choice that is certified, embedded once more.
+void draw_best(const ChooseArguments& arguments, const Surface& surface, const std::vector<Choice>& choices,
+               const EmbedOptions& options) {
+  const auto best =
+      std::find_if(choices.begin(), choices.end(), [](const Choice& choice) { return choice.is_certified; });
+  if (best == choices.end())
+    throw ArgumentError(
+        "--picture: none of the choices that were embedded is certified; embed more (--solved)");
+  const EmbedResult result = embed(surface, best->target, best->cones, options);
+  write_scale_picture(arguments.picture, surface, result.embedding, candidates_of(surface, best->target));
+}
+
 }  // namespace
 
 int choose_command(const ChooseArguments& arguments) {
@@ -54,6 +77,7 @@ int choose_command(const ChooseArguments& arguments) {
   const std::vector<Choice> choices = choose(surface, options, arguments.solved);
   const std::string json = choices_json(choices, options.objective);
   if (!arguments.output.empty()) write_file(arguments.output, json);
+  if (!arguments.picture.empty()) draw_best(arguments, *surface, choices, options.embed);
   if (arguments.json) {
     fmt::print("{}", json);
     return succeeded;

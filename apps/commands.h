@@ -42,7 +42,7 @@ struct EmbedArguments {
 int embed_command(const EmbedArguments& arguments);
 
 struct ChooseArguments {
-  std::string mesh, orbifold, cones, output;
+  std::string mesh, orbifold, cones, output, picture;
   std::string objective = name_of(Objective::sigma), weights = name_of(WeightKind::standard);
   int solved = 3, threads = 0;
   bool json = false;

@@ -219,6 +219,10 @@ void add_choose(CLI::App& app, int& code) {
       ->capture_default_str();
   command.output("-o,--output", command->output, {"-o", "the table", "", {".json"}},
                  "Write the table (JSON) here");
+  command.output(
+      "--picture", command->picture, {"--picture", "the picture", "", {".png"}},
+      "Draw the scale of the best map on the mesh, with its cones and the vertices among which the "
+      "search began");
   command.flag("--json", command->json, "Print JSON");
   command.runs(choose_command, code);
 }

@@ -16,6 +16,11 @@ namespace orbitutte::cli {
 std::vector<PagePicture> page_pictures(const Surface& surface, const Embedding& embedding,
                                        const Report& report);
 
+/// Writes a picture of the scale of a map, with its cones and the vertices among which these were chosen.
+/// Throws ArgumentError in builds without pictures, and FileError.
+void write_scale_picture(const std::string& path, const Surface& surface, const Embedding& embedding,
+                         const std::vector<int>& candidates);
+
 /// From where a picture shows the mesh: what is not given, the picture chooses.
 struct Viewpoint {
   std::optional<Vector3> view, up;

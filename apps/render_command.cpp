@@ -45,6 +45,13 @@ int render_command(const RenderArguments& arguments) {
   return drawn;
 }
 
+void write_scale_picture(const std::string& path, const Surface& surface, const Embedding& embedding,
+                         const std::vector<int>& candidates) {
+  RenderOptions options;
+  options.panel = Panel::area;
+  write_picture(path, {surface, embedding, Report(), "", candidates}, options);
+}
+
 std::vector<PagePicture> page_pictures(const Surface& surface, const Embedding& embedding,
                                        const Report& report) {
   std::vector<PagePicture> pictures;

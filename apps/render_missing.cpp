@@ -20,6 +20,10 @@ Viewpoint parse_viewpoint(const std::string& view, const std::string& up, const 
   return {};
 }
 
+void write_scale_picture(const std::string&, const Surface&, const Embedding&, const std::vector<int>&) {
+  throw ArgumentError(no_pictures);
+}
+
 std::vector<PagePicture> page_pictures(const Surface&, const Embedding&, const Report&) { return {}; }
 
 }  // namespace orbitutte::cli

@@ -310,6 +310,13 @@ class Messages(CommandLine):
         self.assertEqual([row.get('bijective') for row in table['choices']], [True] + 4 * [None])
         self.assertIn('certified', self.expect(0, 'choose', 'figure.obj', '--orbifold', '432').stdout)
 
+    def test_choose_draws_the_scale_and_the_candidates(self):
+        picture = self.folder / 'scale.png'
+        self.expect(0, 'choose', 'figure.obj', '--orbifold', '432', '--solved', '1', '--picture', picture)
+        self.assertTrue(picture.read_bytes().startswith(b'\x89PNG'))
+        self.expect(IS_WRONG, 'choose', 'figure.obj', '--orbifold', '432', '--solved', '0', '--picture', picture, says='--solved')
+        self.expect(IS_WRONG, 'choose', 'figure.obj', '--picture', self.folder / 'scale.jpg', says='.png')
+
     def test_cones_that_no_orbifold_takes_are_refused(self):
         self.expect(IS_WRONG, 'embed', 'figure.obj', '--cones', '1,two,3', says="'best' in place of those")
         self.expect(IS_WRONG, 'embed', 'figure.obj', '--objective', 'least', says='--objective.*sigma')

@@ -135,6 +135,23 @@ TEST(Quotient, OfADiskIsAHemisphereWhoseMirrorIsTheBoundary) {
   EXPECT_EQ(result.embedding.seams[0].left.front(), result.embedding.seams[0].left.back());
 }
 
+TEST(Quotient, OfASolvedMapIsTheOneThatEmbedsAsksFor) {
+  const Surface surface = make_surface(sphere_mesh());
+  EmbedOptions options = quiet_options();
+  const Target target = parse_orbifold("33");
+  const std::vector<int> cones = choose_cones(surface, target);
+  const EmbedResult map = embed(surface, target, cones, options);
+  options.quotient.is_wanted = true;
+  const EmbedResult direct = embed(surface, target, cones, options),
+                    later = quotient_of(surface, map, options);
+  EXPECT_TRUE(later.certificate.bijective);
+  EXPECT_EQ(later.quotient->signature, "33");
+  EXPECT_EQ(later.embedding.positions, direct.embedding.positions);
+  const Target other = parse_orbifold("332");
+  const EmbedResult without = embed(surface, other, choose_cones(surface, other), quiet_options());
+  EXPECT_THROW(quotient_of(surface, without, options), ArgumentError);
+}
+
 TEST(Quotient, NamesOfTheWholeSphereAreItsSymbols) {
   EXPECT_EQ(parse_orbifold("sphere").signature, "1");
   EXPECT_EQ(parse_orbifold("hemisphere").signature, "*");

@@ -227,7 +227,7 @@ def distortion_floor(V: npt.ArrayLike, F: Any, signature: str = "best", cones: C
     mesh = _arrays.mesh(V, F)
     vertices, is_choice = _options.marks(mesh, target, cones)
     if is_choice:
-        wanted = _orbitutte.ChooseOptions(target, vertices, "sigma", _options.options())
+        wanted = _orbitutte.ChooseOptions(target, vertices, "sigma", chosen)
         best = json.loads(_orbitutte.choose(mesh, wanted, 0, None))["choices"][0]
         target, vertices = _orbitutte.Target.parse(best["orbifold"]), best["cones"]
     return _orbitutte.distortion_floor(mesh, target, vertices, chosen, _callable(progress))

@@ -151,7 +151,7 @@ class BestCones {
         chart_(base.embedding),
         faces_(measure_triangles(surface, base.embedding)),
         order_(order_in_space(surface)),
-        candidates_(candidates(base)),
+        candidates_(cone_candidates(surface)),
         coarse_(chart_, stars_, samples(base, sample_counts(options.objective).coarse)),
         fine_(chart_, stars_, samples(base, sample_counts(options.objective).fine)),
         finest_(chart_, stars_, samples(base, sample_counts(options.objective).finest)),
@@ -192,14 +192,6 @@ class BestCones {
 
  private:
   // The cones of the map first, which are extremities, then those that are given.
-  Candidates candidates(const EmbedResult& base) const {
-    const Candidates all = all_places(surface_);
-    Candidates first;
-    for (const ConeCopies& cone : base.embedding.cones)
-      (lies_outside(all, cone.vertex) ? first.on_boundary : first.inside).push_back(cone.vertex);
-    return spread_candidates(surface_, first, candidate_count);
-  }
-
   std::vector<ScaleSample> samples(const EmbedResult& base, int count) const {
     std::vector<int> ends = candidates_.inside;
     ends.insert(ends.end(), candidates_.on_boundary.begin(), candidates_.on_boundary.end());
@@ -435,6 +427,14 @@ auto with_threads_for(const ChooseOptions& options, const Compute& compute) {
 
 }  // namespace
 
+Candidates cone_candidates(const Surface& surface) {
+  const Target base = base_target(surface.topology);
+  const std::vector<int> extremities = choose_cones(surface, base);
+  Candidates first;
+  (base.inner_marks > 0 ? first.inside : first.on_boundary) = extremities;
+  return spread_candidates(surface, first, candidate_count);
+}
+
 BestEmbedding embed_best(const std::shared_ptr<const Surface>& surface, const ChooseOptions& options) {
   return with_threads_for(options, [&] {
     Choosing choosing(surface, options, Polished::contenders);
@@ -461,7 +461,7 @@ BestEmbedding embed_best(const std::shared_ptr<const Surface>& surface, const Ch
     }
     if (best.taken < 0) throw MeshError(first_refusal);
     if (asks_for_quotient(options.embed.quotient))
-      best.result = embed(*surface, best.choice().target, best.choice().cones, options.embed);
+      best.result = quotient_of(*surface, best.result, options.embed);
     best.result.timings.insert(best.result.timings.begin(), {"choose", choosing.seconds()});
     add_warnings(best);
     return best;

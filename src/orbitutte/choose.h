@@ -63,6 +63,10 @@ struct BestEmbedding {
 /// MeshError if no orbifold takes such cones.
 BestEmbedding embed_best(const std::shared_ptr<const Surface>& surface, const ChooseOptions& options = {});
 
+/// The vertices that the search begins with: the extremities that its first map marks, and then the farthest
+/// from those before. Throws MeshError unless the surface is a sphere or a disk.
+Candidates cone_candidates(const Surface& surface);
+
 /// The table, the first `solved` rows of it embedded.
 std::vector<Choice> choose(std::shared_ptr<const Surface> surface, const ChooseOptions& options = {},
                            int solved = 3);

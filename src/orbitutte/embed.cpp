@@ -289,16 +289,26 @@ std::vector<Remedy> remedies_of(const QuotientMap& quotient) {
   return {with_faces_repaired, with_its_digits, with_limbs_resolved, with_more_digits};
 }
 
-// The quotient of a map by its group. It marks nothing, but the vertices that the other map marks keep what
-// it spreads out from becoming an arc.
-EmbedResult embed_quotient(const EmbedRequest& request, EmbeddingCache& cache) {
-  const Surface& surface = request.prepared.surface;
-  const QuotientOptions options = complete_options(request);
+// The map onto all that the quotient of a map to `from` is onto. It marks nothing, but the vertices that the
+// other map marks keep what it spreads out from becoming an arc.
+struct WholeMap {
+  BaseMap from;
+  Target onto;
+  QuotientOptions options;
+};
+
+WholeMap whole_map(const EmbedRequest& request) {
   const BaseMap from = base_map(request);
-  const Target onto = quotient_target(from.target);
-  require_points(surface, onto, options.points);
-  const EmbedResult base =
-      embed_with_some_weights({request.prepared, from.target, from.cones, request.options}, cache);
+  WholeMap result = {from, quotient_target(from.target), complete_options(request)};
+  require_points(request.prepared.surface, result.onto, result.options.points);
+  return result;
+}
+
+// The quotient of a solved map by its group.
+EmbedResult quotient_by_group(const EmbedRequest& request, const WholeMap& wanted, const EmbedResult& base,
+                              EmbeddingCache& cache) {
+  const Surface& surface = request.prepared.surface;
+  const auto& [from, onto, options] = wanted;
   const EmbedRequest whole = {request.prepared, onto, from.cones, request.options};
 
   EmbedResult result = begin_quotient(from, base, options);
@@ -318,6 +328,14 @@ EmbedResult embed_quotient(const EmbedRequest& request, EmbeddingCache& cache) {
   });
   if (base.requested_weights) result.warnings.push_back(base.warnings.back());
   return result;
+}
+
+EmbedResult embed_quotient(const EmbedRequest& request, EmbeddingCache& cache) {
+  const WholeMap wanted = whole_map(request);
+  const BaseMap& from = wanted.from;
+  const EmbedResult base =
+      embed_with_some_weights({request.prepared, from.target, from.cones, request.options}, cache);
+  return quotient_by_group(request, wanted, base, cache);
 }
 
 // Runs `compute` with the threads that the options ask for.
@@ -383,6 +401,18 @@ EmbedResult embed(const Mesh& mesh, const Target& target, const std::vector<int>
 EmbedResult embed(const PolygonMesh& mesh, const Target& target, const std::vector<int>& cones,
                   const EmbedOptions& options) {
   return embed_mesh(mesh, target, cones, options);
+}
+
+EmbedResult quotient_of(const Surface& surface, const EmbedResult& map, const EmbedOptions& options) {
+  return with_threads_of(options, [&] {
+    const PreparedSurface prepared = prepare(surface, options);
+    std::vector<int> cones;
+    for (const ConeCopies& cone : map.embedding.cones) cones.push_back(cone.vertex);
+    const EmbedRequest request = {prepared, map.embedding.target, cones, options};
+    require_fit(request);
+    EmbeddingCache cache(Kept::order);
+    return quotient_by_group(request, whole_map(request), map, cache);
+  });
 }
 
 struct EmbeddingSolver::State {

@@ -31,6 +31,10 @@ EmbedResult embed(const Mesh& mesh, const Target& target, const std::vector<int>
 EmbedResult embed(const PolygonMesh& mesh, const Target& target, const std::vector<int>& cones,
                   const EmbedOptions& options = {});
 
+/// The quotient of a map by its group, as QuotientOptions::is_wanted gives it: `map` is the embedding of the
+/// surface onto NN, *NN, N*, 222 or *222. Throws ArgumentError for other targets, and as embed does.
+EmbedResult quotient_of(const Surface& surface, const EmbedResult& map, const EmbedOptions& options = {});
+
 /// For many embeddings of one surface: keeps what depends neither on the cones nor on their orders, and
 /// those factors of the last embedding that fit the next one. The results are those of the functions above.
 class EmbeddingSolver {

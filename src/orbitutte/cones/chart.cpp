@@ -9,26 +9,6 @@ namespace {
 
 // Number is Real's complex numbers: Complex or PreciseComplex.
 
-PreciseComplex operator+(const PreciseComplex& a, const PreciseComplex& b) {
-  return {a.re + b.re, a.im + b.im};
-}
-
-PreciseComplex operator-(const PreciseComplex& a, const PreciseComplex& b) {
-  return {a.re - b.re, a.im - b.im};
-}
-
-PreciseComplex operator*(const PreciseComplex& a, const PreciseComplex& b) {
-  return {a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
-}
-
-PreciseComplex operator/(const PreciseComplex& a, const PreciseComplex& b) {
-  const Precise square = b.re * b.re + b.im * b.im;
-  return {(a.re * b.re + a.im * b.im) / square, (a.im * b.re - a.re * b.im) / square};
-}
-
-Complex to_double(const Complex& a) { return a; }
-Complex to_double(const PreciseComplex& a) { return {a.re.convert_to<double>(), a.im.convert_to<double>()}; }
-
 template <typename Number>
 struct Ratio {
   Number numerator, denominator;
@@ -96,11 +76,16 @@ Vector3 sphere_point(const ChartPoint& point) {
   return {xy.real(), xy.imag(), (d - n) / (n + d)};
 }
 
+bool has_orbifold_chart(const Target& target) {
+  const ConwaySymbol& symbol = target.symbol;
+  const std::vector<int> half_turns = {2, 2, 2};
+  return !symbol.cross && (symbol.star ? symbol.rotations.empty() && symbol.corners == half_turns
+                                       : symbol.rotations == half_turns);
+}
+
 OrbifoldChart::OrbifoldChart(const Embedding& embedding)
     : embedding_(embedding), positions_(embedding), to_canonical_(embedding.placement.inverse().matrix()) {
-  const ConwaySymbol& symbol = embedding.target.symbol;
-  const std::vector<int> orders = {2, 2, 2};
-  if (symbol.cross || (symbol.star ? symbol.corners : symbol.rotations) != orders)
+  if (!has_orbifold_chart(embedding.target))
     throw ArgumentError("the chart of a surface is made from a map to 222 or *222, not to " +
                         embedding.target.signature);
 }

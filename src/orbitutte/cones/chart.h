@@ -3,19 +3,12 @@
 // invariant.
 #pragma once
 
-#include <complex>
 #include <memory>
 
+#include "orbitutte/cones/precise_complex.h"
 #include "orbitutte/orbifold/exact_positions.h"
 
 namespace orbitutte {
-
-using Complex = std::complex<double>;
-
-/// A complex number of more digits than doubles have.
-struct PreciseComplex {
-  Precise re, im;
-};
 
 /// A point of the Riemann sphere, numerator : denominator, of which the larger is 1.
 struct PreciseChartPoint {
@@ -42,6 +35,9 @@ ChartPoint conjugate(const ChartPoint& point);
 /// (0, 0, -1), 1 at (1, 0, 0). Seen from outside, the sphere has the orientation of the complex plane.
 Vector3 sphere_point(const ChartPoint& point);
 
+/// Is the target 222 or *222, so that a map to it gives a chart?
+bool has_orbifold_chart(const Target& target);
+
 /// With w = (x + iy)/(1 + z) on the sphere of the embedding, in the canonical frame, the group of 222 (half
 /// turns about the axes) is that of w -> -w, 1/w, -1/w. Its invariant
 ///     Z = (w^2 + 1)^2 / (4 w^2)
@@ -51,7 +47,7 @@ Vector3 sphere_point(const ChartPoint& point);
 /// other half of the double to conjugates.
 class OrbifoldChart {
  public:
-  /// Refers to the embedding. Throws ArgumentError unless its target is 222 or *222.
+  /// Refers to the embedding. Throws ArgumentError unless has_orbifold_chart holds for its target.
   explicit OrbifoldChart(const Embedding& embedding);
 
   /// Of a cut vertex: the same for all copies of a vertex, up to rounding.

@@ -13,14 +13,14 @@ namespace orbitutte {
 namespace {
 
 // The vertices that faces use, ascending.
-struct Places {
+struct PossiblePlaces {
   std::vector<int> inside, on_boundary;
 };
 
-Places places(const Surface& surface) {
+PossiblePlaces places(const Surface& surface) {
   const Triangles& F = surface.triangles;
   const int vertex_count = surface.vertex_count();
-  Places result;
+  PossiblePlaces result;
   std::vector<char> used(vertex_count, 0), outer(vertex_count, 0);
   for (int h = 0; h < static_cast<int>(F.size()); ++h) {
     used[halfedge_origin(F, h)] = 1;
@@ -104,7 +104,7 @@ void order_around(const Surface& surface, std::span<int> marks) {
 }  // namespace
 
 std::vector<int> choose_extremities(const Surface& surface, const WantedExtremities& wanted) {
-  const Places place = places(surface);
+  const PossiblePlaces place = places(surface);
   if (wanted.inner > 0 && place.inside.empty())
     throw MeshError("one vertex has to be marked inside the surface, but all are on its boundary");
   require_enough(wanted.inner, place.inside);

@@ -10,14 +10,6 @@
 namespace orbitutte {
 namespace {
 
-// Of every vertex: 1 if it lies on the boundary.
-std::vector<char> outer_vertices(const Surface& surface) {
-  std::vector<char> is_outer(surface.vertex_count(), 0);
-  for (int h = 0; h < static_cast<int>(surface.triangles.size()); ++h)
-    if (surface.connectivity.opposite[h] < 0) is_outer[halfedge_origin(surface.triangles, h)] = 1;
-  return is_outer;
-}
-
 bool contains(const std::vector<int>& vertices, int v) {
   return std::find(vertices.begin(), vertices.end(), v) != vertices.end();
 }
@@ -74,7 +66,7 @@ Score score_of(const ScaleSummary& summary, Objective objective) {
 }
 
 Candidates all_places(const Surface& surface) {
-  const std::vector<char> is_outer = outer_vertices(surface);
+  const std::vector<char> is_outer = surface.boundary_vertices();
   std::vector<char> is_used(surface.vertex_count(), 0);
   for (const int v : surface.triangles.reshaped()) is_used[v] = 1;
   Candidates all;
@@ -91,7 +83,7 @@ Candidates spread_candidates(const Surface& surface, const Candidates& first, in
 
 ConeSearch::ConeSearch(ScaleField& field, const Surface& surface, const Neighbors& neighbors,
                        Objective objective)
-    : field_(field), neighbors_(neighbors), objective_(objective), is_outer_(outer_vertices(surface)) {}
+    : field_(field), neighbors_(neighbors), objective_(objective), is_outer_(surface.boundary_vertices()) {}
 
 bool ConeSearch::is_possible(const MarkedTarget& choice) const {
   const std::vector<int>& cones = choice.cones;

@@ -90,12 +90,6 @@ std::vector<int> source_of_texture_vertex(const ExportedModel& model, const std:
   return source;
 }
 
-double triangle_area(const Surface& surface, Eigen::Index t) {
-  const auto v = surface.triangles.row(t);
-  const Vector3 a = surface.V.row(v[0]), b = surface.V.row(v[1]), c = surface.V.row(v[2]);
-  return (b - a).cross(c - a).norm() / 2;
-}
-
 // The mean distortion of a range of triangles, weighted by their areas in the source. Triangles that were not
 // measured do not count.
 FaceDistortion mean_distortion(const Surface& surface, const std::vector<FaceDistortion>& of_triangle,
@@ -104,7 +98,7 @@ FaceDistortion mean_distortion(const Surface& surface, const std::vector<FaceDis
   double area = 0;
   for (Eigen::Index t = range.first; t < range.second; ++t) {
     if (!(of_triangle[t].area > 0)) continue;
-    const double share = triangle_area(surface, t);
+    const double share = surface.area(t);
     mean.area += share * of_triangle[t].area;
     mean.angle += share * of_triangle[t].angle;
     area += share;

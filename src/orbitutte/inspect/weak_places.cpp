@@ -13,9 +13,9 @@ namespace orbitutte {
 namespace {
 
 // Counts the places of one kind and keeps the sentence about the first.
-class Places {
+class PlacesOfKind {
  public:
-  explicit Places(WeakPlaceKind kind) : kind_(kind) {}
+  explicit PlacesOfKind(WeakPlaceKind kind) : kind_(kind) {}
 
   template <typename... Arguments>
   void add(fmt::format_string<Arguments...> text, Arguments&&... arguments) {
@@ -51,8 +51,8 @@ int inner_halfedge(const PolygonTopology& surface, int f) {
   return c;
 }
 
-Places vertices_with_two_edges(const PolygonTopology& surface, const std::vector<char>& on_boundary) {
-  Places places(WeakPlaceKind::degree_two);
+PlacesOfKind vertices_with_two_edges(const PolygonTopology& surface, const std::vector<char>& on_boundary) {
+  PlacesOfKind places(WeakPlaceKind::degree_two);
   std::vector<int> corners(on_boundary.size(), 0), corner(on_boundary.size(), -1);
   for (int c = 0; c < surface.corner_count(); ++c) {
     ++corners[surface.origin[c]];
@@ -66,8 +66,8 @@ Places vertices_with_two_edges(const PolygonTopology& surface, const std::vector
   return places;
 }
 
-Places ears(const PolygonTopology& surface) {
-  Places places(WeakPlaceKind::ear);
+PlacesOfKind ears(const PolygonTopology& surface) {
+  PlacesOfKind places(WeakPlaceKind::ear);
   for (int f = 0; f < surface.face_count(); ++f) {
     if (!is_ear(surface, f)) continue;
     const int c = inner_halfedge(surface, f);
@@ -80,8 +80,8 @@ bool is_chord(const PolygonTopology& surface, const std::vector<char>& on_bounda
   return surface.twin[c] >= 0 && on_boundary[surface.origin[c]] && on_boundary[surface.target(c)];
 }
 
-Places chords(const PolygonTopology& surface, const std::vector<char>& on_boundary) {
-  Places places(WeakPlaceKind::chord);
+PlacesOfKind chords(const PolygonTopology& surface, const std::vector<char>& on_boundary) {
+  PlacesOfKind places(WeakPlaceKind::chord);
   for (int c = 0; c < surface.corner_count(); ++c) {
     const int d = surface.twin[c];
     if (d < c || !is_chord(surface, on_boundary, c) || is_ear(surface, surface.face_of[c]) ||
@@ -93,8 +93,8 @@ Places chords(const PolygonTopology& surface, const std::vector<char>& on_bounda
   return places;
 }
 
-Places faces_on_the_boundary(const PolygonTopology& surface, const std::vector<char>& on_boundary) {
-  Places places(WeakPlaceKind::boundary_face);
+PlacesOfKind faces_on_the_boundary(const PolygonTopology& surface, const std::vector<char>& on_boundary) {
+  PlacesOfKind places(WeakPlaceKind::boundary_face);
   for (int f = 0; f < surface.face_count(); ++f) {
     int vertices = 0;
     bool has_chord = false;
@@ -115,8 +115,8 @@ bool is_projective_plane(const PolygonTopology& surface) {
   return static_cast<int>(vertices.size()) - surface.corner_count() / 2 + surface.face_count() == 1;
 }
 
-Places double_contact_places(const PolygonTopology& surface, int vertex_count) {
-  Places places(WeakPlaceKind::double_contact);
+PlacesOfKind double_contact_places(const PolygonTopology& surface, int vertex_count) {
+  PlacesOfKind places(WeakPlaceKind::double_contact);
   for (const auto& [f, g, v, w] : double_contacts(surface, vertex_count))
     places.add("faces {} and {} share the vertices {} and {}, but no edge of both joins these", f, g, v, w);
   return places;

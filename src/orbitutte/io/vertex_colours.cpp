@@ -12,7 +12,7 @@ namespace orbitutte {
 namespace {
 
 constexpr double full_byte = 255;
-constexpr double rounding = 1e-3;  // above 1, as of numbers that were written with a few decimals
+constexpr double colour_rounding = 1e-3;  // above 1, as of numbers that were written with a few decimals
 
 /// The first channel, vertex by vertex, that passes the test; the number of channels if none does.
 template <class Test>
@@ -51,7 +51,7 @@ VertexColours colours_of_numbers(const Points& channels) {
   if (wrong < channels.size()) return out_of_range(channels, wrong);
   const double largest = channels.size() > 0 ? channels.maxCoeff() : 0.0;
   if (largest <= 1) return {channels, {}};
-  if (largest <= 1 + rounding) {
+  if (largest <= 1 + colour_rounding) {
     const Eigen::Index above = first_channel(channels, [](double c) { return c > 1; });
     return {channels.cwiseMin(1.0), shown_channel(channels, above) + ": values above 1 count as 1"};
   }

@@ -24,12 +24,12 @@ namespace {
 constexpr int tile = 192;
 
 // Rows and columns begin .. begin + count - 1.
-struct Range {
+struct TileRange {
   int begin, count;
 };
 
-std::vector<Range> tiles(Eigen::Index begin, Eigen::Index end) {
-  std::vector<Range> result;
+std::vector<TileRange> tiles(Eigen::Index begin, Eigen::Index end) {
+  std::vector<TileRange> result;
   for (Eigen::Index at = begin; at < end; at += tile)
     result.push_back({static_cast<int>(at), static_cast<int>(std::min<Eigen::Index>(tile, end - at))});
   return result;
@@ -55,7 +55,7 @@ void add_columns(const DenseColumns& L, long first, const float* y, float* pull)
 
 // Calls visit(row tile, column tile) for every pair in the lower triangle.
 template <typename Visit>
-void for_each_pair(const std::vector<Range>& rows, const Visit& visit) {
+void for_each_pair(const std::vector<TileRange>& rows, const Visit& visit) {
   const int count = static_cast<int>(rows.size());
   std::vector<std::pair<int, int>> pairs;
   for (int c = 0; c < count; ++c)
@@ -81,11 +81,11 @@ void partial_cholesky(Eigen::MatrixXd& A, Eigen::Index own) {
     int info = 0;
     dpotrf_("L", &width, at(k, k), &n, &info);
     if (info != 0) throw NotPositiveDefinite(k + info - 1);
-    const std::vector<Range> below = tiles(k + width, n);
+    const std::vector<TileRange> below = tiles(k + width, n);
     parallel_for(static_cast<int>(below.size()), [&, k = k, width = width](int i) {
       dtrsm_("R", "L", "T", "N", &below[i].count, &width, &one, at(k, k), &n, at(below[i].begin, k), &n);
     });
-    for_each_pair(below, [&, k = k, width = width](const Range& row, const Range& column) {
+    for_each_pair(below, [&, k = k, width = width](const TileRange& row, const TileRange& column) {
       dgemm_("N", "T", &row.count, &column.count, &width, &minus_one, at(row.begin, k), &n,
              at(column.begin, k), &n, &one, at(row.begin, column.begin), &n);
     });
@@ -97,7 +97,7 @@ void multiply_by_transpose(Eigen::MatrixXd& L) {
   const double one = 1, zero = 0;
   L.triangularView<Eigen::StrictlyUpper>().setZero();
   Eigen::MatrixXd product(n, n);
-  for_each_pair(tiles(0, n), [&](const Range& row, const Range& column) {
+  for_each_pair(tiles(0, n), [&](const TileRange& row, const TileRange& column) {
     const int terms =
         column.begin + column.count;  // the columns in which the upper of the two tiles is not zero
     dgemm_("N", "T", &row.count, &column.count, &terms, &one, L.data() + row.begin, &n,

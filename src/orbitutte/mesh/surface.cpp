@@ -1,10 +1,23 @@
 // SPDX-License-Identifier: MIT
 #include "orbitutte/mesh/surface.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 
 namespace orbitutte {
+
+double Surface::area(Eigen::Index triangle) const {
+  const auto corner = [&](int k) -> Vector3 { return V.row(triangles(triangle, k)); };
+  return 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
+}
+
+std::vector<char> Surface::boundary_vertices() const {
+  std::vector<char> result(vertex_count(), 0);
+  for (int h = 0; h < static_cast<int>(triangles.size()); ++h)
+    if (connectivity.opposite[h] < 0) result[halfedge_origin(triangles, h)] = 1;
+  return result;
+}
 
 Polygons Surface::polygons_on(const Triangles& cut, const std::vector<char>& turned) const {
   Polygons result;

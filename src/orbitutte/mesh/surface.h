@@ -32,6 +32,12 @@ struct Surface {
   int vertex_count() const { return static_cast<int>(V.rows()); }
   int triangle_count() const { return static_cast<int>(triangles.rows()); }
 
+  /// The area of a triangle.
+  double area(Eigen::Index triangle) const;
+
+  /// n: 1 for the vertices on the boundary.
+  std::vector<char> boundary_vertices() const;
+
   /// The faces as they were given.
   FaceView faces() const { return has_polygons() ? FaceView(polygons) : FaceView(triangles); }
 

@@ -17,7 +17,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double rounding = 1e-12;  // of positions on the unit sphere
+constexpr double corner_rounding = 1e-12;  // of positions on the unit sphere
 
 using Corners = std::vector<PolygonCorner>;
 
@@ -61,7 +61,7 @@ void require_distinct_unit_corners(const Corners& corners) {
   for (const PolygonCorner& corner : corners) {
     if (!seen.insert(corner.vertex).second)
       throw MeshError(fmt::format("vertex {} is two corners of the polygon; give it once", corner.vertex));
-    if (!(std::abs(corner.position.norm() - 1) <= rounding))
+    if (!(std::abs(corner.position.norm() - 1) <= corner_rounding))
       throw MeshError(fmt::format("the corner at vertex {} is not on the unit sphere", corner.vertex));
   }
 }
@@ -69,10 +69,10 @@ void require_distinct_unit_corners(const Corners& corners) {
 void require_sides(const Corners& corners) {
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const PolygonCorner &here = corners[k], &next = corner_after(corners, k);
-    if ((here.position - next.position).norm() <= rounding)
+    if ((here.position - next.position).norm() <= corner_rounding)
       throw MeshError(fmt::format("the corners at the vertices {} and {} are at the same point; move one",
                                   here.vertex, next.vertex));
-    if ((here.position + next.position).norm() <= rounding)
+    if ((here.position + next.position).norm() <= corner_rounding)
       throw MeshError(
           fmt::format("the corners at the vertices {} and {} are opposite points, which no side "
                       "joins; put a corner between them",
@@ -98,8 +98,8 @@ void require_left_turns(const Corners& corners) {
   const PolygonCorner* right_turn = nullptr;
   bool turns_left = false;
   for (std::size_t k = 0; k < corners.size(); ++k) {
-    turns_left = turns_left || bend[k] > rounding;
-    if (bend[k] < -rounding && !right_turn) right_turn = &corners[k];
+    turns_left = turns_left || bend[k] > corner_rounding;
+    if (bend[k] < -corner_rounding && !right_turn) right_turn = &corners[k];
   }
   if (!right_turn) return;
   if (turns_left)
@@ -117,7 +117,7 @@ void require_left_turns(const Corners& corners) {
 void require_hemisphere(const Corners& corners) {
   const Vector3 up = middle(corners);
   for (const PolygonCorner& corner : corners)
-    if (!(corner.position.dot(up) > rounding))
+    if (!(corner.position.dot(up) > corner_rounding))
       throw MeshError(
           fmt::format("the polygon fits into no open hemisphere: the corner at vertex {} is too far from its "
                       "middle; make it smaller than a hemisphere",

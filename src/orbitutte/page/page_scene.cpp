@@ -35,19 +35,19 @@ std::uint16_t quantised(double value, double low, double size) {
 }
 
 /// Numbers between bounds as 16 bits each.
-struct Range {
+struct ValueRange {
   double low = 0, high = 1;
 
   std::uint16_t operator()(double value) const { return quantised(value, low, high - low); }
 };
 
-Range range_of(const std::vector<double>& values) {
+ValueRange range_of(const std::vector<double>& values) {
   if (values.empty()) return {};
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   return {*low, std::max(*high, *low + 1e-6)};
 }
 
-Json to_json(const Range& range) { return {range.low, range.high}; }
+Json to_json(const ValueRange& range) { return {range.low, range.high}; }
 
 /// The mean of a measure, as log2, over the faces around every cut vertex; 0 if there are no faces.
 template <typename Measure>
@@ -169,7 +169,7 @@ void add_distortion(const Embedding& embedding, const std::vector<FaceDistortion
                     const std::vector<int>& cut_vertex, Json& scene) {
   const auto add = [&](const std::string& name, const auto& measure) {
     const std::vector<double> values = drawn(vertex_means(embedding, measure), cut_vertex);
-    const Range range = range_of(values);
+    const ValueRange range = range_of(values);
     scene[name + "_range"] = to_json(range);
     scene[name] =
         packed(static_cast<Eigen::Index>(values.size()), [&](Eigen::Index i) { return range(values[i]); });

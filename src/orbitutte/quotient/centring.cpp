@@ -15,11 +15,6 @@ constexpr int most_centring_steps = 200, most_step_halvings = 40;
 constexpr double longest_step = 3;       // the factor of scales is e to this power
 constexpr double smallest_step = 1e-15;  // what rounding leaves
 
-double source_area_of(const Surface& surface, int f) {
-  const auto corner = [&](int k) -> Vector3 { return surface.V.row(surface.triangles(f, k)); };
-  return 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
-}
-
 // Points with shares of the whole, carried along by the boosts.
 struct SharedPoints {
   Points positions;
@@ -105,14 +100,6 @@ void carry_along(const Vector3& velocity, SharedPoints& points) {
   });
 }
 
-Points positions_after(const Moebius& moebius, const std::vector<ChartPoint>& points) {
-  Points result(static_cast<Eigen::Index>(points.size()), 3);
-  parallel_ranges(static_cast<int>(points.size()), [&](int begin, int end) {
-    for (int v = begin; v < end; ++v) result.row(v) = sphere_point(moebius(points[v])).transpose();
-  });
-  return result;
-}
-
 // Images are taken from the chart in every step, so that no step's rounding adds to another's.
 Moebius barycentric(const SphereImages& images, const Eigen::VectorXd& shares) {
   Moebius result;
@@ -133,7 +120,7 @@ ScaledPoints scaled_faces(const SphereImages& images) {
   for (int f = 0; f < static_cast<int>(F.rows()); ++f) {
     const Vector3 a = positions.row(F(f, 0)), b = positions.row(F(f, 1)), c = positions.row(F(f, 2));
     scaled.points.positions.row(f) = (a + b + c).normalized().transpose();
-    const double source = source_area_of(images.surface, f), image = Space::sphere().area(a, b, c);
+    const double source = images.surface.area(f), image = Space::sphere().area(a, b, c);
     if (!(source > 0) || !(image > 0)) continue;  // it has no scale
     scaled.points.share[f] = source;
     scaled.log_scale[f] = 0.5 * std::log(image / source);
@@ -159,11 +146,19 @@ Moebius least_deviation(const SphereImages& images) {
 
 }  // namespace
 
+Points positions_after(const Moebius& moebius, const std::vector<ChartPoint>& points) {
+  Points result(static_cast<Eigen::Index>(points.size()), 3);
+  parallel_ranges(static_cast<int>(points.size()), [&](int begin, int end) {
+    for (int v = begin; v < end; ++v) result.row(v) = sphere_point(moebius(points[v])).transpose();
+  });
+  return result;
+}
+
 Eigen::VectorXd vertex_shares(const Surface& surface, Centre centre) {
   const Triangles& F = surface.triangles;
   Eigen::VectorXd shares = Eigen::VectorXd::Zero(surface.vertex_count());
   for (int f = 0; f < static_cast<int>(F.rows()); ++f) {
-    const double third = centre == Centre::area ? source_area_of(surface, f) / 3 : 0.0;
+    const double third = centre == Centre::area ? surface.area(f) / 3 : 0.0;
     for (const int v : F.row(f)) shares[v] = centre == Centre::area ? shares[v] + third : 1.0;
   }
   const double sum = shares.sum();

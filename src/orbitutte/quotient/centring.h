@@ -23,6 +23,9 @@ struct SphereImages {
   Matrix3 fixed = Matrix3::Identity();
 };
 
+/// Where a Möbius map takes the chart's points on the unit sphere (n x 3).
+Points positions_after(const Moebius& moebius, const std::vector<ChartPoint>& points);
+
 /// The shares of the vertices: by area, a third of the faces' areas around each, or all alike. They add up to
 /// 1; vertices that no face uses have none.
 Eigen::VectorXd vertex_shares(const Surface& surface, Centre centre);

@@ -52,28 +52,11 @@ Moebius Moebius::rotation(const Matrix3& rotation) {
                  Complex(0, std::sin(turn.angle() / 2)) * boost_generator(turn.axis()));
 }
 
-namespace {
-
-PreciseComplex precise_product(const Complex& factor, const PreciseComplex& number) {
-  const Precise re = factor.real(), im = factor.imag();
-  return {re * number.re - im * number.im, re * number.im + im * number.re};
-}
-
-PreciseComplex precise_sum(const PreciseComplex& a, const PreciseComplex& b) {
-  return {a.re + b.re, a.im + b.im};
-}
-
-PreciseComplex precise_number(const Complex& number) {
-  return {Precise(number.real()), Precise(number.imag())};
-}
-
-}  // namespace
-
 Vector3Of<Precise> Moebius::precise_image(const ChartPoint& point) const {
-  const PreciseComplex n = point.precise ? point.precise->numerator : precise_number(point.numerator),
-                       d = point.precise ? point.precise->denominator : precise_number(point.denominator);
-  const PreciseComplex a = precise_sum(precise_product(matrix_(0, 0), n), precise_product(matrix_(0, 1), d)),
-                       b = precise_sum(precise_product(matrix_(1, 0), n), precise_product(matrix_(1, 1), d));
+  const PreciseComplex n = point.precise ? point.precise->numerator : with_digits(point.numerator),
+                       d = point.precise ? point.precise->denominator : with_digits(point.denominator);
+  const auto row = [&](int k) { return with_digits(matrix_(k, 0)) * n + with_digits(matrix_(k, 1)) * d; };
+  const PreciseComplex a = row(0), b = row(1);
   const Precise upper = b.re * b.re + b.im * b.im, lower = a.re * a.re + a.im * a.im, sum = upper + lower;
   return {2 * (a.re * b.re + a.im * b.im) / sum, 2 * (a.im * b.re - a.re * b.im) / sum,
           (upper - lower) / sum};

@@ -24,13 +24,6 @@ bool is_of_orders(const std::vector<int>& orders, std::size_t count) {
          std::all_of(orders.begin(), orders.end(), [&](int n) { return n == orders[0]; });
 }
 
-// 222 and *222.
-bool is_of_half_turns(const ConwaySymbol& symbol) {
-  const std::vector<int> half_turns = {2, 2, 2};
-  return !symbol.cross && (symbol.star ? symbol.rotations.empty() && symbol.corners == half_turns
-                                       : symbol.rotations == half_turns);
-}
-
 // NN, *NN and N*.
 bool is_of_one_axis(const ConwaySymbol& symbol) {
   const std::vector<int>&inside = symbol.rotations, &corners = symbol.corners;
@@ -56,7 +49,7 @@ std::vector<ChartPoint> chart_points(const Surface& surface, const Embedding& ba
       for (int v = begin; v < end; ++v) points[v] = of_vertex(v);
     });
   };
-  if (is_of_half_turns(base.target.symbol)) {
+  if (has_orbifold_chart(base.target)) {
     const OrbifoldChart chart(base);
     fill([&](int v) { return chart.of_vertex(v); });
   } else {
@@ -105,13 +98,6 @@ Matrix3 rotation_between(const Vector3& from, const Vector3& to) {
   const Vector3 pole = std::abs(from.z()) < 0.9 ? Vector3::UnitZ() : Vector3::UnitX();
   return Eigen::AngleAxisd(std::acos(-1.0), Vector3(pole - pole.dot(from) * from).normalized())
       .toRotationMatrix();
-}
-
-std::vector<char> boundary_vertices_of(const Surface& surface) {
-  std::vector<char> result(surface.vertex_count(), 0);
-  for (int h = 0; h < static_cast<int>(surface.triangles.size()); ++h)
-    if (surface.connectivity.opposite[h] < 0) result[halfedge_origin(surface.triangles, h)] = 1;
-  return result;
 }
 
 constexpr double rounding_of_points = 1e-12;
@@ -215,7 +201,7 @@ void boost_positions(const Vector3& velocity, Embedding& embedding) {
 }  // namespace
 
 Target quotient_target(const Target& base) {
-  if (!base.corners.empty() || !(is_of_half_turns(base.symbol) || is_of_one_axis(base.symbol)))
+  if (!base.corners.empty() || !(has_orbifold_chart(base) || is_of_one_axis(base.symbol)))
     throw ArgumentError(
         fmt::format("the quotient of a map to {} is not known; there are those of NN, *NN, N*, 222 and *222",
                     base.signature));
@@ -231,7 +217,7 @@ void require_points(const Surface& surface, const Target& onto, const std::vecto
     throw ArgumentError(fmt::format(
         "{} vertices are to lie at given points; three decide the map, so give no more", points.size()));
   const std::vector<char> is_outer =
-      is_closed_surface(onto) ? std::vector<char>() : boundary_vertices_of(surface);
+      is_closed_surface(onto) ? std::vector<char>() : surface.boundary_vertices();
   for (const PolygonCorner& at : points) {
     require_point_of_sphere(surface, at);
     if (!is_closed_surface(onto)) require_point_of_equator(at, is_outer[at.vertex] != 0);
@@ -260,13 +246,7 @@ QuotientMap::QuotientMap(const Surface& surface, const Embedding& base, const Ta
                     options.points[0].vertex, options.points[1].vertex, options.points[2].vertex));
 }
 
-Points QuotientMap::positions() const {
-  Points result(static_cast<Eigen::Index>(chart_.size()), 3);
-  parallel_ranges(static_cast<int>(chart_.size()), [&](int begin, int end) {
-    for (int v = begin; v < end; ++v) result.row(v) = sphere_point(moebius_(chart_[v])).transpose();
-  });
-  return result;
-}
+Points QuotientMap::positions() const { return positions_after(moebius_, chart_); }
 
 void centre_anew(const Surface& surface, Centre centre, Embedding& embedding) {
   constexpr int most_boosts = 5;

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "orbitutte/mesh/surface.h"
 #include "orbitutte/names.h"
@@ -61,6 +62,9 @@ struct RenderSubject {
   const Report& report;
   /// Of the sheet.
   std::string title;
+  /// Vertices of the surface among which the cones were chosen: the panel of areas marks them by small balls,
+  /// and the cones by large ones.
+  std::vector<int> candidates = {};
 };
 
 /// The bytes of a PNG, or of an SVG (histogram and convergence only). The same input and options give the

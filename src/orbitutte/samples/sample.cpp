@@ -244,23 +244,23 @@ Mesh coarse_mask() {
 
 // ---- all shapes
 
-struct Shape {
+struct ShapeRow {
   SampleShape shape;
   EvenMap projective_map;  // of a projective plane; otherwise null
 };
 
-const std::array<Shape, 6>& shapes() {
-  static const std::array<Shape, 6> result = {{{SampleShape::figure, nullptr},
-                                               {SampleShape::mask, nullptr},
-                                               {SampleShape::boy, boys_surface},
-                                               {SampleShape::roman, roman_surface},
-                                               {SampleShape::crosscap, cross_cap},
-                                               {SampleShape::quotient, limbed_quotient}}};
+const std::array<ShapeRow, 6>& shapes() {
+  static const std::array<ShapeRow, 6> result = {{{SampleShape::figure, nullptr},
+                                                  {SampleShape::mask, nullptr},
+                                                  {SampleShape::boy, boys_surface},
+                                                  {SampleShape::roman, roman_surface},
+                                                  {SampleShape::crosscap, cross_cap},
+                                                  {SampleShape::quotient, limbed_quotient}}};
   return result;
 }
 
-const Shape& row_of(SampleShape shape) {
-  return *std::find_if(shapes().begin(), shapes().end(), [&](const Shape& s) { return s.shape == shape; });
+const ShapeRow& row_of(SampleShape shape) {
+  return *std::find_if(shapes().begin(), shapes().end(), [&](const ShapeRow& s) { return s.shape == shape; });
 }
 
 void require_faces_from(int fewest, int faces) {

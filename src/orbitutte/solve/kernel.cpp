@@ -19,7 +19,7 @@ struct HalfSpace {
   double slack(const Eigen::Vector3d& x) const { return row.dot(x) - bound; }
 };
 
-constexpr double rounding = 1e-12;
+constexpr double slack_rounding = 1e-12;
 
 HalfSpace half_space(const KernelCondition& condition) {
   return {{condition.gradient.x(), condition.gradient.y(), -condition.weight}, -condition.value};
@@ -36,13 +36,13 @@ Eigen::Vector3d best_corner(const std::vector<HalfSpace>& conditions) {
         A << conditions[i].row.transpose(), conditions[j].row.transpose(), conditions[k].row.transpose();
         const double determinant = A.determinant();
         if (std::abs(determinant) <=
-            rounding * conditions[i].row.norm() * conditions[j].row.norm() * conditions[k].row.norm())
+            slack_rounding * conditions[i].row.norm() * conditions[j].row.norm() * conditions[k].row.norm())
           continue;
         const Eigen::Vector3d x =
             A.inverse() * Eigen::Vector3d(conditions[i].bound, conditions[j].bound, conditions[k].bound);
         if (!(x.z() > best.z())) continue;
         const bool holds = std::all_of(conditions.begin(), conditions.end(), [&](const HalfSpace& other) {
-          return other.slack(x) >= -rounding * (other.row.norm() * (1 + x.norm()));
+          return other.slack(x) >= -slack_rounding * (other.row.norm() * (1 + x.norm()));
         });
         if (holds) best = x;
       }
@@ -68,7 +68,7 @@ KernelStep widest_step(const std::vector<KernelCondition>& conditions, const Eig
       least = margin;
       next = k;
     }
-    if (round > 0 && least >= result.margin - rounding * (1 + std::abs(result.margin))) break;
+    if (round > 0 && least >= result.margin - slack_rounding * (1 + std::abs(result.margin))) break;
     tried.push_back(half_space(conditions[next]));
     const Eigen::Vector3d corner = best_corner(tried);
     if (!std::isfinite(corner.z())) break;

@@ -24,7 +24,7 @@ constexpr double flattest = 1e-6;  // a source triangle's least height, relative
 enum class PatchWeights { cotan, mean_value };
 
 // A star at one moment: its triangles v, a, b in the tangent plane at v, and in the source.
-struct Shape {
+struct StarShape {
   Eigen::Matrix<double, 3, 2> axes;  // of the tangent plane, counterclockwise from outside; on a mirror the
                                      // first lies along it
   bool on_mirror = false;
@@ -147,12 +147,12 @@ class Repair {
     return result;
   }
 
-  Shape shape_of(int v, const std::vector<StarTriangle>& star) const {
-    Shape shape;
+  StarShape shape_of(int v, const std::vector<StarTriangle>& star) const {
+    StarShape shape;
     const Vector3 p = positions_.rounded(v);
     const auto source = [&](int u) -> Vector3 { return site_.surface.V.row(u); };
     for (const StarTriangle& at : star) {
-      Shape::Triangle& triangle = shape.triangles.emplace_back();
+      StarShape::Triangle& triangle = shape.triangles.emplace_back();
       const Vector3 a = positions_.difference(v, at.a, at.element_a),
                     b = positions_.difference(v, at.b, at.element_b);
       triangle.a = a;
@@ -174,7 +174,7 @@ class Repair {
 
   // The direction to the neighbour with the lowest number that does not coincide with the vertex: a choice
   // that no cut changes.
-  Vector3 direction_to_a_neighbour(const Shape& shape, const std::vector<StarTriangle>& star) const {
+  Vector3 direction_to_a_neighbour(const StarShape& shape, const std::vector<StarTriangle>& star) const {
     Vector3 direction = Vector3::Zero();
     int lowest = std::numeric_limits<int>::max();
     for (std::size_t k = 0; k < star.size(); ++k) {
@@ -187,7 +187,7 @@ class Repair {
   }
 
   // The first axis points to a neighbour, or along the mirror to its side.
-  void set_axes(int v, const Vector3& p, const std::vector<StarTriangle>& star, Shape& shape) const {
+  void set_axes(int v, const Vector3& p, const std::vector<StarTriangle>& star, StarShape& shape) const {
     const BoundaryConditions& boundary = site_.gluing.boundary;
     shape.on_mirror = boundary.basis_of[v] != in_space;
     Vector3 first = space_.tangent(p, direction_to_a_neighbour(shape, star));
@@ -212,11 +212,11 @@ class Repair {
     if (!site_.may_move[v]) return;
     const std::vector<StarTriangle> star = site_.stars.around(v);
     if (are_positive(star)) return;
-    const Shape shape = shape_of(v, star);
+    const StarShape shape = shape_of(v, star);
     if (!(shape.radius > 0)) return;
     const double source_radius = longest_source_edge(shape);
     std::vector<KernelCondition> conditions;
-    for (const Shape::Triangle& triangle : shape.triangles) {
+    for (const StarShape::Triangle& triangle : shape.triangles) {
       const Eigen::Vector2d gradient = shape.axes.transpose() * triangle.gradient;
       const double length = std::max(triangle.gradient.norm(), std::numeric_limits<double>::min());
       conditions.push_back({gradient / length, triangle.value / length / shape.radius,
@@ -234,9 +234,9 @@ class Repair {
                        [&](const StarTriangle& at) { return positions_.is_positive(at.face); });
   }
 
-  static double longest_source_edge(const Shape& shape) {
+  static double longest_source_edge(const StarShape& shape) {
     double longest = 0;
-    for (const Shape::Triangle& triangle : shape.triangles)
+    for (const StarShape::Triangle& triangle : shape.triangles)
       longest = std::max({longest, triangle.source[0], triangle.source[1]});
     return std::sqrt(longest);
   }
@@ -255,7 +255,7 @@ class Repair {
   }
 
   // s1/s2, were the star's vertex moved by a tangent step; infinite unless the triangle is positive then.
-  static double ratio_of_singular_values(const Shape::Triangle& triangle, const Vector3& step) {
+  static double ratio_of_singular_values(const StarShape::Triangle& triangle, const Vector3& step) {
     const double twice_area = triangle.value + triangle.gradient.dot(step);
     if (!(twice_area > 0)) return std::numeric_limits<double>::infinity();
     // s1/s2 + s2/s1 from the squared lengths of both triangles (U. Pinkall, K. Polthier 1993): the
@@ -273,9 +273,9 @@ class Repair {
 
   // The sum over the star, without triangles that are flat in the source, which must be positive all the
   // same.
-  static double distortion(const Shape& shape, const Vector3& step) {
+  static double distortion(const StarShape& shape, const Vector3& step) {
     double sum = 0;
-    for (const Shape::Triangle& triangle : shape.triangles) {
+    for (const StarShape::Triangle& triangle : shape.triangles) {
       const double ratio = ratio_of_singular_values(triangle, step);
       if (!triangle.is_flat || !std::isfinite(ratio)) sum += ratio;
     }
@@ -285,7 +285,7 @@ class Repair {
   bool smooth(int v) {
     if (!site_.may_move[v]) return false;
     const std::vector<StarTriangle> star = site_.stars.around(v);
-    const Shape shape = shape_of(v, star);
+    const StarShape shape = shape_of(v, star);
     const double at_first = distortion(shape, Vector3::Zero());
     if (!std::isfinite(at_first)) return false;
     Eigen::Vector2d best(0, 0);
@@ -318,9 +318,9 @@ class Repair {
     return true;
   }
 
-  static double shortest_edge(const Shape& shape) {
+  static double shortest_edge(const StarShape& shape) {
     double shortest = std::numeric_limits<double>::infinity();
-    for (const Shape::Triangle& triangle : shape.triangles)
+    for (const StarShape::Triangle& triangle : shape.triangles)
       shortest = std::min({shortest, triangle.a.norm(), triangle.b.norm()});
     return shortest;
   }

@@ -66,14 +66,10 @@ EdgeWeights cotangent_weights(const Surface& surface, double clamp) {
                                     halfedge_origin(F, previous_halfedge(h)));
   });
   result.w = summed_over_sides(surface.connectivity, cotangent);
-  const auto is_clamped = [&](int e) {
-    double& w = result.w[e];
-    if (w > 0) return false;
-    w = clamp;
-    return true;
-  };
-  result.clamped_edges =
-      static_cast<int>(parallel_select(static_cast<int>(result.w.size()), is_clamped).size());
+  const std::vector<int> not_positive =
+      parallel_select(static_cast<int>(result.w.size()), [&](int e) { return !(result.w[e] > 0); });
+  for (const int e : not_positive) result.w[e] = clamp;
+  result.clamped_edges = static_cast<int>(not_positive.size());
   return result;
 }
 
@@ -208,14 +204,14 @@ EdgeWeights intrinsic_weights(IntrinsicTriangulation triangulation, double clamp
   result.kind = WeightKind::delaunay;
   result.clamp = clamp;
   result.w = summed_over_sides(triangulation.connectivity, triangulation.half_cotangent);
-  const auto is_clamped = [&](int e) {
+  const std::vector<int> tiny = parallel_select(static_cast<int>(result.w.size()),
+                                                [&](int e) { return result.w[e] < concyclic_weight; });
+  for (const int e : tiny) {
     double& w = result.w[e];
     const bool is_negative = w < -concyclic_weight;
-    w = std::max(is_negative ? clamp : w, concyclic_weight);
-    return is_negative;
-  };
-  result.clamped_edges =
-      static_cast<int>(parallel_select(static_cast<int>(result.w.size()), is_clamped).size());
+    if (is_negative) ++result.clamped_edges;
+    w = is_negative ? std::max(clamp, concyclic_weight) : concyclic_weight;
+  }
   result.triangulation = std::make_shared<IntrinsicTriangulation>(std::move(triangulation));
   return result;
 }
