@@ -100,16 +100,19 @@ RayScene::RayScene() : scene_(rtcNewScene(device()), rtcReleaseScene) {
 }
 
 int RayScene::add_triangles(const Points& V, const Triangles& F) {
+  auto [P, pieces] = short_pieces(V, F);
   const RTCGeometry geometry = new_geometry(RTC_GEOMETRY_TYPE_TRIANGLE);
   using Position = std::array<float, 3>;
-  auto* const positions = new_buffer<Position>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, V.rows());
-  for (Eigen::Index v = 0; v < V.rows(); ++v)
-    for (int k = 0; k < 3; ++k) positions[v][k] = static_cast<float>(V(v, k));
+  auto* const positions = new_buffer<Position>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, P.rows());
+  for (Eigen::Index v = 0; v < P.rows(); ++v)
+    for (int k = 0; k < 3; ++k) positions[v][k] = static_cast<float>(P(v, k));
   using Corners = std::array<unsigned, 3>;
-  auto* const corners = new_buffer<Corners>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, F.rows());
-  for (Eigen::Index f = 0; f < F.rows(); ++f)
-    for (int k = 0; k < 3; ++k) corners[f][k] = static_cast<unsigned>(F(f, k));
-  transforms_.push_back(Eigen::Matrix3f::Identity());
+  auto* const corners = new_buffer<Corners>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3,
+                                            static_cast<Eigen::Index>(pieces.size()));
+  for (std::size_t f = 0; f < pieces.size(); ++f)
+    for (int k = 0; k < 3; ++k) corners[f][k] = static_cast<unsigned>(pieces[f].corners[k]);
+  const bool are_whole = static_cast<Eigen::Index>(pieces.size()) == F.rows();
+  shapes_->push_back({are_whole ? std::vector<Piece>() : std::move(pieces)});
   return attach(scene_.get(), geometry);
 }
 
@@ -120,14 +123,14 @@ int RayScene::add_tube(const Points& points, double radius) {
   auto* const segments =
       new_buffer<unsigned>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT, points.rows() - 1);
   for (Eigen::Index i = 0; i + 1 < points.rows(); ++i) segments[i] = static_cast<unsigned>(i);
-  transforms_.push_back(Eigen::Matrix3f::Identity());
+  shapes_->emplace_back();
   return attach(scene_.get(), geometry);
 }
 
 int RayScene::add_ball(const Vector3& centre, double radius) {
   const RTCGeometry geometry = new_geometry(RTC_GEOMETRY_TYPE_SPHERE_POINT);
   *new_thick_points(geometry, 1) = thick(centre, radius);
-  transforms_.push_back(Eigen::Matrix3f::Identity());
+  shapes_->emplace_back();
   return attach(scene_.get(), geometry);
 }
 
@@ -135,9 +138,9 @@ int RayScene::add_copy(const RayScene& original, const Matrix3& transform) {
   const RTCGeometry geometry = new_geometry(RTC_GEOMETRY_TYPE_INSTANCE);
   rtcSetGeometryInstancedScene(geometry, original.scene_.get());
   rtcSetGeometryTimeStepCount(geometry, 1);
-  transforms_.emplace_back(transform.cast<float>());
+  shapes_->push_back({{}, transform.cast<float>(), original.shapes_});
   Eigen::Matrix<float, 3, 4> affine = Eigen::Matrix<float, 3, 4>::Zero();
-  affine.leftCols<3>() = transforms_.back();
+  affine.leftCols<3>() = shapes_->back().transform;
   rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, affine.data());
   return attach(scene_.get(), geometry);
 }
@@ -159,9 +162,18 @@ std::optional<Hit> RayScene::first_hit(const Ray& ray) const {
   hit.primitive = static_cast<int>(found.primID);
   hit.u = found.u, hit.v = found.v;
   hit.normal = Vector3f(found.Ng_x, found.Ng_y, found.Ng_z).normalized();
+  const std::vector<Shape>* shapes = shapes_.get();
   if (found.instID[0] != RTC_INVALID_GEOMETRY_ID) {
     hit.copy = static_cast<int>(found.instID[0]);
-    hit.normal = transforms_[hit.copy] * hit.normal;
+    const Shape& copy = (*shapes)[hit.copy];
+    hit.normal = copy.transform * hit.normal;
+    shapes = copy.original.get();
+  }
+  if (const std::vector<Piece>& pieces = (*shapes)[hit.shape].pieces; !pieces.empty()) {
+    const Piece& piece = pieces[hit.primitive];
+    const Eigen::Vector2f place = piece.place_in_face(hit.u, hit.v);
+    hit.primitive = piece.face;
+    hit.u = place[0], hit.v = place[1];
   }
   return hit;
 }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "orbitutte/render/short_pieces.h"
 #include "orbitutte/types.h"
 
 struct RTCSceneTy;
@@ -38,7 +39,8 @@ struct Hit {
   Vector3f normal;
 };
 
-/// In single precision: coordinates should be of the order of one. Add shapes, commit, then cast rays from
+/// In single precision: coordinates should be of the order of one. Triangles are those of an edge-manifold
+/// mesh. Add shapes, commit, then cast rays from
 /// any thread. Throws std::bad_alloc if memory runs out.
 class RayScene {
  public:
@@ -59,9 +61,17 @@ class RayScene {
   bool is_blocked(const Ray& ray) const;
 
  private:
+  struct Shape {
+    /// Of triangles that were divided.
+    std::vector<Piece> pieces = {};
+    /// Of a copy.
+    Eigen::Matrix3f transform = Eigen::Matrix3f::Identity();
+    std::shared_ptr<const std::vector<Shape>> original = {};
+  };
+
   std::shared_ptr<RTCSceneTy> scene_;
-  /// Of every shape, the identity unless it is a copy.
-  std::vector<Eigen::Matrix3f> transforms_;
+  /// Shared with the copies of the scene.
+  std::shared_ptr<std::vector<Shape>> shapes_ = std::make_shared<std::vector<Shape>>();
 };
 
 }  // namespace orbitutte
