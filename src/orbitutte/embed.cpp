@@ -157,7 +157,8 @@ EmbedResult embed_once(const EmbedRequest& request, EmbeddingCache& cache) {
   result.backend = options.laplacian.backend;
 
   stage("weights", [&] { result.weights = find_weights(request, cache.weights); });  // section 4
-  stage("cut", [&] { find_cut(request, result.weights, cache); });                   // section 4.1
+  stage("cut", [&] { find_cut(request, cache); });                                   // section 4.1
+  if (!cache.serves_again) cache.weights = {};
   const GluingProblem problem = gluing_problem(request, result.weights, cache.cut.cut, cache);
   LbfgsOptions lbfgs;
   lbfgs.tolerance = options.tolerance;
@@ -297,6 +298,7 @@ EmbedResult embed_quotient(const EmbedRequest& request, EmbeddingCache& cache) {
   const BaseMap from = base_map(request);
   const Target onto = quotient_target(from.target);
   require_points(surface, onto, options.points);
+  cache.serves_again = true;
   const EmbedResult base =
       embed_with_some_weights({request.prepared, from.target, from.cones, request.options}, cache);
   const EmbedRequest whole = {request.prepared, onto, from.cones, request.options};
