@@ -37,7 +37,7 @@ struct Substructure::Piece {
 
 namespace {
 
-using Border = Eigen::Matrix<float, Eigen::Dynamic, 3>;
+using ByColumns = Eigen::Matrix<float, Eigen::Dynamic, 3>;
 
 void sort_uniquely(std::vector<long>& numbers) {
   std::sort(numbers.begin(), numbers.end());
@@ -212,9 +212,9 @@ void Substructure::forward(SinglePoints& y) const {
       if (piece.sparse) {
         piece.sparse->factor.forward(local);
       } else if (piece.own() > 0) {
-        Border change(piece.size() - piece.own(), 3);
-        orbitutte::forward(piece.dense(), local.data(), change.data());
-        local.bottomRows(change.rows()) -= change;
+        ByColumns columns = local;
+        orbitutte::forward(piece.dense(), columns.data());
+        local = columns;
       }
       y.middleRows(piece.begin, piece.own()) = local.topRows(piece.own());
       pull[level[k]] = local.bottomRows(piece.size() - piece.own());
@@ -237,8 +237,9 @@ void Substructure::backward(SinglePoints& y) const {
       if (piece.sparse) {
         piece.sparse->factor.backward(local);
       } else {
-        const Border x = local.bottomRows(piece.size() - piece.own());
-        orbitutte::backward(piece.dense(), local.data(), x.data());
+        ByColumns columns = local;
+        orbitutte::backward(piece.dense(), columns.data());
+        local = columns;
       }
       y.middleRows(piece.begin, piece.own()) = local.topRows(piece.own());
     });
