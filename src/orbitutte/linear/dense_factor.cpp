@@ -9,20 +9,24 @@
 #include "orbitutte/linear/sparse_factor.h"
 #include "orbitutte/parallel.h"
 
-// What is needed of BLAS and LAPACK, for one kind of numbers.
-#define ORBITUTTE_DECLARE_BLAS(Real, potrf, trsm, gemm, syrk)                                              \
-  extern "C" {                                                                                             \
-  void potrf(const char* uplo, const int* n, Real* a, const int* lda, int* info);                          \
-  void trsm(const char* side, const char* uplo, const char* transpose, const char* diagonal, const int* m, \
-            const int* n, const Real* alpha, const Real* a, const int* lda, Real* b, const int* ldb);      \
-  void gemm(const char* transpose_a, const char* transpose_b, const int* m, const int* n, const int* k,    \
-            const Real* alpha, const Real* a, const int* lda, const Real* b, const int* ldb,               \
-            const Real* beta, Real* c, const int* ldc);                                                    \
-  void syrk(const char* uplo, const char* transpose, const int* n, const int* k, const Real* alpha,        \
-            const Real* a, const int* lda, const Real* beta, Real* c, const int* ldc);                     \
-  }
-ORBITUTTE_DECLARE_BLAS(double, dpotrf_, dtrsm_, dgemm_, dsyrk_)
-ORBITUTTE_DECLARE_BLAS(float, spotrf_, strsm_, sgemm_, ssyrk_)
+extern "C" {
+void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
+void dtrsm_(const char* side, const char* uplo, const char* transpose, const char* diagonal, const int* m,
+            const int* n, const double* alpha, const double* a, const int* lda, double* b, const int* ldb);
+void dgemm_(const char* transpose_a, const char* transpose_b, const int* m, const int* n, const int* k,
+            const double* alpha, const double* a, const int* lda, const double* b, const int* ldb,
+            const double* beta, double* c, const int* ldc);
+void dsyrk_(const char* uplo, const char* transpose, const int* n, const int* k, const double* alpha,
+            const double* a, const int* lda, const double* beta, double* c, const int* ldc);
+void spotrf_(const char* uplo, const int* n, float* a, const int* lda, int* info);
+void strsm_(const char* side, const char* uplo, const char* transpose, const char* diagonal, const int* m,
+            const int* n, const float* alpha, const float* a, const int* lda, float* b, const int* ldb);
+void sgemm_(const char* transpose_a, const char* transpose_b, const int* m, const int* n, const int* k,
+            const float* alpha, const float* a, const int* lda, const float* b, const int* ldb,
+            const float* beta, float* c, const int* ldc);
+void ssyrk_(const char* uplo, const char* transpose, const int* n, const int* k, const float* alpha,
+            const float* a, const int* lda, const float* beta, float* c, const int* ldc);
+}
 
 namespace orbitutte {
 namespace {
@@ -134,16 +138,8 @@ void for_each_pair(const std::vector<Range>& rows, const Visit& visit) {
                [&](int k) { visit(rows[pairs[k].first], rows[pairs[k].second]); });
 }
 
-}  // namespace
-
-Eigen::MatrixXd zero_lower_triangle(Eigen::Index n) {
-  Eigen::MatrixXd A(n, n);
-  for (Eigen::Index column = 0; column < n; ++column) A.col(column).tail(n - column).setZero();
-  return A;
-}
-
 template <typename Real>
-void partial_cholesky(SquareMatrix<Real>& A, Eigen::Index own) {
+void factorize_leading(Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>& A, Eigen::Index own) {
   const int n = static_cast<int>(A.rows());
   const Real one = 1, minus_one = -1;
   const auto at = [&](int row, int column) { return A.data() + row + static_cast<Eigen::Index>(column) * n; };
@@ -166,8 +162,16 @@ void partial_cholesky(SquareMatrix<Real>& A, Eigen::Index own) {
   }
 }
 
-template void partial_cholesky(SquareMatrix<double>& A, Eigen::Index own);
-template void partial_cholesky(SquareMatrix<float>& A, Eigen::Index own);
+}  // namespace
+
+Eigen::MatrixXd zero_lower_triangle(Eigen::Index n) {
+  Eigen::MatrixXd A(n, n);
+  for (Eigen::Index column = 0; column < n; ++column) A.col(column).tail(n - column).setZero();
+  return A;
+}
+
+void partial_cholesky(Eigen::MatrixXd& A, Eigen::Index own) { factorize_leading(A, own); }
+void partial_cholesky(Eigen::MatrixXf& A, Eigen::Index own) { factorize_leading(A, own); }
 
 void multiply_by_transpose(Eigen::MatrixXd& L) {
   const int n = static_cast<int>(L.rows());

@@ -16,11 +16,9 @@ Eigen::MatrixXd zero_lower_triangle(Eigen::Index n);
 /// Factorises the first `own` rows O of a symmetric A = [A_OO, A_BO'; A_BO, A_BB] in place: L_OO with A_OO =
 /// L_OO L_OO' replaces A_OO, L_BO = A_BO L_OO^-T replaces A_BO, and the Schur complement A_BB - L_BO L_BO'
 /// replaces A_BB. Reads and writes the lower triangle; the upper one is undefined afterwards. The result has
-/// the same bits for any number of threads. Throws NotPositiveDefinite. For double and float.
-template <typename Real>
-using SquareMatrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
-template <typename Real>
-void partial_cholesky(SquareMatrix<Real>& A, Eigen::Index own);
+/// the same bits for any number of threads. Throws NotPositiveDefinite.
+void partial_cholesky(Eigen::MatrixXd& A, Eigen::Index own);
+void partial_cholesky(Eigen::MatrixXf& A, Eigen::Index own);
 
 /// The lower triangle of L L' for a lower triangular L, in place.
 void multiply_by_transpose(Eigen::MatrixXd& L);

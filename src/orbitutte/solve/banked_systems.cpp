@@ -246,7 +246,8 @@ class BankedSystems : public LaplacianSystems {
   // N'(S x I3)N, where N takes the glued unknowns to the positions of all bank nodes: 3 x k placements, few
   // of which differ. Its lower triangle.
   template <typename Real>
-  SquareMatrix<Real> glued_matrix(const std::vector<std::vector<int>>& copies) const {
+  Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic> glued_matrix(
+      const std::vector<std::vector<int>>& copies) const {
     const int banks = disk_.banks();
     std::vector<Block> distinct;
     std::vector<int> kind(banks);
@@ -265,7 +266,7 @@ class BankedSystems : public LaplacianSystems {
       for (const Block& right : distinct) products.emplace_back(left.transpose() * right);
 
     const Eigen::MatrixXd& S = factor_->schur_complement();
-    SquareMatrix<Real> glued(glued_.total, glued_.total);
+    Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic> glued(glued_.total, glued_.total);
     parallel_for(static_cast<int>(copies.size()), [&](int at) {
       const int vertex = glued_.order[at];
       const long first = glued_.first[vertex];
