@@ -5,6 +5,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -111,9 +112,7 @@ TEST_P(Dissected, NodesTileTheOrderAndComeBeforeTheirParents) {
   EXPECT_EQ(at, static_cast<int>(dissection.order.size()));
 }
 
-TEST_P(Dissected, EverySetSeparatesTheSubtreesBelowIt) {
-  const Neighbors graph = neighbors_of(GetParam()());
-  const Dissection dissection = dissect(graph);
+void expect_that_sets_separate(const Dissection& dissection, const Neighbors& graph) {
   std::vector<int> node_of(dissection.order.size());
   for (std::size_t k = 0; k < dissection.nodes.size(); ++k)
     for (int i = dissection.nodes[k].begin; i < dissection.nodes[k].end; ++i)
@@ -127,6 +126,24 @@ TEST_P(Dissected, EverySetSeparatesTheSubtreesBelowIt) {
       const int a = node_of[v], b = node_of[graph.neighbor[k]];
       ASSERT_TRUE(is_above(a, b) || is_above(b, a)) << v << ' ' << graph.neighbor[k];
     }
+}
+
+TEST_P(Dissected, EverySetSeparatesTheSubtreesBelowIt) {
+  const Neighbors graph = neighbors_of(GetParam()());
+  expect_that_sets_separate(dissect(graph), graph);
+}
+
+TEST_P(Dissected, SetsAdaptedToFurtherEdgesSeparateTheirSubtreesToo) {
+  const Mesh mesh = GetParam()();
+  const int n = test::vertex_count(mesh);
+  std::vector<std::array<int, 2>> edges = connectivity_of(mesh.F, n).edges;
+  const Dissection before = dissect(vertex_neighbors(edges, n));
+  EXPECT_EQ(adapted(before, edges).order, before.order);
+  for (int k = 0; k < 20; ++k) edges.push_back({k * 7 % n, (k + 1) * n / 22});
+  std::erase_if(edges, [](const auto& edge) { return edge[0] == edge[1]; });
+  const Dissection after = adapted(before, edges);
+  expect_that_sets_separate(after, vertex_neighbors(edges, n));
+  EXPECT_TRUE(std::is_permutation(after.order.begin(), after.order.end(), before.order.begin()));
 }
 
 TEST(Dissection, SeparatorsOfASphereAreShort) {

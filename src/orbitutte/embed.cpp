@@ -157,7 +157,8 @@ EmbedResult embed_once(const EmbedRequest& request, EmbeddingCache& cache) {
   result.backend = options.laplacian.backend;
 
   stage("weights", [&] { result.weights = find_weights(request, cache.weights); });  // section 4
-  stage("cut", [&] { find_cut(request, result.weights, cache); });                   // section 4.1
+  stage("cut", [&] { find_cut(request, cache); });                                   // section 4.1
+  if (!cache.serves_again) cache.weights = {};
   const GluingProblem problem = gluing_problem(request, result.weights, cache.cut.cut, cache);
   LbfgsOptions lbfgs;
   lbfgs.tolerance = options.tolerance;
@@ -333,6 +334,7 @@ EmbedResult quotient_by_group(const EmbedRequest& request, const WholeMap& wante
 EmbedResult embed_quotient(const EmbedRequest& request, EmbeddingCache& cache) {
   const WholeMap wanted = whole_map(request);
   const BaseMap& from = wanted.from;
+  cache.serves_again = true;
   const EmbedResult base =
       embed_with_some_weights({request.prepared, from.target, from.cones, request.options}, cache);
   return quotient_by_group(request, wanted, base, cache);

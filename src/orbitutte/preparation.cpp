@@ -109,7 +109,7 @@ EdgeWeights find_weights(const EmbedRequest& request, KnownWeights& known) {
                             cone_angles(request.target, request.cones), opposite);
 }
 
-void find_cut(const EmbedRequest& request, const EdgeWeights& weights, EmbeddingCache& cache) {
+void find_cut(const EmbedRequest& request, EmbeddingCache& cache) {
   const Surface& surface = request.prepared.surface;
   const std::pair through(request.cones, request.target.inner_marks);
   const bool is_cut = cache.cut.through == through;
@@ -117,7 +117,8 @@ void find_cut(const EmbedRequest& request, const EdgeWeights& weights, Embedding
   parallel_for(2, [&](int task) {
     if (task == 0 && !is_cut)
       cache.cut.cut = cut_to_disk(surface, request.cones, request.target.inner_marks, request.options.cut);
-    if (task == 1) order_ahead(*cache.laplacians, weighted_edges(weights, surface), surface.vertex_count());
+    if (task == 1)
+      order_ahead(*cache.laplacians, weighted_edges(*cache.weights.weights, surface), surface.vertex_count());
   });
   cache.cut.through = through;
 }

@@ -47,8 +47,11 @@ struct KnownCut {
 /// What one embedding of a surface leaves behind for the next one. Each stage knows only its own part, and
 /// results do not depend on it.
 struct EmbeddingCache {
-  explicit EmbeddingCache(Kept kept) : laplacians(reusable_laplacians(kept)) {}
+  explicit EmbeddingCache(Kept kept)
+      : serves_again(kept == Kept::factors), laplacians(reusable_laplacians(kept)) {}
 
+  /// Are the weights asked for once more? If not, they are freed before the factor takes memory.
+  bool serves_again;
   KnownWeights weights;
   KnownCut cut;
   std::shared_ptr<LaplacianReuse> laplacians;
@@ -70,8 +73,9 @@ void require_topology(const Surface& surface, const Target& target);
 /// The weights (section 4), those of a metric that is flat at the cones.
 EdgeWeights find_weights(const EmbedRequest& request, KnownWeights& known);
 
-/// Cuts the surface through its marked vertices (section 4.1). At the same time finds the elimination order
-/// of the Laplacian, whose edges have the weights.
-void find_cut(const EmbedRequest& request, const EdgeWeights& weights, EmbeddingCache& cache);
+/// Cuts the surface through its marked vertices (section 4.1). At the same time finds an elimination order
+/// for the Laplacian from the edges of the weights that are not sharpened at cones: so it is the same for all
+/// cones.
+void find_cut(const EmbedRequest& request, EmbeddingCache& cache);
 
 }  // namespace orbitutte

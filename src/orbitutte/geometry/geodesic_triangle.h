@@ -11,6 +11,14 @@
 
 namespace orbitutte {
 
+/// atan2(y, x). Most triangles are small, and so are their areas: for these by the power series, whose next
+/// term is below half a unit in the last place.
+inline double angle_of(double y, double x) {
+  const double t = y / x, s = t * t;
+  if (x > 0 && s < 0x1p-13) return t * (1 - s * (1.0 / 3 - s * (1.0 / 5 - s / 7)));
+  return std::atan2(y, x);
+}
+
 /// The angle at p from the geodesic to p + u counterclockwise to that to p + v, in (-pi, pi].
 template <int k>
 double angle_between(Curvature<k> curvature, const Vector3& p, const Vector3& u, const Vector3& v) {
@@ -24,8 +32,8 @@ double area_between(Curvature<k> curvature, const Vector3& a, const Vector3& u, 
   const double determinant = a.dot(u.cross(v));
   if constexpr (k == 0) return determinant / 2;
   const Vector3 w = v - u;
-  return 2 * std::atan2(2 * determinant,
-                        8 - k * (curvature.dot(u, u) + curvature.dot(w, w) + curvature.dot(v, v)));
+  return 2 *
+         angle_of(2 * determinant, 8 - k * (curvature.dot(u, u) + curvature.dot(w, w) + curvature.dot(v, v)));
 }
 
 }  // namespace orbitutte

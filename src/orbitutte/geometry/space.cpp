@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "orbitutte/geometry/geodesic_triangle.h"
 #include "orbitutte/parallel.h"
 
 namespace orbitutte {
@@ -55,9 +56,7 @@ Vector3 Space::retract(const Vector3& p) const {
 }
 
 double Space::distance(const Vector3& p, const Vector3& q) const {
-  const double chord = norm(p - q);
-  if (k_ > 0) return 2 * std::atan2(chord, (p + q).norm());
-  return k_ == 0 ? chord : 2 * std::asinh(chord / 2);
+  return visit_curvature(*this, [&](auto c) { return std::sqrt(c.distance(p, q).squared); });
 }
 
 double Space::longest_unique() const {
@@ -108,7 +107,7 @@ double Space::area(const Vector3& a, const Vector3& b, const Vector3& c) const {
   const double determinant = a.dot(ab.cross(ac));  // of differences: keeps the digits of small triangles
   if (k_ == 0) return determinant / 2;
   const double chords = dot(ab, ab) + dot(bc, bc) + dot(ac, ac);
-  return 2 * std::atan2(2 * determinant, 8 - k_ * chords);
+  return 2 * angle_of(2 * determinant, 8 - k_ * chords);
 }
 
 double Space::angle(const Vector3& p, const Vector3& q, const Vector3& r) const {

@@ -16,6 +16,16 @@ void dtrsm_(const char* side, const char* uplo, const char* transpose, const cha
 void dgemm_(const char* transpose_a, const char* transpose_b, const int* m, const int* n, const int* k,
             const double* alpha, const double* a, const int* lda, const double* b, const int* ldb,
             const double* beta, double* c, const int* ldc);
+void dsyrk_(const char* uplo, const char* transpose, const int* n, const int* k, const double* alpha,
+            const double* a, const int* lda, const double* beta, double* c, const int* ldc);
+void spotrf_(const char* uplo, const int* n, float* a, const int* lda, int* info);
+void strsm_(const char* side, const char* uplo, const char* transpose, const char* diagonal, const int* m,
+            const int* n, const float* alpha, const float* a, const int* lda, float* b, const int* ldb);
+void sgemm_(const char* transpose_a, const char* transpose_b, const int* m, const int* n, const int* k,
+            const float* alpha, const float* a, const int* lda, const float* b, const int* ldb,
+            const float* beta, float* c, const int* ldc);
+void ssyrk_(const char* uplo, const char* transpose, const int* n, const int* k, const float* alpha,
+            const float* a, const int* lda, const float* beta, float* c, const int* ldc);
 }
 
 namespace orbitutte {
@@ -35,23 +45,87 @@ std::vector<TileRange> tiles(Eigen::Index begin, Eigen::Index end) {
   return result;
 }
 
-// pull += L_BO y for up to four columns of L at a time, so that pull is read and written less often.
-template <int columns>
-void add_columns(const DenseColumns& L, long first, const float* y, float* pull) {
-  const float* column[columns];
-  for (int j = 0; j < columns; ++j) column[j] = L.values + L.columns + (first + j) * L.stride;
-  const long border = L.border();
-  for (int c = 0; c < 3; ++c) {
-    float factor[columns];
-    for (int j = 0; j < columns; ++j) factor[j] = y[3 * (first + j) + c];
-    float* __restrict target = pull + c * border;
-    for (long i = 0; i < border; ++i) {
-      float sum = target[i];
-      for (int j = 0; j < columns; ++j) sum += column[j][i] * factor[j];
-      target[i] = sum;
+using Four = Eigen::Array4f;
+using FourAt = Eigen::Map<const Four>;
+
+template <typename Real>
+struct Blas;
+template <>
+struct Blas<double> {
+  static constexpr auto potrf = dpotrf_;
+  static constexpr auto trsm = dtrsm_;
+  static constexpr auto gemm = dgemm_;
+  static constexpr auto syrk = dsyrk_;
+};
+template <>
+struct Blas<float> {
+  static constexpr auto potrf = spotrf_;
+  static constexpr auto trsm = strsm_;
+  static constexpr auto gemm = sgemm_;
+  static constexpr auto syrk = ssyrk_;
+};
+
+// Some columns of L next to each other, and three vectors along its rows.
+template <int count>
+struct ColumnBlock {
+  const float* column[count];
+  float* vector[3];
+  long first, rows;
+
+  ColumnBlock(const DenseColumns& L, long first_column, float* y) : first(first_column), rows(L.rows) {
+    for (int k = 0; k < count; ++k) column[k] = L.values + (first + k) * L.stride;
+    for (int c = 0; c < 3; ++c) vector[c] = y + c * rows;
+  }
+
+  // Solves with the columns' own rows, and subtracts what they then add to the rows below.
+  void forward() const {
+    float x[count][3];
+    for (int k = 0; k < count; ++k) {
+      for (int c = 0; c < 3; ++c) {
+        float value = vector[c][first + k];
+        for (int j = 0; j < k; ++j) value -= column[j][first + k] * x[j][c];
+        vector[c][first + k] = x[k][c] = value / column[k][first + k];
+      }
+    }
+    long i = first + count;
+    for (; i + 4 <= rows; i += 4) {
+      Four L[count];
+      for (int k = 0; k < count; ++k) L[k] = FourAt(column[k] + i);
+      for (int c = 0; c < 3; ++c) {
+        Four value = FourAt(vector[c] + i);
+        for (int k = 0; k < count; ++k) value -= L[k] * x[k][c];
+        Eigen::Map<Four>(vector[c] + i) = value;
+      }
+    }
+    for (; i < rows; ++i)
+      for (int c = 0; c < 3; ++c)
+        for (int k = 0; k < count; ++k) vector[c][i] -= column[k][i] * x[k][c];
+  }
+
+  // Solves with the transpose for the columns' own rows; those below are known.
+  void backward() const {
+    Four sums[count][3];
+    for (int k = 0; k < count; ++k)
+      for (int c = 0; c < 3; ++c) sums[k][c].setZero();
+    long i = first + count;
+    for (; i + 4 <= rows; i += 4) {
+      Four x[3];
+      for (int c = 0; c < 3; ++c) x[c] = FourAt(vector[c] + i);
+      for (int k = 0; k < count; ++k) {
+        const Four L = FourAt(column[k] + i);
+        for (int c = 0; c < 3; ++c) sums[k][c] += L * x[c];
+      }
+    }
+    for (int k = count; k-- > 0;) {
+      for (int c = 0; c < 3; ++c) {
+        float value = vector[c][first + k] - sums[k][c].sum();
+        for (long j = i; j < rows; ++j) value -= column[k][j] * vector[c][j];
+        for (int j = k + 1; j < count; ++j) value -= column[k][first + j] * vector[c][first + j];
+        vector[c][first + k] = value / column[k][first + k];
+      }
     }
   }
-}
+};
 
 // Calls visit(row tile, column tile) for every pair in the lower triangle.
 template <typename Visit>
@@ -64,33 +138,40 @@ void for_each_pair(const std::vector<TileRange>& rows, const Visit& visit) {
                [&](int k) { visit(rows[pairs[k].first], rows[pairs[k].second]); });
 }
 
+template <typename Real>
+void factorize_leading(Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>& A, Eigen::Index own) {
+  const int n = static_cast<int>(A.rows());
+  const Real one = 1, minus_one = -1;
+  const auto at = [&](int row, int column) { return A.data() + row + static_cast<Eigen::Index>(column) * n; };
+  for (const auto& [k, width] : tiles(0, own)) {
+    int info = 0;
+    Blas<Real>::potrf("L", &width, at(k, k), &n, &info);
+    if (info != 0) throw NotPositiveDefinite(k + info - 1);
+    const std::vector<TileRange> below = tiles(k + width, n);
+    parallel_for(static_cast<int>(below.size()), [&, k = k, width = width](int i) {
+      Blas<Real>::trsm("R", "L", "T", "N", &below[i].count, &width, &one, at(k, k), &n, at(below[i].begin, k),
+                       &n);
+    });
+    for_each_pair(below, [&, k = k, width = width](const TileRange& row, const TileRange& column) {
+      if (row.begin == column.begin)
+        return Blas<Real>::syrk("L", "N", &row.count, &width, &minus_one, at(row.begin, k), &n, &one,
+                                at(row.begin, row.begin), &n);
+      Blas<Real>::gemm("N", "T", &row.count, &column.count, &width, &minus_one, at(row.begin, k), &n,
+                       at(column.begin, k), &n, &one, at(row.begin, column.begin), &n);
+    });
+  }
+}
+
 }  // namespace
 
 Eigen::MatrixXd zero_lower_triangle(Eigen::Index n) {
   Eigen::MatrixXd A(n, n);
-  // The computation takes whole tiles, so a tile on the diagonal is set to zero above it, too.
-  for (Eigen::Index column = 0; column < n; ++column) A.col(column).tail(n - column / tile * tile).setZero();
+  for (Eigen::Index column = 0; column < n; ++column) A.col(column).tail(n - column).setZero();
   return A;
 }
 
-void partial_cholesky(Eigen::MatrixXd& A, Eigen::Index own) {
-  const int n = static_cast<int>(A.rows());
-  const double one = 1, minus_one = -1;
-  const auto at = [&](int row, int column) { return A.data() + row + static_cast<Eigen::Index>(column) * n; };
-  for (const auto& [k, width] : tiles(0, own)) {
-    int info = 0;
-    dpotrf_("L", &width, at(k, k), &n, &info);
-    if (info != 0) throw NotPositiveDefinite(k + info - 1);
-    const std::vector<TileRange> below = tiles(k + width, n);
-    parallel_for(static_cast<int>(below.size()), [&, k = k, width = width](int i) {
-      dtrsm_("R", "L", "T", "N", &below[i].count, &width, &one, at(k, k), &n, at(below[i].begin, k), &n);
-    });
-    for_each_pair(below, [&, k = k, width = width](const TileRange& row, const TileRange& column) {
-      dgemm_("N", "T", &row.count, &column.count, &width, &minus_one, at(row.begin, k), &n,
-             at(column.begin, k), &n, &one, at(row.begin, column.begin), &n);
-    });
-  }
-}
+void partial_cholesky(Eigen::MatrixXd& A, Eigen::Index own) { factorize_leading(A, own); }
+void partial_cholesky(Eigen::MatrixXf& A, Eigen::Index own) { factorize_leading(A, own); }
 
 void multiply_by_transpose(Eigen::MatrixXd& L) {
   const int n = static_cast<int>(L.rows());
@@ -107,32 +188,16 @@ void multiply_by_transpose(Eigen::MatrixXd& L) {
   L = std::move(product);
 }
 
-void forward(const DenseColumns& L, float* y, float* pull) {
-  for (long j = 0; j < L.columns; ++j) {
-    const float* column = L.values + j * L.stride;
-    float* here = y + 3 * j;
-    for (int c = 0; c < 3; ++c) here[c] /= column[j];
-    for (long i = j + 1; i < L.columns; ++i)
-      for (int c = 0; c < 3; ++c) y[3 * i + c] -= column[i] * here[c];
-  }
-  std::fill(pull, pull + 3 * L.border(), 0.0F);
+void forward(const DenseColumns& L, float* y) {
   long j = 0;
-  for (; j + 4 <= L.columns; j += 4) add_columns<4>(L, j, y, pull);
-  for (; j < L.columns; ++j) add_columns<1>(L, j, y, pull);
+  for (; j + 4 <= L.columns; j += 4) ColumnBlock<4>(L, j, y).forward();
+  for (; j < L.columns; ++j) ColumnBlock<1>(L, j, y).forward();
 }
 
-void backward(const DenseColumns& L, float* y, const float* x) {
-  using Column = Eigen::Map<const Eigen::VectorXf>;
-  const long border = L.border();
-  for (long j = L.columns; j-- > 0;) {
-    const float* column = L.values + j * L.stride;
-    float* here = y + 3 * j;
-    const Column below(column + L.columns, border);
-    for (int c = 0; c < 3; ++c) here[c] -= below.dot(Column(x + c * border, border));
-    for (long i = j + 1; i < L.columns; ++i)
-      for (int c = 0; c < 3; ++c) here[c] -= column[i] * y[3 * i + c];
-    for (int c = 0; c < 3; ++c) here[c] /= column[j];
-  }
+void backward(const DenseColumns& L, float* y) {
+  long j = L.columns;
+  for (; j % 4 != 0; --j) ColumnBlock<1>(L, j - 1, y).backward();
+  for (; j > 0; j -= 4) ColumnBlock<4>(L, j - 4, y).backward();
 }
 
 void use_one_blas_thread() {

@@ -18,6 +18,7 @@ Eigen::MatrixXd zero_lower_triangle(Eigen::Index n);
 /// replaces A_BB. Reads and writes the lower triangle; the upper one is undefined afterwards. The result has
 /// the same bits for any number of threads. Throws NotPositiveDefinite.
 void partial_cholesky(Eigen::MatrixXd& A, Eigen::Index own);
+void partial_cholesky(Eigen::MatrixXf& A, Eigen::Index own);
 
 /// The lower triangle of L L' for a lower triangular L, in place.
 void multiply_by_transpose(Eigen::MatrixXd& L);
@@ -32,12 +33,12 @@ struct DenseColumns {
   long border() const { return rows - columns; }
 };
 
-/// y <- L_OO^-1 y, then pull = L_BO y, where L_OO is the columns' own block and L_BO their border's. y:
-/// columns x 3, row by row; pull: border x 3, column by column.
-void forward(const DenseColumns& L, float* y, float* pull);
+/// y_O <- L_OO^-1 y_O, then y_B <- y_B - L_BO y_O, where L_OO is the columns' own block and L_BO their
+/// border's. y: rows x 3, column by column.
+void forward(const DenseColumns& L, float* y);
 
-/// y <- L_OO^-T (y - L_BO' x). y: columns x 3, row by row; x: border x 3, column by column.
-void backward(const DenseColumns& L, float* y, const float* x);
+/// y_O <- L_OO^-T (y_O - L_BO' y_B). y: rows x 3, column by column.
+void backward(const DenseColumns& L, float* y);
 
 /// Makes BLAS calls run on the calling thread: two BLAS threads gain little on small fronts and lose much on
 /// a busy machine.

@@ -278,6 +278,37 @@ void order_set(const Neighbors& graph, const std::vector<int>& place, const Diss
   for (int k = 0; k < count; ++k) order[node.begin + k] = set[eliminated[k]];
 }
 
+// The root of the smallest subtree that holds both nodes.
+int common_root(const std::vector<Dissection::Node>& nodes, int a, int b) {
+  while (a != b) {
+    int& deeper = nodes[a].depth >= nodes[b].depth ? a : b;
+    deeper = nodes[deeper].parent;
+  }
+  return a;
+}
+
+// The node of every vertex.
+std::vector<int> nodes_of_vertices(const Dissection& dissection) {
+  std::vector<int> node_of(dissection.order.size());
+  parallel_for(static_cast<int>(dissection.nodes.size()), [&](int k) {
+    for (int at = dissection.nodes[k].begin; at < dissection.nodes[k].end; ++at)
+      node_of[dissection.order[at]] = k;
+  });
+  return node_of;
+}
+
+// Gives the nodes their places in the order, one after the other, from the numbers of their vertices, which
+// are in `end`.
+void place_nodes(std::vector<Dissection::Node>& nodes) {
+  int end = 0;
+  for (Dissection::Node& node : nodes) {
+    node.begin = node.first = end;
+    end = node.end += end;
+  }
+  for (const Dissection::Node& node : nodes)
+    if (node.parent >= 0) nodes[node.parent].first = std::min(nodes[node.parent].first, node.first);
+}
+
 }  // namespace
 
 Dissection dissect(const Neighbors& graph) {
@@ -298,20 +329,43 @@ Dissection dissect(const Neighbors& graph) {
   for (int v = 0; v < n; ++v) node_of[v] = tree.place[depth[v]][part[v] >> (levels - depth[v])];
   Dissection result = {std::vector<int>(n), std::move(tree.nodes)};
   for (const int node : node_of) ++result.nodes[node].end;
-  int end = 0;
-  for (Dissection::Node& node : result.nodes) {
-    node.begin = node.first = end;
-    end = node.end += end;
-  }
-  for (const Dissection::Node& node : result.nodes)
-    if (node.parent >= 0)
-      result.nodes[node.parent].first = std::min(result.nodes[node.parent].first, node.first);
+  place_nodes(result.nodes);
   std::vector<int> fill, place(n);
   for (const Dissection::Node& node : result.nodes) fill.push_back(node.begin);
   for (int v = 0; v < n; ++v) result.order[place[v] = fill[node_of[v]]++] = v;
   parallel_for(static_cast<int>(result.nodes.size()),
                [&](int k) { order_set(graph, place, result.nodes[k], result.order); });
   return result;
+}
+
+Dissection adapted(Dissection dissection, const std::vector<std::array<int, 2>>& edges) {
+  std::vector<Dissection::Node>& nodes = dissection.nodes;
+  std::vector<int> node_of = nodes_of_vertices(dissection);
+  const auto separator = [&](int e) {
+    return common_root(nodes, node_of[edges[e][0]], node_of[edges[e][1]]);
+  };
+  const std::vector<int> joining = parallel_select(static_cast<int>(edges.size()), [&](int e) {
+    const int a = node_of[edges[e][0]], b = node_of[edges[e][1]];
+    return a != b && separator(e) != std::max(a, b);
+  });
+  if (joining.empty()) return dissection;
+  std::vector<char> moves(node_of.size(), 0);
+  for (const int e : joining) {
+    const int v = edges[e][0], above = separator(e);
+    if (above == node_of[v] || above == node_of[edges[e][1]]) continue;
+    node_of[v] = above;
+    moves[v] = 1;
+  }
+  for (Dissection::Node& node : nodes) node.end = 0;
+  for (const int node : node_of) ++nodes[node].end;
+  place_nodes(nodes);
+  std::vector<int> fill, before = std::move(dissection.order);
+  for (const Dissection::Node& node : nodes) fill.push_back(node.begin);
+  dissection.order.resize(before.size());
+  // Those that move come last in their new sets.
+  std::stable_partition(before.begin(), before.end(), [&](int v) { return moves[v] == 0; });
+  for (const int v : before) dissection.order[fill[node_of[v]]++] = v;
+  return dissection;
 }
 
 }  // namespace orbitutte

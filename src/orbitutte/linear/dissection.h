@@ -3,6 +3,7 @@
 // divides the work.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "orbitutte/mesh/connectivity.h"
@@ -35,5 +36,9 @@ struct Dissection {
 /// Davis, I. Duff, "Algorithm 837: AMD", ACM TOMS 30 (2004)). On meshes the factor is about as sparse as with
 /// METIS's own nested dissection, in a tenth of the time (docs/benchmarks.md).
 Dissection dissect(const Neighbors& graph);
+
+/// The same sets for another graph on the vertices, most of whose edges are those of the one that was
+/// dissected: the first end of an edge that joins two subtrees moves to the set that separates them.
+Dissection adapted(Dissection dissection, const std::vector<std::array<int, 2>>& edges);
 
 }  // namespace orbitutte

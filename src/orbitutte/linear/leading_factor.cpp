@@ -21,28 +21,40 @@ void LeadingFactor::append(const Supernode& supernode) {
   most_rows_ = std::max(most_rows_, supernode.rows);
 }
 
+void LeadingFactor::gather(const Stored& s, const SinglePoints& y, float* local) const {
+  const int* const row = row_.data() + s.first_row;
+  for (long r = 0; r < s.rows; ++r) {
+    const float* const from = y.data() + 3L * row[r];
+    for (int c = 0; c < 3; ++c) local[r + c * s.rows] = from[c];
+  }
+}
+
+void LeadingFactor::scatter(const Stored& s, long rows, const float* local, SinglePoints& y) const {
+  const int* const row = row_.data() + s.first_row;
+  for (long r = 0; r < rows; ++r) {
+    float* const to = y.data() + 3L * row[r];
+    for (int c = 0; c < 3; ++c) to[c] = local[r + c * s.rows];
+  }
+}
+
 void LeadingFactor::forward(SinglePoints& y) const {
   SinglePoints permuted(y.rows(), 3);
   for (Eigen::Index k = 0; k < y.rows(); ++k) permuted.row(k) = y.row(order_[k]);
   y.swap(permuted);
-  std::vector<float> pull(3 * most_rows_);
+  std::vector<float> local(3 * most_rows_);
   for (const Stored& s : supernode_) {
-    const DenseColumns L = columns_of(s);
-    orbitutte::forward(L, y.data() + 3 * s.first_column, pull.data());
-    const int* const row = row_.data() + s.first_row + s.columns;
-    for (long r = 0, border = L.border(); r < border; ++r)
-      for (int c = 0; c < 3; ++c) y(row[r], c) -= pull[r + c * border];
+    gather(s, y, local.data());
+    orbitutte::forward(columns_of(s), local.data());
+    scatter(s, s.rows, local.data(), y);
   }
 }
 
 void LeadingFactor::backward(SinglePoints& y) const {
-  std::vector<float> x(3 * most_rows_);
+  std::vector<float> local(3 * most_rows_);
   for (auto s = supernode_.rbegin(); s != supernode_.rend(); ++s) {
-    const DenseColumns L = columns_of(*s);
-    const int* const row = row_.data() + s->first_row + s->columns;
-    for (long r = 0, border = L.border(); r < border; ++r)
-      for (int c = 0; c < 3; ++c) x[r + c * border] = y(row[r], c);
-    orbitutte::backward(L, y.data() + 3 * s->first_column, x.data());
+    gather(*s, y, local.data());
+    orbitutte::backward(columns_of(*s), local.data());
+    scatter(*s, s->columns, local.data(), y);
   }
   SinglePoints permuted(y.rows(), 3);
   for (Eigen::Index k = 0; k < y.rows(); ++k) permuted.row(order_[k]) = y.row(k);

@@ -47,6 +47,10 @@ class LeadingFactor {
     return {value_.data() + s.first_value, s.rows, s.columns, s.rows};
   }
 
+  /// The rows of a supernode (rows x 3, column by column), and its first `rows` rows back again.
+  void gather(const Stored& s, const SinglePoints& y, float* local) const;
+  void scatter(const Stored& s, long rows, const float* local, SinglePoints& y) const;
+
   std::vector<int> order_;
   std::vector<Stored> supernode_;
   std::vector<int> row_;

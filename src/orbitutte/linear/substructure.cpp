@@ -14,18 +14,20 @@ struct Substructure::Piece {
   long begin = 0, end = 0;
   std::vector<long> border;   // ascending
   std::vector<int> children;  // indices of pieces
-  // Without children: the matrix that is factorised, and its factor.
+  // Without children: the matrix that is factorised, its factor, and what the elimination adds to K on the
+  // border.
   SparseMatrix equations;
-  std::shared_ptr<const Elimination> sparse;
-  // With children: the block's columns of L, with the border's rows below.
+  std::shared_ptr<const LeadingFactor> sparse;
+  std::shared_ptr<const Eigen::MatrixXd> sparse_update;
+  // With children: the block's columns of L, with the border's rows below, and what the elimination adds to K
+  // on the border; empty once the parent has taken it.
   Eigen::MatrixXf front;
-  // The last rows and columns are what the elimination adds to K on the border. Empty once the parent has
-  // taken them.
-  Eigen::MatrixXd update;
+  Eigen::MatrixXd dense_update;
 
   long own() const { return end - begin; }
   long size() const { return own() + static_cast<long>(border.size()); }
 
+  const Eigen::MatrixXd& update() const { return sparse_update ? *sparse_update : dense_update; }
   DenseColumns dense() const { return {front.data(), size(), own(), size()}; }
 
   // The index within the piece of an unknown of the block or its border.
@@ -37,7 +39,7 @@ struct Substructure::Piece {
 
 namespace {
 
-using Border = Eigen::Matrix<float, Eigen::Dynamic, 3>;
+using ByColumns = Eigen::Matrix<float, Eigen::Dynamic, 3>;
 
 void sort_uniquely(std::vector<long>& numbers) {
   std::sort(numbers.begin(), numbers.end());
@@ -89,17 +91,19 @@ void factorize_sparse(const SparseMatrix& lower, Backend backend, const Piece* e
   const long border = piece.size() - piece.own();
   if (earlier && earlier->own() == piece.own() && equal(earlier->equations, piece.equations)) {
     piece.sparse = earlier->sparse;
+    piece.sparse_update = earlier->sparse_update;
   } else {
     try {
-      piece.sparse = std::make_shared<Elimination>(eliminate(piece.equations, backend, border));
+      Elimination result = eliminate(piece.equations, backend, border);
+      const long* const start = piece.equations.outerIndexPtr() + piece.own();
+      for (long k = 0; k < border; ++k) result.schur_complement(k, k) -= piece.equations.valuePtr()[start[k]];
+      piece.sparse = std::make_shared<LeadingFactor>(std::move(result.factor));
+      piece.sparse_update = std::make_shared<Eigen::MatrixXd>(std::move(result.schur_complement));
     } catch (const NotPositiveDefinite& error) {
       throw NotPositiveDefinite(error.column < 0 ? -1
                                                  : piece.begin + std::min(error.column, piece.own() - 1));
     }
   }
-  piece.update = piece.sparse->schur_complement;
-  for (long k = 0; k < border; ++k)
-    piece.update(k, k) -= piece.equations.valuePtr()[piece.equations.outerIndexPtr()[piece.own() + k]];
 }
 
 // Adds the lower triangle of a piece's update to A; `place(unknown)` is the unknown's index in A.
@@ -107,9 +111,9 @@ template <typename Piece, typename Place>
 void add_update(const Piece& from, const Place& place, Eigen::MatrixXd& A) {
   std::vector<long> at;
   for (const long unknown : from.border) at.push_back(place(unknown));
-  const long count = static_cast<long>(at.size()), before = from.update.rows() - count;
+  const long count = static_cast<long>(at.size());
   for (long c = 0; c < count; ++c) {
-    const double* column = &from.update(before, before + c);
+    const double* column = &from.update()(0, c);
     double* target = &A(0, at[c]);
     for (long r = c; r < count; ++r) target[at[r]] += column[r];
   }
@@ -124,7 +128,7 @@ void factorize_dense(const SparseMatrix& lower, std::vector<Piece>& pieces, Piec
   for (const int child : piece.children) {
     add_update(
         pieces[child], [&](long unknown) { return piece.place(unknown); }, A);
-    pieces[child].update.resize(0, 0);
+    pieces[child].dense_update.resize(0, 0);
   }
   try {
     partial_cholesky(A, piece.own());
@@ -132,7 +136,8 @@ void factorize_dense(const SparseMatrix& lower, std::vector<Piece>& pieces, Piec
     throw NotPositiveDefinite(piece.begin + error.column);
   }
   piece.front = A.leftCols(piece.own()).template cast<float>();
-  piece.update = std::move(A);
+  const long border = piece.size() - piece.own();
+  piece.dense_update = A.bottomRightCorner(border, border);
 }
 
 }  // namespace
@@ -180,13 +185,16 @@ Substructure::Substructure(const SparseMatrix& lower, const std::vector<Eliminat
   if (!pieces_.empty() && !pieces_.back().border.empty()) {
     add_update(
         pieces_.back(), [&](long unknown) { return unknown - border_begin_; }, schur_complement_);
-    pieces_.back().update.resize(0, 0);
+    pieces_.back().dense_update.resize(0, 0);
   }
   schur_complement_.triangularView<Eigen::StrictlyUpper>() = schur_complement_.transpose();
 }
 
 void Substructure::release_what_solving_does_not_need() {
-  for (Piece& piece : pieces_) piece.equations = SparseMatrix();
+  for (Piece& piece : pieces_) {
+    piece.equations = SparseMatrix();
+    piece.sparse_update.reset();
+  }
   schur_complement_.resize(0, 0);
 }
 
@@ -210,11 +218,11 @@ void Substructure::forward(SinglePoints& y) const {
       local.topRows(piece.own()) = y.middleRows(piece.begin, piece.own());
       take(piece, local);
       if (piece.sparse) {
-        piece.sparse->factor.forward(local);
+        piece.sparse->forward(local);
       } else if (piece.own() > 0) {
-        Border change(piece.size() - piece.own(), 3);
-        orbitutte::forward(piece.dense(), local.data(), change.data());
-        local.bottomRows(change.rows()) -= change;
+        ByColumns columns = local;
+        orbitutte::forward(piece.dense(), columns.data());
+        local = columns;
       }
       y.middleRows(piece.begin, piece.own()) = local.topRows(piece.own());
       pull[level[k]] = local.bottomRows(piece.size() - piece.own());
@@ -235,10 +243,11 @@ void Substructure::backward(SinglePoints& y) const {
       for (std::size_t b = 0; b < piece.border.size(); ++b)
         local.row(piece.own() + static_cast<long>(b)) = y.row(piece.border[b]);
       if (piece.sparse) {
-        piece.sparse->factor.backward(local);
+        piece.sparse->backward(local);
       } else {
-        const Border x = local.bottomRows(piece.size() - piece.own());
-        orbitutte::backward(piece.dense(), local.data(), x.data());
+        ByColumns columns = local;
+        orbitutte::backward(piece.dense(), columns.data());
+        local = columns;
       }
       y.middleRows(piece.begin, piece.own()) = local.topRows(piece.own());
     });

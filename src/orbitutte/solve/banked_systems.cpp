@@ -81,34 +81,43 @@ void sort_columns(SparseMatrix& K) {
 // weight goes to one, since gluing adds them up.
 SparseMatrix disk_laplacian(const LaplacianProblem& problem, const DiskUnknowns& unknowns) {
   const int count = unknowns.count();
-  std::vector<std::array<int, 2>> ends;
-  ends.reserve(problem.graph.ends.size());
-  for (const auto& [a, b] : problem.graph.ends) ends.push_back({unknowns.of[a], unknowns.of[b]});
+  std::vector<std::array<int, 2>> ends(problem.graph.ends.size());  // ascending; -1 where held
+  parallel_ranges(static_cast<int>(ends.size()), [&](int begin, int end) {
+    for (int e = begin; e < end; ++e) {
+      const auto [a, b] = problem.graph.ends[e];
+      const auto [lower, upper] = std::minmax(unknowns.of[a], unknowns.of[b]);
+      ends[e] = {lower, upper};
+    }
+  });
   SparseMatrix K(count, count);
   long* start = K.outerIndexPtr();
-  std::fill(start, start + count + 1, 0);
-  for (int k = 0; k < count; ++k) start[k + 1] = 1;
-  for (auto& [a, b] : ends) {
-    if (a > b) std::swap(a, b);
-    if (a >= 0) ++start[a + 1];
-  }
+  std::fill(start, start + count + 1, 1);
+  start[0] = 0;
+  parallel_parts(count, [&](int begin, int end) {
+    for (const auto& [a, b] : ends)
+      if (a >= begin && a < end) ++start[a + 1];
+  });
   for (int k = 0; k < count; ++k) start[k + 1] += start[k];
   K.resizeNonZeros(start[count]);
-  std::vector<long> fill(start, start + count);
-  for (int k = 0; k < count; ++k) {
-    K.innerIndexPtr()[fill[k]] = k;
-    K.valuePtr()[fill[k]++] = 0;
-  }
-  for (std::size_t e = 0; e < ends.size(); ++e) {
-    const auto [a, b] = ends[e];
-    const double w = problem.w[static_cast<Eigen::Index>(e)];
-    if (a >= 0) {
-      K.innerIndexPtr()[fill[a]] = b;
-      K.valuePtr()[fill[a]++] = -w;
-      K.valuePtr()[start[a]] += w;
+  parallel_parts(count, [&](int begin, int end) {
+    std::vector<long> fill(start + begin, start + end);
+    const auto diagonal = [&](int k) -> double& { return K.valuePtr()[start[k]]; };
+    for (int k = begin; k < end; ++k) {
+      K.innerIndexPtr()[fill[k - begin]++] = k;
+      diagonal(k) = 0;
     }
-    if (b >= 0) K.valuePtr()[start[b]] += w;
-  }
+    for (std::size_t e = 0; e < ends.size(); ++e) {
+      const auto [a, b] = ends[e];
+      const double w = problem.w[static_cast<Eigen::Index>(e)];
+      if (a >= begin && a < end) {
+        const long at = fill[a - begin]++;
+        K.innerIndexPtr()[at] = b;
+        K.valuePtr()[at] = -w;
+        diagonal(a) += w;
+      }
+      if (b >= begin && b < end) diagonal(b) += w;
+    }
+  });
   sort_columns(K);
   return K;
 }
@@ -216,10 +225,29 @@ class BankedSystems : public LaplacianSystems {
     return copies;
   }
 
-  // Factorises N'(S x I3)N, where N takes the glued unknowns to the positions of all bank nodes: 3 x k
-  // placements, few of which differ.
+  // Factorises N'(S x I3)N. Where rounding to single precision spoils it, since few or light edges tie the
+  // banks, in double.
   void glue_banks() {
     const std::vector<std::vector<int>> copies = number_glued();
+    try {
+      glued_factor_ = glued_matrix<float>(copies);
+      partial_cholesky(glued_factor_, glued_.total);
+    } catch (const NotPositiveDefinite&) {
+      Eigen::MatrixXd glued = glued_matrix<double>(copies);
+      try {
+        partial_cholesky(glued, glued_.total);
+      } catch (const NotPositiveDefinite& error) {
+        throw not_tied(holder(glued_, error.column));
+      }
+      glued_factor_ = glued.cast<float>();
+    }
+  }
+
+  // N'(S x I3)N, where N takes the glued unknowns to the positions of all bank nodes: 3 x k placements, few
+  // of which differ. Its lower triangle.
+  template <typename Real>
+  Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic> glued_matrix(
+      const std::vector<std::vector<int>>& copies) const {
     const int banks = disk_.banks();
     std::vector<Block> distinct;
     std::vector<int> kind(banks);
@@ -238,29 +266,22 @@ class BankedSystems : public LaplacianSystems {
       for (const Block& right : distinct) products.emplace_back(left.transpose() * right);
 
     const Eigen::MatrixXd& S = factor_->schur_complement();
-    Eigen::MatrixXd glued(glued_.total, glued_.total);
+    Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic> glued(glued_.total, glued_.total);
     parallel_for(static_cast<int>(copies.size()), [&](int at) {
-      const long first = glued_.first[glued_.order[at]];
-      glued.middleCols(first, glued_.count[glued_.order[at]]).setZero();
+      const int vertex = glued_.order[at];
+      const long first = glued_.first[vertex];
+      Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(glued_.total, glued_.count[vertex]);
       for (const int k : copies[at]) {
         for (int l = 0; l < banks; ++l) {
           if (row[l] < first) continue;
           const Block& product = products[kind[l] * kinds + kind[k]];
           for (int c = 0; c < product.cols(); ++c)
-            for (int r = 0; r < product.rows(); ++r) glued(row[l] + r, first + c) += S(l, k) * product(r, c);
+            for (int r = 0; r < product.rows(); ++r) columns(row[l] + r, c) += S(l, k) * product(r, c);
         }
       }
+      glued.middleCols(first, columns.cols()) = columns.cast<Real>();
     });
-    try {
-      partial_cholesky(glued, glued_.total);
-    } catch (const NotPositiveDefinite& error) {
-      throw not_tied(holder(glued_, error.column));
-    }
-    glued_factor_.resize(glued_.total, glued_.total);
-    parallel_for(static_cast<int>(glued_.total), [&](int column) {
-      glued_factor_.col(column).tail(glued_.total - column) =
-          glued.col(column).tail(glued_.total - column).cast<float>();
-    });
+    return glued;
   }
 
   // The start does not know where those bank nodes are that the cut's boundary does not name. Few are: their

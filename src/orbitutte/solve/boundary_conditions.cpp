@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <unordered_map>
 
+#include "orbitutte/parallel.h"
+
 namespace orbitutte {
 namespace {
 
@@ -119,8 +121,9 @@ Vector3 BoundaryConditions::feasible(int vertex, Vector3 p) const {
 }
 
 void BoundaryConditions::make_feasible(Points& positions) const {
-  for (Eigen::Index v = 0; v < positions.rows(); ++v)
-    positions.row(v) = feasible(static_cast<int>(v), positions.row(v));
+  parallel_ranges(static_cast<int>(positions.rows()), [&](int begin, int end) {
+    for (int v = begin; v < end; ++v) positions.row(v) = feasible(v, positions.row(v));
+  });
 }
 
 Points BoundaryConditions::spread(const Points& positions, const std::vector<int>& source_vertex) const {

@@ -109,8 +109,10 @@ void DirichletEnergy::evaluate(const Points& positions, Value& value) const {
 }
 
 void DirichletEnergy::make_feasible(Points& vectors) const {
-  for (int v = 0; v < static_cast<int>(vectors.rows()); ++v)
-    if (basis_of_[v] != 0) vectors.row(v) = projectors_[basis_of_[v]] * Vector3(vectors.row(v));
+  parallel_ranges(static_cast<int>(vectors.rows()), [&](int begin, int end) {
+    for (int v = begin; v < end; ++v)
+      if (basis_of_[v] != 0) vectors.row(v) = projectors_[basis_of_[v]] * Vector3(vectors.row(v));
+  });
 }
 
 std::vector<double> DirichletEnergy::shortest_edges(const Points& positions) const {

@@ -4,22 +4,34 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "orbitutte/parallel.h"
+
 namespace orbitutte {
 namespace {
 
 std::vector<char> given_vertices(const CutMesh& cut, const BoundaryConditions& boundary) {
   std::vector<char> given(boundary.basis_of.size());
-  for (std::size_t v = 0; v < given.size(); ++v) given[v] = boundary.basis(static_cast<int>(v)).cols() == 0;
+  parallel_ranges(static_cast<int>(given.size()), [&](int begin, int end) {
+    for (int v = begin; v < end; ++v) given[v] = boundary.basis(v).cols() == 0;
+  });
   for (const int v : cut.boundary) given[cut.source_vertex[v]] = 1;
   return given;
 }
 
+// The edges whose gluing is not the identity.
+std::vector<int> edges_across(const GluedEdges& glued) {
+  return parallel_select(static_cast<int>(glued.edges.size()), [&](int e) { return glued.edges[e].t != 0; });
+}
+
 // The vertices that are on no bank once each edge across the cut has an end on one.
-std::vector<char> vertices_inside(const GluedEdges& glued, const std::vector<char>& given) {
+std::vector<char> vertices_inside(const GluedEdges& glued, const std::vector<int>& across,
+                                  const std::vector<char>& given) {
   std::vector<char> inside(given.size());
   for (std::size_t v = 0; v < given.size(); ++v) inside[v] = !given[v];
-  for (const auto& [i, j, t] : glued.edges)
-    if (t != 0 && inside[i] && inside[j]) inside[i] = 0;
+  for (const int e : across) {
+    const auto& [i, j, t] = glued.edges[e];
+    if (inside[i] && inside[j]) inside[i] = 0;
+  }
   return inside;
 }
 
@@ -47,7 +59,7 @@ class Nodes {
 // The nodes of the banks: along the cut's boundary, then those of the vertices that were added.
 std::vector<int> bank_nodes(const CutMesh& cut, const BoundaryConditions& boundary, const DiskGraph& graph) {
   const int n = static_cast<int>(graph.inside.size());
-  std::vector<std::vector<int>> images(n);  // not in place
+  std::unordered_map<int, std::vector<int>> images;  // not in place
   for (int node = n; node < graph.node_count(); ++node) images[graph.vertex[node]].push_back(node);
   std::vector<char> done = graph.inside;
   std::vector<int> banks;
@@ -55,7 +67,8 @@ std::vector<int> bank_nodes(const CutMesh& cut, const BoundaryConditions& bounda
     if (done[v] || boundary.basis(v).cols() == 0) return;
     done[v] = 1;
     banks.push_back(v);
-    banks.insert(banks.end(), images[v].begin(), images[v].end());
+    if (const auto at = images.find(v); at != images.end())
+      banks.insert(banks.end(), at->second.begin(), at->second.end());
   };
   for (const int v : cut.boundary) add(cut.source_vertex[v]);
   for (int v = 0; v < n; ++v) add(v);
@@ -64,10 +77,19 @@ std::vector<int> bank_nodes(const CutMesh& cut, const BoundaryConditions& bounda
 
 }  // namespace
 
+std::vector<std::array<int, 2>> ends(const GluedEdges& glued) {
+  std::vector<std::array<int, 2>> result(glued.edges.size());
+  parallel_ranges(static_cast<int>(result.size()), [&](int begin, int end) {
+    for (int e = begin; e < end; ++e) result[e] = {glued.edges[e].i, glued.edges[e].j};
+  });
+  return result;
+}
+
 DiskGraph disk_graph(const CutMesh& cut, const GluedEdges& glued, const BoundaryConditions& boundary) {
   DiskGraph graph;
   graph.given = given_vertices(cut, boundary);
-  graph.inside = vertices_inside(glued, graph.given);
+  const std::vector<int> across = edges_across(glued);
+  graph.inside = vertices_inside(glued, across, graph.given);
   graph.transforms = glued.transforms;
   std::vector<int> inverse;
   for (const Isometry& transform : glued.transforms)
@@ -75,11 +97,13 @@ DiskGraph disk_graph(const CutMesh& cut, const GluedEdges& glued, const Boundary
   graph.vertex.resize(graph.inside.size());
   std::iota(graph.vertex.begin(), graph.vertex.end(), 0);
   graph.transform_of.assign(graph.inside.size(), 0);
+  graph.ends = ends(glued);
   Nodes nodes(graph);
-  graph.ends.reserve(glued.edges.size());
-  for (const auto& [i, j, t] : glued.edges)
-    graph.ends.push_back(graph.inside[j] ? std::array{nodes.image(i, inverse[t]), j}
-                                         : std::array{i, nodes.image(j, t)});
+  for (const int e : across) {
+    const auto& [i, j, t] = glued.edges[e];
+    graph.ends[e] =
+        graph.inside[j] ? std::array{nodes.image(i, inverse[t]), j} : std::array{i, nodes.image(j, t)};
+  }
   graph.banks = bank_nodes(cut, boundary, graph);
   return graph;
 }

@@ -36,6 +36,9 @@ struct DiskGraph {
   bool unknown_at_start(int node) const { return !given[vertex[node]]; }
 };
 
+/// The two vertices of every edge.
+std::vector<std::array<int, 2>> ends(const GluedEdges& glued);
+
 DiskGraph disk_graph(const CutMesh& cut, const GluedEdges& glued, const BoundaryConditions& boundary);
 
 }  // namespace orbitutte

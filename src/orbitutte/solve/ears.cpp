@@ -44,11 +44,12 @@ class EarSearch {
 }  // namespace
 
 std::vector<Ear> find_ears(const FaceView& faces, const Tile& tile, const BoundaryConditions& boundary) {
+  std::vector<int> straight;  // sides whose vertices stay on them
+  for (int s = 0; s < static_cast<int>(tile.sides.size()); ++s)
+    if (tile.sides[s].held() || tile.sides[s].partner == s) straight.push_back(s);
+  if (straight.empty()) return {};
   EarSearch search(faces, static_cast<int>(boundary.transform_of.size()));
-  for (std::size_t s = 0; s < tile.sides.size(); ++s) {
-    if (!tile.sides[s].held() && tile.sides[s].partner != static_cast<int>(s)) continue;
-    search.search(static_cast<int>(s), boundary.sides[s], tile.sides[s].outward());
-  }
+  for (const int s : straight) search.search(s, boundary.sides[s], tile.sides[s].outward());
   return std::move(search.ears);
 }
 

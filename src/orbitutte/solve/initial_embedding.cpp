@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "orbitutte/solve/initial_embedding.h"
 
+#include "orbitutte/parallel.h"
 #include "orbitutte/solve/boundary_arcs.h"
 
 namespace orbitutte {
@@ -31,7 +32,9 @@ Points initial_embedding(const Surface& surface, const CutMesh& cut, const Tile&
   const Eigen::Index n = boundary.held.rows();
   const Points on_arcs = boundary_on_arcs(surface, cut, tile, boundary).topRows(n);
   Points result = to_origin.on_rows(laplacian.extend_harmonically(on_arcs));
-  for (Eigen::Index v = 0; v < n; ++v) result.row(v) = space.lift(result(v, 0), result(v, 1));
+  parallel_ranges(static_cast<int>(n), [&](int begin, int end) {
+    for (int v = begin; v < end; ++v) result.row(v) = space.lift(result(v, 0), result(v, 1));
+  });
   result = to_origin.inverse().on_rows(result);
   for (const int v : cut.boundary)
     if (v < n) result.row(v) = on_arcs.row(v);  // also where the tile reaches below the equator's rounding

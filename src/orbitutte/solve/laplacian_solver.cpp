@@ -22,13 +22,6 @@ constexpr double stiff = 1e6;
 
 }  // namespace
 
-std::vector<std::array<int, 2>> ends(const GluedEdges& glued) {
-  std::vector<std::array<int, 2>> result;
-  result.reserve(glued.edges.size());
-  for (const GluedEdge& edge : glued.edges) result.push_back({edge.i, edge.j});
-  return result;
-}
-
 LaplacianSolver::LaplacianSolver(const CutMesh& cut, const GluedEdges& glued, const EdgeWeights& weights,
                                  const BoundaryConditions& boundary, const LaplacianSetup& setup)
     : w_(weights.w),
@@ -37,8 +30,10 @@ LaplacianSolver::LaplacianSolver(const CutMesh& cut, const GluedEdges& glued, co
       graph_(std::make_unique<DiskGraph>(disk_graph(cut, glued, boundary))) {
   const std::size_t n = boundary.basis_of.size();
   const std::shared_ptr<LaplacianReuse> reuse = setup.reuse ? setup.reuse : reusable_laplacians(Kept::order);
-  if (!reuse->dissection) order_ahead(*reuse, ends(glued), static_cast<int>(n));
-  const LaplacianProblem problem = {*graph_, glued, w_, boundary, *reuse->dissection};
+  const std::vector<std::array<int, 2>> edges = ends(glued);
+  if (!reuse->dissection) order_ahead(*reuse, edges, static_cast<int>(n));
+  const Dissection dissection = adapted(*reuse->dissection, edges);
+  const LaplacianProblem problem = {*graph_, glued, w_, boundary, dissection};
   systems_ = banks_are_short(cut, n) ? banked_systems(problem, setup.options, *reuse)
                                      : coupled_systems(problem, setup.options.backend);
 }
@@ -63,14 +58,18 @@ Points LaplacianSolver::extend_harmonically(const Points& positions) const {
   Points pull = Points::Zero(graph.node_count(), 3);
   // An edge between an unknown position and a given one pulls at the former.
   const auto pull_at = [&](int node, int other, double w) {
-    if (!graph.unknown_at_start(node) || graph.unknown_at_start(other)) return;
     const Vector3 image = graph.transform(other) * positions.row(graph.vertex[other]).transpose();
     pull.row(node) += w * image.transpose();
   };
-  for (std::size_t e = 0; e < graph.ends.size(); ++e) {
+  const std::vector<int> pulling = parallel_select(static_cast<int>(graph.ends.size()), [&](int e) {
+    return graph.unknown_at_start(graph.ends[e][0]) != graph.unknown_at_start(graph.ends[e][1]);
+  });
+  for (const int e : pulling) {
     const auto [a, b] = graph.ends[e];
-    pull_at(a, b, w_[static_cast<Eigen::Index>(e)]);
-    pull_at(b, a, w_[static_cast<Eigen::Index>(e)]);
+    if (graph.unknown_at_start(a))
+      pull_at(a, b, w_[e]);
+    else
+      pull_at(b, a, w_[e]);
   }
   Points result = systems_->solve_disk(pull).topRows(positions.rows());
   for (Eigen::Index v = 0; v < result.rows(); ++v)

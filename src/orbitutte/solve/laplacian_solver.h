@@ -31,7 +31,8 @@ enum class Kept { order, factors };
 std::shared_ptr<LaplacianReuse> reusable_laplacians(Kept kept);
 
 /// Finds the elimination order, which depends on nothing but the edges that have weights, where `reuse` does
-/// not have it yet: so that it can be done while the mesh is cut.
+/// not have it yet: so that it can be done while the mesh is cut. The edges that have weights in the end may
+/// differ from these in a few places; then the order is adapted to them.
 void order_ahead(LaplacianReuse& reuse, const std::vector<std::array<int, 2>>& edges, int vertex_count);
 
 struct DiskGraph;

@@ -18,7 +18,7 @@ class Substructure;
 class LaplacianReuse {
  public:
   Kept kept = Kept::order;
-  /// Of the graph that was dissected.
+  /// Of the graph that was dissected, from which that of a solver may differ in a few edges.
   std::vector<std::array<int, 2>> edges;
   /// null: none was.
   std::shared_ptr<const Dissection> dissection;
@@ -36,9 +36,6 @@ struct LaplacianProblem {
   /// Of the graph of the vertices.
   const Dissection& dissection;
 };
-
-/// The two vertices of every edge.
-std::vector<std::array<int, 2>> ends(const GluedEdges& glued);
 
 /// In the start, a node on a bank that is not given is tied to the origin by this fraction of its weights:
 /// where every edge of a few vertices crosses the cut, nothing else holds them.

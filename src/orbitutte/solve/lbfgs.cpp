@@ -16,24 +16,40 @@ namespace {
 template <typename Vector>
 using Vectors = std::vector<const Vector*>;
 
+constexpr Eigen::Index range_rows = 1024;
+
+// Calls visit(r, begin, count) for the numbers of the r-th range of rows, three a row.
+template <typename Visit>
+void for_ranges(Eigen::Index rows, const Visit& visit) {
+  parallel_for(static_cast<int>((rows + range_rows - 1) / range_rows), [&](int r) {
+    const Eigen::Index begin = r * range_rows;
+    visit(r, 3 * begin, 3 * std::min(range_rows, rows - begin));
+  });
+}
+
+// The sum of a_i b_i in double precision, as several sums that do not wait for each other.
+template <typename A, typename B>
+double inner_product(const A* a, const B* b, Eigen::Index count) {
+  constexpr int lanes = 8;
+  double sums[lanes] = {};
+  Eigen::Index i = 0;
+  for (; i + lanes <= count; i += lanes)
+    for (int j = 0; j < lanes; ++j) sums[j] += static_cast<double>(a[i + j]) * static_cast<double>(b[i + j]);
+  for (; i < count; ++i) sums[0] += static_cast<double>(a[i]) * static_cast<double>(b[i]);
+  return ((sums[0] + sums[1]) + (sums[2] + sums[3])) + ((sums[4] + sums[5]) + (sums[6] + sums[7]));
+}
+
 // <v, a_i> for every i, summed in double precision.
 template <typename Vector, typename Other>
 std::vector<double> inner_products(const Vectors<Vector>& vectors, const Other& a) {
-  constexpr int length = 2048;  // rows
-  const int rows = static_cast<int>(a.rows()), ranges = (rows + length - 1) / length;
-  std::vector<std::vector<double>> partial(ranges, std::vector<double>(vectors.size()));
-  parallel_for(ranges, [&](int r) {
-    const int begin = r * length, count = std::min(length, rows - begin);
-    for (std::size_t k = 0; k < vectors.size(); ++k)
-      partial[r][k] = vectors[k]
-                          ->middleRows(begin, count)
-                          .template cast<double>()
-                          .cwiseProduct(a.middleRows(begin, count).template cast<double>())
-                          .sum();
+  const Eigen::Index count = static_cast<Eigen::Index>(vectors.size());
+  std::vector<double> partial(static_cast<std::size_t>((a.rows() / range_rows + 1) * count), 0.0);
+  for_ranges(a.rows(), [&](int r, Eigen::Index begin, Eigen::Index length) {
+    for (Eigen::Index k = 0; k < count; ++k)
+      partial[r * count + k] = inner_product(vectors[k]->data() + begin, a.data() + begin, length);
   });
   std::vector<double> result(vectors.size(), 0.0);
-  for (const std::vector<double>& products : partial)
-    for (std::size_t k = 0; k < products.size(); ++k) result[k] += products[k];
+  for (std::size_t at = 0; at < partial.size(); ++at) result[at % vectors.size()] += partial[at];
   return result;
 }
 
@@ -93,11 +109,14 @@ class InverseHessian {
     for (const double a : along_s) coefficients.push_back(-a);
     for (const double a : alpha) coefficients.push_back(gamma_ * a);
     Points direction(gradient.rows(), 3);
-    parallel_ranges(static_cast<int>(direction.rows()), [&](int begin, int end) {
-      auto rows = direction.middleRows(begin, end - begin);
-      rows = -gamma_ * preconditioned.middleRows(begin, end - begin);
-      for (std::size_t k = 0; k < vectors.size(); ++k)
-        rows += coefficients[k] * vectors[k]->middleRows(begin, end - begin).cast<double>();
+    for_ranges(direction.rows(), [&](int, Eigen::Index begin, Eigen::Index length) {
+      double* const sum = direction.data() + begin;
+      for (Eigen::Index i = 0; i < length; ++i) sum[i] = -gamma_ * preconditioned.data()[begin + i];
+      for (std::size_t k = 0; k < vectors.size(); ++k) {
+        const float* const vector = vectors[k]->data() + begin;
+        const double factor = coefficients[k];
+        for (Eigen::Index i = 0; i < length; ++i) sum[i] += factor * static_cast<double>(vector[i]);
+      }
     });
     return direction;
   }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "orbitutte/geometry/geodesic_triangle.h"
+#include "orbitutte/mesh/connectivity.h"
 #include "orbitutte/parallel.h"
 
 namespace orbitutte {
@@ -92,10 +93,12 @@ std::vector<double> rounding_of_angles(const Embedding& triangles, const ExactPo
 std::vector<double> shortest_edges(const Embedding& triangles, const ExactPositions& positions,
                                    const std::vector<char>& is_asked) {
   std::vector<double> shortest(triangles.source_vertex.size(), std::numeric_limits<double>::infinity());
-  for (int h = 0; h < static_cast<int>(triangles.triangles.size()); ++h) {
-    const int* const face = triangles.triangles.data() + h / 3 * 3;
-    const int p = face[h % 3], q = face[(h + 1) % 3];
-    if (!is_asked[p] && !is_asked[q]) continue;
+  const Triangles& F = triangles.triangles;
+  const std::vector<int> asked = parallel_select(static_cast<int>(F.size()), [&](int h) {
+    return is_asked[halfedge_origin(F, h)] || is_asked[halfedge_target(F, h)];
+  });
+  for (const int h : asked) {
+    const int p = halfedge_origin(F, h), q = halfedge_target(F, h);
     const double length = positions.chord(p, q);
     for (const int v : {p, q})
       if (is_asked[v]) shortest[v] = std::min(shortest[v], length);

@@ -112,10 +112,10 @@ Check cut_mesh_check(int n, const FaceView& input, const Embedding& embedding) {
       offences.add("cut vertex {} names the input vertex {}", v, source);
   }
   const bool may_be_turned = has_no_orientation(embedding.target.signature);
-  for (int f = 0; f < input.count(); ++f) {
-    if (!is_input_face(input[f], faces[f], embedding.source_vertex, may_be_turned))
-      offences.add("face {} is not the input's face {}, cut", f, f);
-  }
+  const std::vector<int> others = parallel_select(input.count(), [&](int f) {
+    return !is_input_face(input[f], faces[f], embedding.source_vertex, may_be_turned);
+  });
+  for (const int f : others) offences.add("face {} is not the input's face {}, cut", f, f);
   return offences.check("cut_mesh");
 }
 
@@ -139,6 +139,16 @@ Check surface_check(const Embedding& embedding) {
                  unit_bound);
 }
 
+// How many cut vertices faces use.
+long long count_used(const Triangles& F, int n_cut) {
+  std::vector<char> used(n_cut, 0);
+  parallel_parts(n_cut, [&](int begin, int end) {
+    for (const int v : F.reshaped())
+      if (v >= begin && v < end) used[v] = 1;
+  });
+  return std::count(used.begin(), used.end(), 1);
+}
+
 // The boundary half-edges of the cut mesh, each by its origin; empty, with an offence, unless the cut mesh is
 // a disk or a sphere: every edge has one face, or two that run along it in opposite directions, there is one
 // simple boundary loop and V - E + F = 1, or there is none and V - E + F = 2.
@@ -146,22 +156,25 @@ std::unordered_map<int, int> boundary_of_cut_mesh(const Embedding& embedding, Of
   const Triangles& F = embedding.triangles;
   const int n_cut = static_cast<int>(embedding.source_vertex.size());
   const Connectivity connectivity = connectivity_of(F, n_cut);
-  std::vector<char> used(n_cut, 0), faces_of_edge(connectivity.edges.size(), 0);
+  const std::vector<int>& opposite = connectivity.opposite;
+  // Of more than two half-edges of an edge, one is not the opposite one of its own opposite one.
+  const std::vector<int> not_inside = parallel_select(static_cast<int>(F.size()), [&](int h) {
+    const int other = opposite[h];
+    return other < 0 || opposite[other] != h || halfedge_origin(F, other) == halfedge_origin(F, h);
+  });
   std::unordered_map<int, int> next;
-  for (int h = 0; h < static_cast<int>(F.size()); ++h) {
-    used[halfedge_origin(F, h)] = 1;
-    if (++faces_of_edge[connectivity.edge_of[h]] > 2)
+  for (const int h : not_inside) {
+    const int other = opposite[h];
+    if (other >= 0 && opposite[other] != h)
       offences.add("edge ({}, {}) of the cut mesh has more than two faces", halfedge_origin(F, h),
                    halfedge_target(F, h));
-    const int other = connectivity.opposite[h];
     if (other >= 0 && halfedge_origin(F, other) == halfedge_origin(F, h))
       offences.add("two faces run along edge ({}, {}) of the cut mesh in the same direction",
                    halfedge_origin(F, h), halfedge_target(F, h));
     if (other < 0 && !next.emplace(halfedge_origin(F, h), halfedge_target(F, h)).second)
       offences.add("the boundary of the cut mesh passes twice through vertex {}", halfedge_origin(F, h));
   }
-  const long long euler =
-      std::count(used.begin(), used.end(), 1) - static_cast<long long>(connectivity.edges.size()) + F.rows();
+  const long long euler = count_used(F, n_cut) - static_cast<long long>(connectivity.edges.size()) + F.rows();
   if (euler != (next.empty() ? 2 : 1))
     offences.add("the cut mesh has Euler characteristic {}; a disk has 1, and a closed sphere 2", euler);
   if (offences.any() || next.empty()) return {};

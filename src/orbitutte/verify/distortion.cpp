@@ -4,9 +4,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <limits>
-#include <numeric>
+#include <numbers>
 #include <optional>
 
 #include "orbitutte/orbifold/exact_positions.h"
@@ -15,8 +14,6 @@
 namespace orbitutte {
 namespace {
 
-using Complex = std::complex<double>;
-
 constexpr double position_rounding = 16;  // in units of tangential_rounding
 constexpr double area_rounding = 4 * std::numeric_limits<double>::epsilon();
 
@@ -24,22 +21,26 @@ double triangle_area(const Vector3& a, const Vector3& b, const Vector3& c) {
   return 0.5 * (b - a).cross(c - a).norm();
 }
 
-// The two edges from the first corner of a plane triangle with sides ab, bc, ca, the first along the real
-// axis; counterclockwise.
-std::optional<std::array<Complex, 2>> lay_out(double ab, double bc, double ca) {
+// The third corner of a plane triangle with sides ab, bc, ca whose first two corners are (0, 0) and (1, 0);
+// above them.
+struct Apex {
+  double x, y;
+};
+std::optional<Apex> lay_out(double ab, double bc, double ca) {
   if (!(ab > 0)) return std::nullopt;
   const double x = ((ab - bc) * (ab + bc) + ca * ca) / (2 * ab);
   const double y_squared = (ca - x) * (ca + x);
   if (!(y_squared > 0)) return std::nullopt;
-  return std::array<Complex, 2>{Complex(ab, 0), Complex(x, std::sqrt(y_squared))};
+  return Apex{x / ab, std::sqrt(y_squared) / ab};
 }
 
-// sigma_1/sigma_2 of the linear map e_k -> f_k, which is z -> a z + b conj(z): (|a| + |b|)/(|a| - |b|).
-double ratio_of_singular_values(const std::array<Complex, 2>& e, const std::array<Complex, 2>& f) {
-  const Complex determinant = e[0] * std::conj(e[1]) - e[1] * std::conj(e[0]);
-  const double a = std::abs((f[0] * std::conj(e[1]) - f[1] * std::conj(e[0])) / determinant);
-  const double b = std::abs((f[1] * e[0] - f[0] * e[1]) / determinant);
-  return (a + b) / (a - b);
+// sigma_1/sigma_2 of the affine map between two triangles with the same first side. It is z -> a z + b
+// conj(z), |a| : |b| = |p - conj(q)| : |p - q|, p and q their apices, and the ratio is (|a| + |b|)/(|a| -
+// |b|).
+double ratio_of_singular_values(const Apex& p, const Apex& q) {
+  const double x = p.x - q.x, far = std::sqrt(x * x + (p.y + q.y) * (p.y + q.y)),
+               near = std::sqrt(x * x + (p.y - q.y) * (p.y - q.y));
+  return std::max(1.0, (far + near) * (far + near) / (4 * p.y * q.y));
 }
 
 // Reorders the values. 0 where there are none.
@@ -53,12 +54,12 @@ double median(std::vector<double>& values) {
 Distortion::Area statistics(std::vector<double>& values) {
   Distortion::Area result;
   if (values.empty()) return result;
-  const double count = static_cast<double>(values.size());
-  result.mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
-  double squares = 0;
-  for (const double value : values) squares += (value - result.mean) * (value - result.mean);
+  const int count = static_cast<int>(values.size());
+  result.mean = parallel_sum(count, [&](int k) { return values[k]; }) / count;
+  const double squares =
+      parallel_sum(count, [&](int k) { return (values[k] - result.mean) * (values[k] - result.mean); });
   result.std = std::sqrt(squares / count);
-  result.max = *std::max_element(values.begin(), values.end());
+  result.max = parallel_max(count, [&](int k) { return values[k]; });
   result.median = median(values);
   return result;
 }
@@ -66,6 +67,7 @@ Distortion::Area statistics(std::vector<double>& values) {
 Distortion::Angle angle_statistics(const std::vector<FaceDistortion>& faces) {
   Distortion::Angle result;
   std::vector<double> angles;
+  angles.reserve(faces.size());
   double sum = 0, weighted_sum = 0, weight = 0;
   for (const FaceDistortion& face : faces) {
     if (!(face.angle > 0)) continue;
@@ -84,28 +86,24 @@ Distortion::Angle angle_statistics(const std::vector<FaceDistortion>& faces) {
 
 // The share of the source's area in triangles with lowest <= A <= highest.
 double share_between(double lowest, double highest, const std::vector<FaceDistortion>& faces) {
-  double share = 0;
-  for (const FaceDistortion& face : faces)
-    if (face.area > 0 && face.area >= lowest && face.area <= highest) share += face.share;
+  const double share = parallel_sum(static_cast<int>(faces.size()), [&](int f) {
+    const FaceDistortion& face = faces[f];
+    return face.area > 0 && face.area >= lowest && face.area <= highest ? face.share : 0.0;
+  });
   return std::min(share, 1.0);
 }
 
-// sqrt(sum a (u - mean)^2 / sum a) of u = 1/2 log A, a the triangle's share of the source's area.
-double deviation_of_scale(const std::vector<FaceDistortion>& faces) {
-  double weight = 0, sum = 0, squares = 0;
-  for (const FaceDistortion& face : faces) {
-    if (!(face.area > 0)) continue;
-    weight += face.share;
-    sum += face.share * 0.5 * std::log(face.area);
-  }
+// sqrt(sum a (u - mean)^2 / sum a) of u = 1/2 log A, a the triangle's share of the source's area. doublings:
+// of every triangle, log2 A, where it is measured.
+double deviation_of_scale(const std::vector<FaceDistortion>& faces, const std::vector<double>& doublings) {
+  const int count = static_cast<int>(faces.size());
+  const auto weight_of = [&](int f) { return faces[f].area > 0 ? faces[f].share : 0.0; };
+  const double weight = parallel_sum(count, weight_of);
   if (!(weight > 0)) return 0;
-  const double mean = sum / weight;
-  for (const FaceDistortion& face : faces) {
-    if (!(face.area > 0)) continue;
-    const double difference = 0.5 * std::log(face.area) - mean;
-    squares += face.share * difference * difference;
-  }
-  return std::sqrt(squares / weight);
+  const double mean = parallel_sum(count, [&](int f) { return weight_of(f) * doublings[f]; }) / weight;
+  const double squares = parallel_sum(
+      count, [&](int f) { return weight_of(f) * (doublings[f] - mean) * (doublings[f] - mean); });
+  return 0.5 * std::numbers::ln2 * std::sqrt(squares / weight);
 }
 
 // Bins of log2 A, a quarter wide, from -8 to 8.
@@ -116,19 +114,16 @@ Distortion::Histogram empty_histogram() {
   return histogram;
 }
 
-int histogram_bin(double area_ratio) {
-  return static_cast<int>(std::floor(std::clamp(4 * std::log2(area_ratio), -32.0, 31.0))) + 32;
+int histogram_bin(double doublings) {
+  return static_cast<int>(std::floor(std::clamp(4 * doublings, -32.0, 31.0))) + 32;
 }
 
 // The largest coordinate of an edge: areas in its square overflow nowhere.
 double length_unit(const Surface& surface) {
-  double unit = 0;
-  for (int f = 0; f < surface.triangles.rows(); ++f)
-    for (int k = 0; k < 3; ++k)
-      unit = std::max(
-          unit, (surface.V.row(surface.triangles(f, (k + 1) % 3)) - surface.V.row(surface.triangles(f, k)))
-                    .cwiseAbs()
-                    .maxCoeff());
+  const double unit = parallel_max(static_cast<int>(surface.triangles.size()), [&](int h) {
+    const int from = halfedge_origin(surface.triangles, h), to = halfedge_target(surface.triangles, h);
+    return (surface.V.row(to) - surface.V.row(from)).cwiseAbs().maxCoeff();
+  });
   return unit > 0 ? unit : 1;
 }
 
@@ -136,10 +131,16 @@ struct FaceAreas {
   double source = 0, image = 0;
 };
 
-// By how much rounding may move a position along the space.
-double tangential_rounding(const Embedding& embedding, const ExactPositions& positions, int v) {
-  return positions.has_offsets(v) ? positions.rounding(v)
-                                  : embedding.space().tangential_rounding(embedding.positions.row(v));
+// By how much rounding may move every position along the space.
+std::vector<double> tangential_roundings(const Embedding& embedding, const ExactPositions& positions) {
+  std::vector<double> result(embedding.source_vertex.size());
+  parallel_ranges(static_cast<int>(result.size()), [&](int begin, int end) {
+    for (int v = begin; v < end; ++v)
+      result[v] = positions.has_offsets(v)
+                      ? positions.rounding(v)
+                      : embedding.space().tangential_rounding(embedding.positions.row(v));
+  });
+  return result;
 }
 
 // What is measured of the image of a triangle: the lengths of the sides between its corners 0 and 1, 1 and 2,
@@ -149,14 +150,11 @@ struct ImageMeasures {
   double rounding = 0;
 };
 
-ImageMeasures measure_image(const Embedding& embedding, const ExactPositions& positions, int f) {
-  const auto v = embedding.triangles.row(f);
-  ImageMeasures result;
-  for (int k = 0; k < 3; ++k) {
-    result.arcs[k] = positions.distance(v[k], v[(k + 1) % 3]);
-    result.rounding = std::max(result.rounding, tangential_rounding(embedding, positions, v[k]));
-  }
-  return result;
+// v: its corners. rounding: of every cut vertex.
+ImageMeasures measure_image(const std::array<int, 3>& v, const ExactPositions& positions,
+                            const std::vector<double>& rounding) {
+  return {{positions.distance(v[0], v[1]), positions.distance(v[1], v[2]), positions.distance(v[2], v[0])},
+          std::max({rounding[v[0]], rounding[v[1]], rounding[v[2]]})};
 }
 
 // Scaled by a power of two where their squares would underflow.
@@ -185,7 +183,7 @@ FaceDistortion face_distortion(const std::array<Vector3, 3>& source, const Image
   const auto e = lay_out(lengths[0], lengths[1], lengths[2]), g = lay_out(arcs[0], arcs[1], arcs[2]);
   if (!e || !g) return result;
   const double angle = ratio_of_singular_values(*e, *g);
-  if (std::isfinite(angle) && angle >= 1) result.angle = angle;
+  if (std::isfinite(angle)) result.angle = angle;
   return result;
 }
 
@@ -212,31 +210,49 @@ std::vector<FaceDistortion> measure_triangles(const Surface& surface, const Embe
     area[f].image = positions.area(v[0], v[1], v[2]);
     return std::max(area[f].image, 0.0);  // a map that is turned over in places still has shares
   });
+  const std::vector<double> rounding = tangential_roundings(embedding, positions);
   std::vector<FaceDistortion> of_face(m);
   parallel_ranges(m, [&](int begin, int end) {
-    for (int f = begin; f < end; ++f)
-      of_face[f] = face_distortion(source(f), measure_image(embedding, positions, f), area[f], total);
+    for (int f = begin; f < end; ++f) {
+      const std::array<int, 3> v = {embedding.triangles(f, 0), embedding.triangles(f, 1),
+                                    embedding.triangles(f, 2)};
+      of_face[f] = face_distortion(source(f), measure_image(v, positions, rounding), area[f], total);
+    }
   });
   return of_face;
 }
 
 Distortion measure_distortion(const Surface& surface, const Embedding& embedding) {
   const std::vector<FaceDistortion> of_face = measure_triangles(surface, embedding);
+  const int m = static_cast<int>(of_face.size());
+  std::vector<double> doublings(m, 0.0);  // log2 A
+  parallel_ranges(m, [&](int begin, int end) {
+    for (int f = begin; f < end; ++f)
+      if (of_face[f].area > 0) doublings[f] = std::log2(of_face[f].area);
+  });
   Distortion result;
   result.histogram = empty_histogram();
-  std::vector<double> areas;
-  areas.reserve(of_face.size());
-  for (const FaceDistortion& face : of_face) {
-    if (!(face.area > 0)) continue;
-    areas.push_back(std::max(face.area, 1 / face.area));
-    ++result.histogram.counts[histogram_bin(face.area)];
-  }
-  result.measured_faces = static_cast<int>(areas.size());
-  result.area = statistics(areas);
-  result.angle = angle_statistics(of_face);
+  const auto measure_areas = [&] {
+    std::vector<double> areas;
+    areas.reserve(of_face.size());
+    for (int f = 0; f < m; ++f) {
+      const double area = of_face[f].area;
+      if (!(area > 0)) continue;
+      areas.push_back(std::max(area, 1 / area));
+      ++result.histogram.counts[histogram_bin(doublings[f])];
+    }
+    result.measured_faces = static_cast<int>(areas.size());
+    result.area = statistics(areas);
+  };
+  parallel_for(2, [&](int task) {
+    if (task == 0)
+      measure_areas();
+    else
+      result.angle = angle_statistics(of_face);
+  });
   result.within_4 = share_between(0.25, 4, of_face);
   result.below_64 = share_between(0, std::nextafter(1.0 / 64, 0.0), of_face);
-  result.sigma = deviation_of_scale(of_face);
+  result.sigma = deviation_of_scale(of_face, doublings);
   return result;
 }
 
