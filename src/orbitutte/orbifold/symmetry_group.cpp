@@ -129,6 +129,29 @@ SymmetryGroup SymmetryGroup::conjugated(const Isometry& isometry) const {
   return result;
 }
 
+namespace {
+
+// Do all angles belong to orders, so that copies of the tile fill the space?
+bool tiles_the_space(const Target& target) {
+  return std::all_of(target.marks.begin(), target.marks.end(),
+                     [](const Mark& mark) { return mark.order() > 0; });
+}
+
+// The group of a tile that has the shape of the surface: that which the seams generate.
+SymmetryGroup group_of_seams(const Embedding& embedding, int count) {
+  if (!tiles_the_space(embedding.target))
+    throw ArgumentError(fmt::format(
+        "copies of the tile of {} fill no {} space: not all of its angles are 2 pi/n at cones and pi/n "
+        "at corners",
+        embedding.target.signature, embedding.space().name()));
+  std::vector<Isometry> generators;
+  for (const Seam& seam : embedding.seams) generators.push_back(seam.transform);
+  const Vector3 middle = embedding.space().retract(embedding.positions.colwise().mean().transpose());
+  return SymmetryGroup::nearest_elements(embedding.space(), generators, middle, count);
+}
+
+}  // namespace
+
 SymmetryGroup group_of(const Target& target) {
   if (target.group_order == 0)
     throw ArgumentError(
@@ -152,6 +175,7 @@ SymmetryGroup group_of(const Embedding& embedding) {
 }
 
 SymmetryGroup group_of(const Embedding& embedding, int count) {
+  if (embedding.target.has_free_tile) return group_of_seams(embedding, count);
   return placed(group_of(embedding.target, count), embedding.placement);
 }
 

@@ -215,7 +215,8 @@ void boost_positions(const Vector3& velocity, Embedding& embedding) {
 }  // namespace
 
 Target quotient_target(const Target& base) {
-  if (!base.corners.empty() || !(is_of_half_turns(base.symbol) || is_of_one_axis(base.symbol)))
+  const bool has_symbol = base.corners.empty() && !base.has_free_tile;
+  if (!has_symbol || !(is_of_half_turns(base.symbol) || is_of_one_axis(base.symbol)))
     throw ArgumentError(
         fmt::format("the quotient of a map to {} is not known; there are those of NN, *NN, N*, 222 and *222",
                     base.signature));
