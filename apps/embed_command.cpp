@@ -9,6 +9,7 @@
 #include "command_arguments.h"
 #include "commands.h"
 #include "orbitutte/choose.h"
+#include "orbitutte/cones/marked_cones.h"
 #include "orbitutte/distortion_floor.h"
 #include "orbitutte/io/corner_file.h"
 #include "orbitutte/io/file.h"
@@ -63,6 +64,31 @@ class ProgressLine {
  private:
   bool shown_;
 };
+
+// That angles are given where they are needed, and nowhere else.
+void require_fitting_angles(const EmbedArguments& arguments) {
+  if (takes_angles(arguments.orbifold) == !arguments.angles.empty()) return;
+  throw ArgumentError(
+      arguments.angles.empty()
+          ? fmt::format("--angles is missing; give an angle for each cone of {}, as in pi,pi,1.5pi,0.5pi",
+                        arguments.orbifold)
+          : fmt::format("--angles gives the angles of cones or *cones, but {} has its own",
+                        arguments.orbifold.empty() ? "the best orbifold" : arguments.orbifold));
+}
+
+// Cones of any angles, on the surface. The program chooses none of them.
+Wish wish_for_angles(const EmbedArguments& arguments, const Surface& surface) {
+  const std::vector<double> angles = parse_angles(arguments.angles);
+  const ConesWord word = cones_word(arguments.cones);
+  if (word == ConesWord::best)
+    throw ArgumentError(
+        fmt::format("--cones is missing; give the vertices of {}, or 'extremities'", arguments.orbifold));
+  const MarkedCones marked =
+      word == ConesWord::extremities
+          ? cones_at_extremities(surface, arguments.orbifold, angles)
+          : marked_cones(surface, arguments.orbifold, parse_cones(arguments.cones), angles);
+  return {marked.target, ConesWord::none, marked.vertices};
+}
 
 // What is asked for: an orbifold and its cones, as far as they are given, or a polygon with its corners.
 Wish wish_from(const EmbedArguments& arguments) {
@@ -230,12 +256,15 @@ BestEmbedding embed_wish(const std::shared_ptr<const Surface>& surface, const Wi
 int embed_command(const EmbedArguments& arguments) {
   const Stopwatch total;
   EmbedOptions options = options_from(arguments);
-  Wish wish = wish_from(arguments);
+  require_fitting_angles(arguments);
+  const bool has_angles = takes_angles(arguments.orbifold);
+  Wish wish = has_angles ? Wish() : wish_from(arguments);
   const Objective objective = parse_choice<Objective>(arguments.objective, "--objective");
 
   RunRecord run;
   const auto [surface, reader_warnings] = read_input(arguments.mesh, run);
 
+  if (has_angles) wish = wish_for_angles(arguments, *surface);
   mark_extremities(*surface, wish);
   const ProgressLine line(arguments.quiet);
   options.progress = [&](const Progress& progress) {

@@ -98,11 +98,11 @@ void require_topology(const Surface& surface, const Target& target) {
 
 void require_fit(const EmbedRequest& request) {
   const Target& target = request.target;
-  require_plane(target);
   if (request.cones.size() != target.marks.size())
     throw MeshError(fmt::format("{} needs {} marked vertices, not {}", target.signature, target.marks.size(),
                                 request.cones.size()));
   require_topology(request.prepared.surface, target);
+  require_plane(target);
   require_no_edge(request.prepared.surface.connectivity, opposite_vertices(request), target);
 }
 

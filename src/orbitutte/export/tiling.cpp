@@ -55,6 +55,10 @@ SymmetryGroup checked_group(const Embedding& embedding, int copies) {
   if (copies < 1) throw ArgumentError(fmt::format("{} copies make no tiling; ask for one or more", copies));
   const int order = embedding.target.group_order;
   check_embedding(embedding, order > 0 ? order : copies);
+  if (!tiles_its_space(embedding.target))
+    throw ArgumentError(
+        "copies of the tile fill no plane, since not all of its angles are 2 pi/n, and pi/n at corners; only "
+        "those of orbifolds do");
   return group_of(embedding, copies);
 }
 
