@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "command_arguments.h"
@@ -15,6 +16,7 @@
 #include "orbitutte/io/file.h"
 #include "orbitutte/io/mesh_io.h"
 #include "orbitutte/orbifold/polygon.h"
+#include "orbitutte/orbifold/symmetry_group.h"
 #include "orbitutte/report/choices.h"
 #include "orbitutte/report/embedding_file.h"
 #include "orbitutte/report/report.h"
@@ -80,13 +82,16 @@ void require_fitting_angles(const EmbedArguments& arguments) {
 Wish wish_for_angles(const EmbedArguments& arguments, const Surface& surface) {
   const std::vector<double> angles = parse_angles(arguments.angles);
   const ConesWord word = cones_word(arguments.cones);
-  if (word == ConesWord::best)
-    throw ArgumentError(
-        fmt::format("--cones is missing; give the vertices of {}, or 'extremities'", arguments.orbifold));
-  const MarkedCones marked =
-      word == ConesWord::extremities
-          ? cones_at_extremities(surface, arguments.orbifold, angles)
-          : marked_cones(surface, arguments.orbifold, parse_cones(arguments.cones), angles);
+  const std::vector<int> vertices =
+      word == ConesWord::none ? parse_cones(arguments.cones) : std::vector<int>();
+  if (word == ConesWord::best || std::count(vertices.begin(), vertices.end(), best_vertex) > 0)
+    throw ArgumentError(fmt::format(
+        "--cones leaves vertices to the program, but {} has none to choose from; give all of them, or "
+        "'extremities'",
+        arguments.orbifold));
+  const MarkedCones marked = word == ConesWord::extremities
+                                 ? cones_at_extremities(surface, arguments.orbifold, angles)
+                                 : marked_cones(surface, arguments.orbifold, vertices, angles);
   return {marked.target, ConesWord::none, marked.vertices};
 }
 
@@ -149,6 +154,7 @@ Input read_input(const std::string& path, RunRecord& run) {
 }
 
 std::string group_text(const Target& target) {
+  if (!tiles_its_space(target)) return "no group";
   return target.group_order > 0 ? fmt::format("group of order {}", target.group_order) : "infinite group";
 }
 
@@ -180,6 +186,11 @@ void summarize(const EmbedArguments& arguments, const BestEmbedding& embedded) {
          fmt::join(quotient->cones, ","), name_of(quotient->centre));
   tell("energy {:.12g} after {} iterations, gradient {:.1e}: {}\n", minimum.energy, minimum.iterations,
        minimum.gradient_norm, name_of(minimum.termination));
+  if (result.embedding.target.has_free_tile)
+    tell(
+        "the shape of the tile is the surface's own; energy over twice its area {:.6g}, where 1 is "
+        "conformal\n",
+        minimum.energy / (2 * result.certificate.expected_area));
   tell("area: within a factor of 4 of the mean scale on {} of the surface, shrunk by more than 64 on {}\n",
        percent(distortion.within_4), percent(distortion.below_64));
   tell("angles: median distortion {:.4g}, where 1 is none\n", distortion.angle.median);

@@ -46,12 +46,12 @@ int mark_at(const Target& target, const CutMesh& cut, int vertex) {
 }
 
 // The angle of the tile there, over all copies.
-double angle_at(const Target& target, int mark) {
+double tile_angle_at(const Target& target, int mark) {
   return mark < static_cast<int>(target.marks.size()) ? target.marks[mark].angle : pi;
 }
 
 // May positions be chosen there? At marks, and where the boundary of a disk without corners begins.
-bool is_chosen(const CutMesh& cut, int vertex) {
+bool has_chosen_position(const CutMesh& cut, int vertex) {
   return std::find(cut.marks.begin(), cut.marks.end(), vertex) != cut.marks.end();
 }
 
@@ -110,7 +110,7 @@ class TileWalk {
     side.space = target_.space;
     side.start = corner(s);
     side.mark = mark_at(target_, cut_, vertex);
-    side.slides = !is_chosen(cut_, vertex);
+    side.slides = !has_chosen_position(cut_, vertex);
     side.partner = partner;
     if (partner == s) {
       advance_mirror(s);
@@ -131,9 +131,9 @@ class TileWalk {
     const Vector3 p = corner(first);
     if (first == 0) {
       mirror_.point = p;
-    } else if (is_chosen(cut_, copy_at(first))) {
+    } else if (has_chosen_position(cut_, copy_at(first))) {
       defects_.push_back(mirror_.distance(p));
-      mirror_ = {p, mirror_.angle + pi - angle_at(target_, mark_at(target_, cut_, copy_at(first)))};
+      mirror_ = {p, mirror_.angle + pi - tile_angle_at(target_, mark_at(target_, cut_, copy_at(first)))};
     }
     mirror_ = mirror_.behind(product_between(met_, cut_.sides[first].begin, cut_.sides[s].begin));
     after_mirror_ = s + 1;
@@ -164,7 +164,7 @@ class TileWalk {
 
 // An orthonormal basis of the vectors that a matrix takes to zero, one a column.
 template <typename Matrix>
-Matrix null_space(const Matrix& matrix) {
+Matrix null_space_of(const Matrix& matrix) {
   const Eigen::ColPivHouseholderQR<Matrix> factors(matrix.adjoint());
   const Matrix Q = factors.householderQ();
   return Q.rightCols(matrix.cols() - factors.rank());
@@ -178,12 +178,12 @@ Points all_at_origin(const CutMesh& cut) {
 
 // The defects as a matrix on the coordinates x, y, x, y ... of the marks, and below it the sums of x and of
 // y.
-Eigen::MatrixXd conditions(const Target& target, const CutMesh& cut) {
+Eigen::MatrixXd closing_conditions(const Target& target, const CutMesh& cut) {
   const auto marks = static_cast<Eigen::Index>(cut.marks.size());
   Points positions = all_at_origin(cut);
   std::vector<std::vector<double>> columns;
   for (const int vertex : cut.marks) {
-    for (const Vector3& unit : {Vector3::UnitX(), Vector3::UnitY()}) {
+    for (const Vector3& unit : {Vector3(1, 0, 0), Vector3(0, 1, 0)}) {
       positions.row(vertex) = Space::origin() + unit;
       columns.push_back(closing_defects(target, cut, positions));
     }
@@ -209,14 +209,14 @@ std::vector<double> closing_defects(const Target& target, const CutMesh& cut, co
 }
 
 TileShapes tile_shapes(const Target& target, const CutMesh& cut) {
-  const Eigen::MatrixXd matrix = conditions(target, cut);
+  const Eigen::MatrixXd matrix = closing_conditions(target, cut);
   const auto marks = static_cast<Eigen::Index>(cut.marks.size());
   if (target.topology == Topology::sphere) {  // then the defects are linear over the complex numbers
     Eigen::MatrixXcd complex = Eigen::MatrixXcd::Ones(2, marks);
     for (Eigen::Index k = 0; k < marks; ++k) complex(0, k) = {matrix(0, 2 * k), matrix(1, 2 * k)};
-    return {null_space(complex), true};
+    return {null_space_of(complex), true};
   }
-  const Eigen::MatrixXd coordinates = null_space(matrix);
+  const Eigen::MatrixXd coordinates = null_space_of(matrix);
   TileShapes shapes = {Eigen::MatrixXcd(marks, coordinates.cols()), false};
   for (Eigen::Index k = 0; k < marks; ++k)
     for (Eigen::Index j = 0; j < coordinates.cols(); ++j)

@@ -30,7 +30,7 @@ struct ShapeMap {
 
 Complex in_plane(const Vector3& p) { return {p.x(), p.y()}; }
 
-double largest_entry(const Points& vectors) {
+double largest_entry_of(const Points& vectors) {
   return parallel_max(static_cast<int>(vectors.rows()),
                       [&](int v) { return vectors.row(v).cwiseAbs().maxCoeff(); });
 }
@@ -42,7 +42,7 @@ void make_harmonic(const DirichletEnergy& energy, const LaplacianSolver& laplaci
   double first = 0;
   for (int step = 0; step < most_steps; ++step) {
     const Points gradient = energy.evaluate(positions).gradient;
-    const double largest = largest_entry(gradient);
+    const double largest = largest_entry_of(gradient);
     if (step == 0) first = largest;
     if (largest <= tolerance * first) return;
     positions -= laplacian.precondition(gradient);
@@ -62,7 +62,7 @@ ShapeMap map_of_shape(const GluingProblem& problem, const LaplacianSolver& lapla
 }
 
 // p_i - g p_j along an edge.
-Complex difference(const ShapeMap& map, int edge) {
+Complex difference_along(const ShapeMap& map, int edge) {
   const auto [i, j, t] = map.glued.edges[edge];
   const Vector3 p = map.positions.row(i), q = map.positions.row(j);
   return in_plane(p - (t == 0 ? q : map.glued.transforms[t] * q));
@@ -79,7 +79,7 @@ HermitianForm energy_form(const std::vector<ShapeMap>& maps, const Eigen::Vector
     Eigen::VectorXcd d(count);
     for (int e = r * length; e < std::min(edges, (r + 1) * length); ++e) {
       if (w[e] == 0) continue;
-      for (Eigen::Index j = 0; j < count; ++j) d[j] = difference(maps[j], e);
+      for (Eigen::Index j = 0; j < count; ++j) d[j] = difference_along(maps[j], e);
       partial[r].noalias() += w[e] * d.conjugate() * d.transpose();
     }
   });
@@ -89,7 +89,7 @@ HermitianForm energy_form(const std::vector<ShapeMap>& maps, const Eigen::Vector
 }
 
 // Where the boundary of the cut mesh lies in each map, a row for each of its vertices.
-Eigen::MatrixXcd boundaries(const CutMesh& cut, const std::vector<ShapeMap>& maps) {
+Eigen::MatrixXcd boundary_in_maps(const CutMesh& cut, const std::vector<ShapeMap>& maps) {
   Eigen::MatrixXcd z(cut.boundary.size(), maps.size());
   for (Eigen::Index k = 0; k < z.rows(); ++k) {
     const int v = cut.boundary[k];
@@ -103,7 +103,7 @@ Eigen::MatrixXcd boundaries(const CutMesh& cut, const std::vector<ShapeMap>& map
 
 // Of the signed area, half the imaginary part of the sum of conj(z_k) z_(k + 1) around the boundary.
 HermitianForm area_form(const CutMesh& cut, const std::vector<ShapeMap>& maps) {
-  const Eigen::MatrixXcd z = boundaries(cut, maps);
+  const Eigen::MatrixXcd z = boundary_in_maps(cut, maps);
   Eigen::MatrixXcd next(z.rows(), z.cols());
   next << z.bottomRows(z.rows() - 1), z.topRows(1);
   const Eigen::MatrixXcd products = z.adjoint() * next;
@@ -112,9 +112,9 @@ HermitianForm area_form(const CutMesh& cut, const std::vector<ShapeMap>& maps) {
 
 // By how many whole turns the angle of a mark exceeds one of 2 pi, or of pi at a corner.
 int turns_in_excess(const Mark& mark) {
-  constexpr double rounding = 1e-9;
+  constexpr double slack = 1e-9;
   const double turn = mark.kind == ConeKind::corner ? pi : 2 * pi;
-  return static_cast<int>(std::ceil(mark.angle / turn - rounding)) - 1;
+  return static_cast<int>(std::ceil(mark.angle / turn - slack)) - 1;
 }
 
 // How many eigenvalues approach that of conformal maps. On a disk, whose double has every cone twice, the
@@ -172,10 +172,9 @@ Forms<Eigen::MatrixXd> real_parts(const Forms<HermitianForm>& forms) {
   return {forms.area.real(), forms.energy.real(), forms.energy_at_great_cones.real()};
 }
 
-// The sum of the maps with these coefficients, scaled and moved so that the first mark lies at the origin and
-// the area, of which the form is given, is `wanted`.
-Points combined(const std::vector<ShapeMap>& maps, const Eigen::VectorXcd& coefficients, double scale,
-                int first_mark) {
+// The sum of the maps with these coefficients, moved so that the first mark lies at the origin, and scaled.
+Points combined_map(const std::vector<ShapeMap>& maps, const Eigen::VectorXcd& coefficients, double scale,
+                    int first_mark) {
   const auto place = [&](int v) {
     Complex sum = 0;
     for (std::size_t j = 0; j < maps.size(); ++j)
@@ -207,7 +206,7 @@ Points conformal_map(const GluingProblem& problem, const LaplacianSolver& laplac
   const Eigen::VectorXcd best = shapes.may_be_turned ? best_combination(forms, conformal)
                                                      : best_combination(real_parts(forms), conformal);
   const double area = best.dot(forms.area * best).real();
-  return combined(maps, best, std::sqrt(target_area(problem.target) / area), problem.cut.marks.front());
+  return combined_map(maps, best, std::sqrt(target_area(problem.target) / area), problem.cut.marks.front());
 }
 
 }  // namespace orbitutte
