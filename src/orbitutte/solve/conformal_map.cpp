@@ -18,7 +18,7 @@ namespace orbitutte {
 namespace {
 
 using std::numbers::pi;
-using Complex = std::complex<double>;
+using PlaneNumber = std::complex<double>;
 using HermitianForm = Eigen::MatrixXcd;
 
 // The harmonic map onto the tile of one shape.
@@ -28,7 +28,7 @@ struct ShapeMap {
   Points positions;
 };
 
-Complex in_plane(const Vector3& p) { return {p.x(), p.y()}; }
+PlaneNumber in_plane(const Vector3& p) { return {p.x(), p.y()}; }
 
 double largest_entry_of(const Points& vectors) {
   return parallel_max(static_cast<int>(vectors.rows()),
@@ -45,7 +45,9 @@ void make_harmonic(const DirichletEnergy& energy, const LaplacianSolver& laplaci
     const double largest = largest_entry_of(gradient);
     if (step == 0) first = largest;
     if (largest <= tolerance * first) return;
-    positions -= laplacian.precondition(gradient);
+    Points step_down = laplacian.precondition(gradient);
+    energy.make_feasible(step_down);  // but for single precision, it is
+    positions -= step_down;
   }
 }
 
@@ -62,7 +64,7 @@ ShapeMap map_of_shape(const GluingProblem& problem, const LaplacianSolver& lapla
 }
 
 // p_i - g p_j along an edge.
-Complex difference_along(const ShapeMap& map, int edge) {
+PlaneNumber difference_along(const ShapeMap& map, int edge) {
   const auto [i, j, t] = map.glued.edges[edge];
   const Vector3 p = map.positions.row(i), q = map.positions.row(j);
   return in_plane(p - (t == 0 ? q : map.glued.transforms[t] * q));
@@ -107,7 +109,7 @@ HermitianForm area_form(const CutMesh& cut, const std::vector<ShapeMap>& maps) {
   Eigen::MatrixXcd next(z.rows(), z.cols());
   next << z.bottomRows(z.rows() - 1), z.topRows(1);
   const Eigen::MatrixXcd products = z.adjoint() * next;
-  return (products - products.adjoint()) / Complex(0, 4);
+  return (products - products.adjoint()) / PlaneNumber(0, 4);
 }
 
 // By how many whole turns the angle of a mark exceeds one of 2 pi, or of pi at a corner.
@@ -161,11 +163,11 @@ struct Forms {
 template <typename Matrix>
 Eigen::VectorXcd best_combination(const Forms<Matrix>& forms, int conformal) {
   const Matrix leading = leading_vectors(forms.area, forms.energy, conformal);
-  if (leading.cols() == 1) return leading.col(0).template cast<Complex>();
+  if (leading.cols() == 1) return leading.col(0).template cast<PlaneNumber>();
   const Matrix area = leading.adjoint() * forms.area * leading;
   Matrix energy = leading.adjoint() * forms.energy_at_great_cones * leading;
   energy.diagonal().array() += 1e-12 * std::abs(energy.trace());
-  return (leading * leading_vectors(area, energy, 1)).template cast<Complex>();
+  return (leading * leading_vectors(area, energy, 1)).template cast<PlaneNumber>();
 }
 
 Forms<Eigen::MatrixXd> real_parts(const Forms<HermitianForm>& forms) {
@@ -176,16 +178,16 @@ Forms<Eigen::MatrixXd> real_parts(const Forms<HermitianForm>& forms) {
 Points combined_map(const std::vector<ShapeMap>& maps, const Eigen::VectorXcd& coefficients, double scale,
                     int first_mark) {
   const auto place = [&](int v) {
-    Complex sum = 0;
+    PlaneNumber sum = 0;
     for (std::size_t j = 0; j < maps.size(); ++j)
       sum += coefficients[static_cast<Eigen::Index>(j)] * in_plane(maps[j].positions.row(v));
     return sum;
   };
-  const Complex origin = place(first_mark);
+  const PlaneNumber origin = place(first_mark);
   Points positions(maps.front().positions.rows(), 3);
   parallel_ranges(static_cast<int>(positions.rows()), [&](int begin, int end) {
     for (int v = begin; v < end; ++v) {
-      const Complex z = scale * (place(v) - origin);
+      const PlaneNumber z = scale * (place(v) - origin);
       positions.row(v) << z.real(), z.imag(), 1;
     }
   });
