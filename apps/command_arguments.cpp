@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <numbers>
 
 #include "orbitutte/choose.h"
 #include "orbitutte/export/cut_triangles.h"
@@ -15,6 +17,19 @@ namespace orbitutte::cli {
 namespace {
 
 const std::string best_word = "best";
+
+// Radians, or a multiple of pi.
+std::optional<double> parse_angle(const std::string& text) {
+  const bool is_multiple = text.ends_with("pi");
+  const std::string number = is_multiple ? text.substr(0, text.size() - 2) : text;
+  const double unit = is_multiple ? std::numbers::pi : 1;
+  if (is_multiple && number.empty()) return unit;
+  double value = 0;
+  const auto [stop, error] = std::from_chars(number.data(), number.data() + number.size(), value);
+  if (error != std::errc() || stop != number.data() + number.size() || !std::isfinite(value))
+    return std::nullopt;
+  return value * unit;
+}
 
 // A target without marks leaves nothing to choose.
 void leave_unmarked(Wish& wish) {
@@ -43,6 +58,21 @@ std::vector<int> parse_cones(const std::string& text) {
     from = end + 1;
   }
   return cones;
+}
+
+std::vector<double> parse_angles(const std::string& text) {
+  std::vector<double> angles;
+  for (std::size_t from = 0; from <= text.size();) {
+    const std::size_t end = std::min(text.find(',', from), text.size());
+    const std::optional<double> angle = parse_angle(text.substr(from, end - from));
+    if (!angle)
+      throw ArgumentError(fmt::format(
+          "--angles is '{}'; give radians or multiples of pi, separated by commas, as in 3.1,1.6pi,pi",
+          text));
+    angles.push_back(*angle);
+    from = end + 1;
+  }
+  return angles;
 }
 
 ConesWord cones_word(const std::string& text) {

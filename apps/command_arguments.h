@@ -14,6 +14,9 @@ namespace orbitutte::cli {
 /// Vertices separated by commas; best_vertex for each entry that is 'best'. Throws ArgumentError.
 std::vector<int> parse_cones(const std::string& text);
 
+/// Angles separated by commas, radians, or multiples of pi as in 1.6pi. Throws ArgumentError.
+std::vector<double> parse_angles(const std::string& text);
+
 /// What --cones leaves to the program, in one word.
 enum class ConesWord { best, extremities, none };
 

@@ -29,7 +29,7 @@ enum ExitCode {
 };
 
 struct EmbedArguments {
-  std::string mesh, orbifold, cones, output, report;
+  std::string mesh, orbifold, cones, angles, output, report;
   std::string objective = name_of(Objective::sigma);
   std::string centre, points;
   std::string polygon, spread = name_of(Spread::arc_length);

@@ -4,16 +4,19 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "command_arguments.h"
 #include "commands.h"
 #include "orbitutte/choose.h"
+#include "orbitutte/cones/marked_cones.h"
 #include "orbitutte/distortion_floor.h"
 #include "orbitutte/io/corner_file.h"
 #include "orbitutte/io/file.h"
 #include "orbitutte/io/mesh_io.h"
 #include "orbitutte/orbifold/polygon.h"
+#include "orbitutte/orbifold/symmetry_group.h"
 #include "orbitutte/report/choices.h"
 #include "orbitutte/report/embedding_file.h"
 #include "orbitutte/report/report.h"
@@ -63,6 +66,34 @@ class ProgressLine {
  private:
   bool shown_;
 };
+
+// That angles are given where they are needed, and nowhere else.
+void require_fitting_angles(const EmbedArguments& arguments) {
+  if (takes_angles(arguments.orbifold) == !arguments.angles.empty()) return;
+  throw ArgumentError(
+      arguments.angles.empty()
+          ? fmt::format("--angles is missing; give an angle for each cone of {}, as in pi,pi,1.5pi,0.5pi",
+                        arguments.orbifold)
+          : fmt::format("--angles gives the angles of cones or *cones, but {} has its own",
+                        arguments.orbifold.empty() ? "the best orbifold" : arguments.orbifold));
+}
+
+// Cones of any angles, on the surface. The program chooses none of them.
+Wish wish_for_angles(const EmbedArguments& arguments, const Surface& surface) {
+  const std::vector<double> angles = parse_angles(arguments.angles);
+  const ConesWord word = cones_word(arguments.cones);
+  const std::vector<int> vertices =
+      word == ConesWord::none ? parse_cones(arguments.cones) : std::vector<int>();
+  if (word == ConesWord::best || std::count(vertices.begin(), vertices.end(), best_vertex) > 0)
+    throw ArgumentError(fmt::format(
+        "--cones leaves vertices to the program, but {} has none to choose from; give all of them, or "
+        "'extremities'",
+        arguments.orbifold));
+  const MarkedCones marked = word == ConesWord::extremities
+                                 ? cones_at_extremities(surface, arguments.orbifold, angles)
+                                 : marked_cones(surface, arguments.orbifold, vertices, angles);
+  return {marked.target, ConesWord::none, marked.vertices};
+}
 
 // What is asked for: an orbifold and its cones, as far as they are given, or a polygon with its corners.
 Wish wish_from(const EmbedArguments& arguments) {
@@ -123,6 +154,7 @@ Input read_input(const std::string& path, RunRecord& run) {
 }
 
 std::string group_text(const Target& target) {
+  if (!tiles_its_space(target)) return "no group";
   return target.group_order > 0 ? fmt::format("group of order {}", target.group_order) : "infinite group";
 }
 
@@ -154,6 +186,11 @@ void summarize(const EmbedArguments& arguments, const BestEmbedding& embedded) {
          fmt::join(quotient->cones, ","), name_of(quotient->centre));
   tell("energy {:.12g} after {} iterations, gradient {:.1e}: {}\n", minimum.energy, minimum.iterations,
        minimum.gradient_norm, name_of(minimum.termination));
+  if (result.embedding.target.has_free_tile)
+    tell(
+        "the shape of the tile is the surface's own; energy over twice its area {:.6g}, where 1 is "
+        "conformal\n",
+        minimum.energy / (2 * result.certificate.expected_area));
   tell("area: within a factor of 4 of the mean scale on {} of the surface, shrunk by more than 64 on {}\n",
        percent(distortion.within_4), percent(distortion.below_64));
   tell("angles: median distortion {:.4g}, where 1 is none\n", distortion.angle.median);
@@ -230,12 +267,15 @@ BestEmbedding embed_wish(const std::shared_ptr<const Surface>& surface, const Wi
 int embed_command(const EmbedArguments& arguments) {
   const Stopwatch total;
   EmbedOptions options = options_from(arguments);
-  Wish wish = wish_from(arguments);
+  require_fitting_angles(arguments);
+  const bool has_angles = takes_angles(arguments.orbifold);
+  Wish wish = has_angles ? Wish() : wish_from(arguments);
   const Objective objective = parse_choice<Objective>(arguments.objective, "--objective");
 
   RunRecord run;
   const auto [surface, reader_warnings] = read_input(arguments.mesh, run);
 
+  if (has_angles) wish = wish_for_angles(arguments, *surface);
   mark_extremities(*surface, wish);
   const ProgressLine line(arguments.quiet);
   options.progress = [&](const Progress& progress) {

@@ -149,9 +149,13 @@ void add_embed(CLI::App& app, int& code) {
   command.option(
       "--orbifold", command->orbifold,
       "Conway's symbol, such as 432, *532 or 2,2,12 ('orbitutte types' lists all); 'best', of least "
-      "distortion, which is taken if none is given; 1 or 'sphere', the whole sphere; * or 'hemisphere'; or "
-      "'polygon', a fixed boundary");
+      "distortion, which is taken if none is given; 1 or 'sphere', the whole sphere; * or 'hemisphere'; "
+      "'cones' or '*cones', the plane with cones of any angles; or 'polygon', a fixed boundary");
   marks_of(command);
+  command.option(
+      "--angles", command->angles,
+      "Of 'cones' and '*cones': the angle of each marked vertex, in radians or multiples of pi, as in "
+      "pi,1.5pi,0.75pi,0.75pi");
   command.option("--centre", command->centre,
                  "Of the whole sphere and the hemisphere: what comes to lie at the centre, area (of the "
                  "surface; the default) or vertices; sigma, for the least distortion of areas; or none");

@@ -102,7 +102,7 @@ TEST(PreciseGroup, ElementsAndCornersFitTogetherToTheLastBits) { expect_precise<
 TEST(PreciseGroup, DoublesGoThroughTheSameFormulas) { expect_precise<double>(2e-13); }
 
 TEST(PreciseGroup, MostDigitsThereAre) {
-  for (const char* signature : {"532", "12,12", "2*3", "3x", "*632", "2222"}) {
+  for (const char* signature : {"532", "12,12", "2*3", "3x", "*632"}) {
     SCOPED_TRACE(signature);
     const Failures<MostPrecise> worst = failures<MostPrecise>(parse_orbifold(signature));
     EXPECT_EQ(worst.isometry, 0) << "below the least double";

@@ -46,6 +46,7 @@ inline std::vector<std::string> whole_signatures() { return {"1", "*"}; }
 inline std::vector<std::string> all_sample_signatures() {
   std::vector<std::string> all = sample_signatures();
   for (const std::string& signature : planar_signatures()) all.push_back(signature);
+  for (const std::string& signature : free_planar_signatures()) all.push_back(signature);
   for (const std::string& signature : whole_signatures()) all.push_back(signature);
   return all;
 }

@@ -20,7 +20,7 @@ Cones = Union[Sequence[Union[int, str]], npt.NDArray[np.integer], str, None]
 
 
 def embed(V: npt.ArrayLike, F: Any, signature: str = "best", cones: Cones = "best", *, objective: str = "sigma", progress: Progress | None = None,
-          polygon: Any = None, geometry: str | None = None, **options: Any) -> Embedding:
+          angles: Any = None, polygon: Any = None, geometry: str | None = None, **options: Any) -> Embedding:
     """Embed a mesh into an orbifold of the sphere or the plane.
 
     Parameters
@@ -31,7 +31,8 @@ def embed(V: npt.ArrayLike, F: Any, signature: str = "best", cones: Cones = "bes
         Faces, counterclockwise seen from outside, 0-based; sequences of different lengths are polygons.
     signature : str
         Conway's symbol, such as "432" (see `families`); "best", the one of least distortion; "1" or "sphere" for the whole sphere, ``"*"``
-        or "hemisphere" for a disk; or "polygon" for a fixed boundary.
+        or "hemisphere" for a disk; "cones", or ``"*cones"`` for a disk, for the plane with cones of any angles; or "polygon" for a fixed
+        boundary.
     cones : sequence of int and "best", "best", or "extremities"
         The vertices to be marked, in the order of the symbol; "best" in place of those, or all, that are to be chosen so that the map
         distorts least. "auto" is an older name of "best". "extremities" takes vertices that are far from each other. None for "1" and
@@ -41,6 +42,8 @@ def embed(V: npt.ArrayLike, F: Any, signature: str = "best", cones: Cones = "bes
         or the ratio of the largest scale to the smallest.
     progress : callable(stage, iteration, energy, gradient_norm), optional
         Called in every stage and iteration. Returning False cancels; what it raises passes through.
+    angles : sequence of float
+        For "cones" and ``"*cones"``: the angle of each vertex in `cones`, radians. Vertices on the boundary of a disk are corners.
     polygon : path, (k, 4) array_like of vertex, x, y, z, or (k, 3) array_like for the vertices in `cones`
         The corners, for the signature "polygon": counterclockwise, on the unit sphere.
     geometry : "spherical" or "euclidean"
@@ -86,9 +89,9 @@ def embed(V: npt.ArrayLike, F: Any, signature: str = "best", cones: Cones = "bes
         If `progress` returned False.
     """
     chosen = _options.options(**options)
-    target = _options.target(signature, cones, polygon, geometry)
+    known = _options.target(signature, cones, polygon, geometry, angles)
     mesh = _arrays.mesh(V, F)
-    vertices, is_choice = _options.marks(mesh, target, cones)
+    target, vertices, is_choice = _options.wish(mesh, known, signature, cones, angles)
     if is_choice:
         wanted = _orbitutte.ChooseOptions(target, vertices, _options.text(objective, "objective"), chosen)
         return _told(Embedding._of(_orbitutte.embed_best(mesh, wanted, _callable(progress))))
@@ -142,10 +145,10 @@ class Solver:
         self._options = chosen
 
     def embed(self, signature: str = "best", cones: Cones = "best", *, objective: str = "sigma", progress: Progress | None = None,
-              polygon: Any = None, geometry: str | None = None) -> Embedding:
+              angles: Any = None, polygon: Any = None, geometry: str | None = None) -> Embedding:
         """As the function `embed`. One thread at a time. What is chosen is computed with a solver of its own."""
-        target = _options.target(signature, cones, polygon, geometry)
-        vertices, is_choice = _options.marks(self._mesh, target, cones)
+        known = _options.target(signature, cones, polygon, geometry, angles)
+        target, vertices, is_choice = _options.wish(self._mesh, known, signature, cones, angles)
         if is_choice:
             wanted = _orbitutte.ChooseOptions(target, vertices, _options.text(objective, "objective"), self._options)
             return _told(Embedding._of(_orbitutte.embed_best(self._mesh, wanted, _callable(progress))))

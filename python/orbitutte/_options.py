@@ -53,21 +53,55 @@ def options(**given: Any) -> _orbitutte.Options:
     return result
 
 
-def target(signature: str, cones: Any, polygon: Any = None, geometry: str | None = None) -> _orbitutte.Target | None:
-    """The target: an orbifold by its symbol, or a polygon by its corners; None for "best"."""
+def target(signature: str, cones: Any, polygon: Any = None, geometry: str | None = None, angles: Any = None) -> _orbitutte.Target | None:
+    """The target: an orbifold by its symbol, or a polygon by its corners; None for "best", and for cones of any angles."""
     signature = text(signature, "signature")
+    if (angles is not None) != (signature in ANGLED):
+        raise ArgumentError(f"angles is missing; give an angle for each cone of {signature}" if angles is None
+                            else f"angles gives the angles of cones or *cones, but {signature} has its own")
     if geometry is not None:
         warnings.warn("geometry is deprecated: the signature decides the space", DeprecationWarning, stacklevel=3)
     if signature == "polygon":
         return _polygon(polygon, cones)
     if polygon is not None:
         raise ArgumentError(f"polygon gives the corners of a fixed boundary, but {signature} has no such boundary; take the signature 'polygon'")
-    if signature == BEST:
+    if signature == BEST or signature in ANGLED:
         return None
     known = _orbitutte.Target.parse(signature)
     if geometry is not None and known.space != geometry:
         raise ArgumentError(f"geometry is '{geometry}', but {signature} is {known.space}; leave geometry out")
     return known
+
+
+#: The signatures whose angles stand apart from them.
+ANGLED = ("cones", "*cones")
+
+
+class Wish(NamedTuple):
+    """What is to be embedded into, and the marked vertices."""
+
+    target: _orbitutte.Target | None
+    vertices: list[int]
+    is_choice: bool
+
+
+def wish(mesh: _orbitutte.Mesh, known: _orbitutte.Target | None, signature: str, cones: Any, angles: Any) -> Wish:
+    """The target, made of the angles for `ANGLED` signatures, and its vertices."""
+    if signature not in ANGLED:
+        return Wish(known, *marks(mesh, known, cones))
+    sizes = _angles(angles)
+    if isinstance(cones, str) and cones == "extremities":
+        return Wish(*mesh.cones(signature, None, sizes), False)
+    if cones is None or isinstance(cones, str) or any(isinstance(cone, str) for cone in cones):
+        raise ArgumentError(f"cones is missing; give the vertices of {signature}, or 'extremities'")
+    return Wish(*mesh.cones(signature, _arrays.indices(cones, "cones").tolist(), sizes), False)
+
+
+def _angles(angles: Any) -> list[float]:
+    values = np.asarray(angles)
+    if values.dtype.kind not in "fiu" or values.ndim != 1:
+        raise TypeError("angles must be a sequence of numbers, in radians, one for each cone")
+    return values.astype(np.float64).tolist()
 
 
 class Marks(NamedTuple):

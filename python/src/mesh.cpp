@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "arrays.h"
+#include "orbitutte/cones/marked_cones.h"
 #include "orbitutte/embed.h"
 #include "orbitutte/inspect/inspection.h"
 #include "orbitutte/io/mesh_io.h"
@@ -65,6 +66,16 @@ std::vector<int> extremities(const SourceMesh& mesh, const std::optional<Target>
   return choose_cones(surface, target ? *target : parse_orbifold(base));
 }
 
+// The target with these angles, and the vertices of its marks; those may be none, which stands for extremities.
+std::pair<Target, std::vector<int>> cones(const SourceMesh& mesh, const std::string& signature,
+                                          const std::optional<std::vector<int>>& vertices,
+                                          const std::vector<double>& angles) {
+  const Surface& surface = *mesh.surface();
+  MarkedCones marked = vertices ? marked_cones(surface, signature, *vertices, angles)
+                                : cones_at_extremities(surface, signature, angles);
+  return {std::move(marked.target), std::move(marked.vertices)};
+}
+
 }  // namespace
 
 void bind_mesh(py::module_& module) {
@@ -80,7 +91,8 @@ void bind_mesh(py::module_& module) {
       .def_property_readonly("warnings", &SourceMesh::warnings)
       .def("info", &info, Release())
       .def("write", &write, Release())
-      .def("extremities", &extremities, Release());
+      .def("extremities", &extremities, Release())
+      .def("cones", &cones, Release());
   module.def("families", &families_json);
 }
 

@@ -8,6 +8,7 @@
 
 #include "orbitutte/cones/extremities.h"
 #include "orbitutte/inspect/weak_places.h"
+#include "orbitutte/orbifold/free_tile.h"
 #include "orbitutte/parallel.h"
 #include "orbitutte/preparation.h"
 #include "orbitutte/quotient/quotient.h"
@@ -29,7 +30,8 @@ void refuse(Certificate& certificate, const Minimum& minimum, double tolerance) 
 GluingProblem gluing_problem(const EmbedRequest& request, const EdgeWeights& weights, const CutMesh& cut,
                              const EmbeddingCache& cache) {
   const Surface& surface = request.prepared.surface;
-  const Tile tile = basic_tile(request.target, cut.arrangement);  // appendix A
+  const Tile tile = request.target.has_free_tile ? any_tile(request.target, cut)
+                                                 : basic_tile(request.target, cut.arrangement);  // appendix A
   return {surface,
           cut,
           request.target,

@@ -8,6 +8,7 @@
 
 #include "orbitutte/inspect/coincidence.h"
 #include "orbitutte/inspect/weak_places.h"
+#include "orbitutte/orbifold/cone_target.h"
 #include "orbitutte/parallel.h"
 #include "orbitutte/warnings.h"
 #include "orbitutte/weights/cone_weights.h"
@@ -47,6 +48,13 @@ void require_no_edge(const Connectivity& connectivity, const Pairs& opposite, co
                     "points of the sphere; mark vertices that are further apart, or split the edge",
                     v, w, target.signature));
   }
+}
+
+// Of the tiles whose shape is free, those of the plane alone are found.
+void require_plane(const Target& target) {
+  if (!target.has_free_tile || target.space == Space::plane()) return;
+  throw ArgumentError(fmt::format("{}, and maps to {} surfaces with cones of any angles are not supported",
+                                  off_the_plane(target), target.space.name()));
 }
 
 // The boundary of a disk, edge by edge.
@@ -94,6 +102,7 @@ void require_fit(const EmbedRequest& request) {
     throw MeshError(fmt::format("{} needs {} marked vertices, not {}", target.signature, target.marks.size(),
                                 request.cones.size()));
   require_topology(request.prepared.surface, target);
+  require_plane(target);
   require_no_edge(request.prepared.surface.connectivity, opposite_vertices(request), target);
 }
 
@@ -111,16 +120,18 @@ EdgeWeights find_weights(const EmbedRequest& request, KnownWeights& known) {
 
 void find_cut(const EmbedRequest& request, EmbeddingCache& cache) {
   const Surface& surface = request.prepared.surface;
-  const std::pair through(request.cones, request.target.inner_marks);
-  const bool is_cut = cache.cut.through == through;
-  cache.cut.through.reset();
+  const Target& target = request.target;
+  const KnownCut::Request wanted = {request.cones, target.inner_marks, target.has_free_tile};
+  const bool is_cut = cache.cut.request == wanted;
+  cache.cut.request.reset();
   parallel_for(2, [&](int task) {
     if (task == 0 && !is_cut)
-      cache.cut.cut = cut_to_disk(surface, request.cones, request.target.inner_marks, request.options.cut);
+      cache.cut.cut = (target.has_free_tile ? cut_along_tree : cut_to_disk)(
+          surface, request.cones, target.inner_marks, request.options.cut);
     if (task == 1)
       order_ahead(*cache.laplacians, weighted_edges(*cache.weights.weights, surface), surface.vertex_count());
   });
-  cache.cut.through = through;
+  cache.cut.request = wanted;
 }
 
 }  // namespace orbitutte

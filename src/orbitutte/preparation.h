@@ -5,7 +5,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "orbitutte/cut/cut.h"
@@ -39,8 +38,17 @@ struct KnownWeights {
 
 /// The last cut.
 struct KnownCut {
-  /// The marked vertices of `cut`, and how many of them lie inside; empty if no cut was completed.
-  std::optional<std::pair<std::vector<int>, int>> through;
+  /// What `cut` was made for.
+  struct Request {
+    std::vector<int> marks;
+    int inner_marks = 0;
+    bool is_tree = false;
+
+    bool operator==(const Request& other) const = default;
+  };
+
+  /// Empty if no cut was completed.
+  std::optional<Request> request;
   CutMesh cut;
 };
 
@@ -63,7 +71,7 @@ PreparedSurface prepare(const Surface& surface, const EmbedOptions& options);
 
 /// Throws MeshError if the surface does not have the topology that the target needs, if the number of marked
 /// vertices is not the number of the target's marks, or if an edge joins two vertices that must lie at
-/// opposite points.
+/// opposite points. Throws ArgumentError if the tile is free and not in the plane.
 void require_fit(const EmbedRequest& request);
 
 /// Throws MeshError unless the surface has the topology that the target needs. The message about a hole

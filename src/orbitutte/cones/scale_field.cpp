@@ -156,7 +156,8 @@ std::vector<ScaleSample> scale_samples(const KnownMap& map, int count, const std
 }
 
 bool has_closed_form(const Target& target) {
-  if (!target.corners.empty() || target.symbol.cross || target.space.curvature() < 0) return false;
+  if (!target.corners.empty() || target.has_free_tile) return false;
+  if (target.symbol.cross || target.space.curvature() < 0) return false;
   const std::vector<double> angles = angles_of_double(target);
   if (target.space.curvature() == 0) return angles.size() == 3;
   return angles.size() == 2 || angles.size() == 3;

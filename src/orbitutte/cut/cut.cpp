@@ -66,80 +66,10 @@ Path path_through_three(const Surface& surface, const EdgeGraph& graph, const st
   return back;
 }
 
-// Contracts a path of the graph to one new vertex, the last, which is joined to the path's ends. Vertices
-// inside the path lose their edges.
-EdgeGraph contracted(const EdgeGraph& graph, const Path& path) {
-  const int n = graph.vertex_count();
-  std::vector<char> inside(n, 0);
-  for (std::size_t k = 1; k + 1 < path.size(); ++k) inside[path[k]] = 1;
-  EdgeGraph result;
-  std::vector<std::array<int, 2>> edges;
-  const auto add = [&](int v, int w, double length) {
-    edges.push_back({v, w});
-    result.length.push_back(length);
-  };
-  for (int v = 0; v < n; ++v) {
-    for (int k = graph.neighbors.start[v]; k < graph.neighbors.start[v + 1]; ++k) {
-      const int w = graph.neighbors.neighbor[k];
-      if (v < w && !inside[v] && !inside[w]) add(v, w, graph.length[graph.neighbors.edge[k]]);
-    }
-  }
-  add(path.front(), n, 0);
-  add(path.back(), n, 0);
-  result.neighbors = vertex_neighbors(edges, n + 1);
-  return result;
-}
-
-// A shortest path from one mark to another, extended from its ends by disjoint paths to the other two.
-Path path_through_four(const EdgeGraph& graph, const std::vector<int>& marks, int first, int second) {
-  std::vector<int> others;
-  EdgeGraph inner = graph;
-  inner.dead_end.assign(graph.vertex_count(), 0);
-  for (const int mark : marks) {
-    if (mark == marks[first] || mark == marks[second]) continue;
-    others.push_back(mark);
-    inner.dead_end[mark] = 1;
-  }
-  const Path middle = shortest_path(inner, marks[first], {marks[second]});
-  if (middle.empty()) return {};
-  auto [back, forth] =
-      disjoint_paths(contracted(graph, middle), graph.vertex_count(), {others[0], others[1]});
-  if (back.empty()) return {};
-  if (back[1] != middle.front()) std::swap(back, forth);
-  // without the new vertex, and without the end of the middle path
-  Path path(back.rbegin(), back.rend() - 2);
-  path.insert(path.end(), middle.begin(), middle.end());
-  path.insert(path.end(), forth.begin() + 2, forth.end());
-  return path;
-}
-
-double straight_length(const Surface& surface, const Path& path) {
-  double length = 0;
-  for (std::size_t k = 1; k < path.size(); ++k) length += straight_distance(surface, path[k - 1], path[k]);
-  return length;
-}
-
-// The shortest path over all choices of the two marks in the middle. If one choice has no path, another may
-// have one.
-Path shortest_path_through_four(const Surface& surface, const EdgeGraph& graph,
-                                const std::vector<int>& marks) {
-  Path best;
-  for (int first = 0; first < 4; ++first) {
-    for (int second = first + 1; second < 4; ++second) {
-      const Path path = path_through_four(graph, marks, first, second);
-      if (!path.empty() && (best.empty() || straight_length(surface, path) < straight_length(surface, best)))
-        best = path;
-    }
-  }
-  if (best.empty()) throw no_path(marks[0], marks[1]);
-  return best;
-}
-
 Path path_through(const Surface& surface, const EdgeGraph& graph, const std::vector<int>& marks,
                   std::uint64_t seed) {
   if (marks.size() == 2) return path_through_two(graph, marks);
-  if (marks.size() == 3) return path_through_three(surface, graph, marks, seed);
-  return shortest_path_through_four(surface, graph, marks);
+  return path_through_three(surface, graph, marks, seed);
 }
 
 // A half-edge that leaves each vertex (-1 if no face uses it). At a boundary vertex it lies on the boundary.
@@ -150,6 +80,13 @@ std::vector<int> outgoing_halfedges(const Triangles& F, const std::vector<int>& 
     if (out < 0 || opposite[h] < 0) out = h;
   }
   return result;
+}
+
+std::vector<char> boundary_vertices(const std::vector<int>& outgoing, const std::vector<int>& opposite) {
+  std::vector<char> on_boundary(outgoing.size(), 0);
+  for (std::size_t v = 0; v < outgoing.size(); ++v)
+    on_boundary[v] = outgoing[v] >= 0 && opposite[outgoing[v]] < 0;
+  return on_boundary;
 }
 
 void check_marks(const std::vector<int>& marks, const std::vector<int>& outgoing) {
@@ -176,6 +113,9 @@ void check_marks_of_disk(const std::vector<int>& marks, int inner_marks,
       throw MeshError(
           fmt::format("the marked vertex {} is on the boundary of the disk; mark a vertex inside", marks[k]));
   }
+}
+
+void check_number_of_marks_of_disk(const std::vector<int>& marks, int inner_marks) {
   if (inner_marks > 1 || (inner_marks == 1 && marks.size() > 2))
     throw MeshError(
         fmt::format("{} of {} marked vertices are inside the disk; mark one inside, and at most one on the "
@@ -185,10 +125,10 @@ void check_marks_of_disk(const std::vector<int>& marks, int inner_marks,
 
 void check_number_of_marks(const std::vector<int>& marks, bool one_sided) {
   if (marks.empty() && !one_sided) return;
-  const std::size_t fewest = one_sided ? 1 : 2, most = one_sided ? 1 : 4;
+  const std::size_t fewest = one_sided ? 1 : 2, most = one_sided ? 1 : 3;
   if (marks.size() < fewest || marks.size() > most)
     throw MeshError(fmt::format("{} marked vertices on a {}", marks.size(),
-                                one_sided ? "projective plane; mark one" : "sphere; mark two to four"));
+                                one_sided ? "projective plane; mark one" : "sphere; mark two or three"));
 }
 
 // The path from the mark inside a disk to the nearest unmarked vertex of the boundary. It meets the boundary
@@ -236,12 +176,12 @@ CutMesh uncut(const Surface& surface) {
   return cut;
 }
 
-OpenedMesh opened_along(const CutPath& path, const Surface& surface) {
+OpenedMesh opened_along(const std::vector<int>& edges, const Surface& surface) {
   OpenedMesh result = {uncut(surface), surface.connectivity.opposite};
-  if (path.edges.empty()) return result;
+  if (edges.empty()) return result;
   const Connectivity& connectivity = surface.connectivity;
   std::vector<char> is_cut(connectivity.edges.size(), 0);
-  for (const int e : path.edges) is_cut[e] = 1;
+  for (const int e : edges) is_cut[e] = 1;
   parallel_ranges(static_cast<int>(result.opposite.size()), [&](int begin, int end) {
     for (int h = begin; h < end; ++h)
       if (const int e = connectivity.edge_of[h]; e >= 0 && is_cut[e]) result.opposite[h] = -1;
@@ -291,14 +231,30 @@ int start_of_boundary(const Surface& surface, const std::vector<char>& on_bounda
   return first;
 }
 
-// Follows the boundary of the opened mesh from a vertex. The first time it passes a vertex, the faces there
-// keep its index; every further time they get a new copy.
-CutMesh split_along_boundary(int from, OpenedMesh mesh) {
-  CutMesh& cut = mesh.cut;
-  const int start = boundary_halfedge(from, mesh);
-  std::vector<char> passed(cut.source_vertex.size(), 0);
+// The half-edge on the boundary that follows another one.
+int next_on_boundary(int h, const std::vector<int>& opposite) {
+  h = next_halfedge(h);
+  while (opposite[h] >= 0) h = next_halfedge(opposite[h]);
+  return h;
+}
+
+// The boundary of the opened mesh from a half-edge on, all the way around.
+std::vector<int> boundary_walk(int start, const OpenedMesh& mesh) {
+  std::vector<int> walk;
   int h = start;
   do {
+    walk.push_back(h);
+    h = next_on_boundary(h, mesh.opposite);
+  } while (h != start);
+  return walk;
+}
+
+// Follows the boundary. The first time it passes a vertex, the faces there keep its index; every further time
+// they get a new copy.
+CutMesh split_along_boundary(const std::vector<int>& walk, OpenedMesh mesh) {
+  CutMesh& cut = mesh.cut;
+  std::vector<char> passed(cut.source_vertex.size(), 0);
+  for (const int h : walk) {
     const int v = halfedge_origin(cut.F, h);
     int vertex = v;
     if (passed[v]) {
@@ -308,9 +264,7 @@ CutMesh split_along_boundary(int from, OpenedMesh mesh) {
     passed[v] = 1;
     renumber_sector(h, vertex, mesh.opposite, cut.F);
     cut.boundary.push_back(vertex);
-    h = next_halfedge(h);
-    while (mesh.opposite[h] >= 0) h = next_halfedge(mesh.opposite[h]);
-  } while (h != start);
+  }
   return std::move(cut);
 }
 
@@ -350,6 +304,89 @@ void check_order_met(const std::vector<int>& arrangement, const std::vector<int>
                   fmt::join(met, ","), fmt::join(marks, ",")));
 }
 
+// Trees.
+
+std::vector<int> vertices_on(const std::vector<char>& on_boundary) {
+  std::vector<int> result;
+  for (std::size_t v = 0; v < on_boundary.size(); ++v)
+    if (on_boundary[v]) result.push_back(static_cast<int>(v));
+  return result;
+}
+
+// The edges of the tree from the roots to the other marks inside.
+std::vector<int> tree_of_marks(const Surface& surface, const std::vector<int>& roots,
+                               const std::vector<int>& marks, const CutOptions& options) {
+  if (marks.empty()) return {};
+  EdgeGraph graph = edge_length_graph(surface);
+  perturb_lengths(graph, options.seed);
+  std::vector<int> edges = tree_edges(graph, roots, marks);
+  if (edges.empty())
+    throw MeshError(fmt::format("no edge path joins the marked vertex {} to the cut; mark another vertex",
+                                marks.front()));
+  return edges;
+}
+
+// The first vertex of the boundary where an edge of the cut ends.
+int end_of_tree(const Surface& surface, const std::vector<int>& edges, const std::vector<char>& on_boundary) {
+  int first = static_cast<int>(on_boundary.size());
+  for (const int e : edges)
+    for (const int v : surface.connectivity.edges[e])
+      if (on_boundary[v]) first = std::min(first, v);
+  return first;
+}
+
+// The half-edge along which the walk around a cut disk leaves a vertex of its boundary: that which follows
+// the surface's own boundary there, so that all cuts that end at the vertex come first.
+int first_halfedge_at(int vertex, const Surface& surface, const OpenedMesh& opened) {
+  int h = 0;
+  while (surface.connectivity.opposite[h] >= 0 || halfedge_target(surface.triangles, h) != vertex) ++h;
+  return next_on_boundary(h, opened.opposite);
+}
+
+// Where sides begin along the walk: at marks, and where the cut does not just pass.
+std::vector<CutSide> beginnings_of_sides(const std::vector<int>& walk, const Surface& surface,
+                                         const std::vector<int>& marks,
+                                         const std::vector<char>& on_boundary) {
+  std::unordered_map<int, int> visits;
+  for (const int h : walk) ++visits[halfedge_origin(surface.triangles, h)];
+  std::vector<CutSide> sides;
+  for (int k = 0; k < static_cast<int>(walk.size()); ++k) {
+    const int v = halfedge_origin(surface.triangles, walk[k]), passing = on_boundary[v] ? 1 : 2;
+    if (visits[v] != passing || std::find(marks.begin(), marks.end(), v) != marks.end())
+      sides.push_back({k, static_cast<int>(sides.size())});
+  }
+  return sides;
+}
+
+// The sides along the walk, each with its partner: the one that begins with the edge with which it ends.
+std::vector<CutSide> sides_of_tree(const std::vector<int>& walk, const Surface& surface,
+                                   const std::vector<int>& marks, const std::vector<char>& on_boundary) {
+  std::vector<CutSide> sides = beginnings_of_sides(walk, surface, marks, on_boundary);
+  std::unordered_map<int, int> ending_with;  // an edge of the cut
+  for (std::size_t s = 0; s < sides.size(); ++s) {
+    const int first = walk[sides[s].begin];
+    const int last = walk[s + 1 < sides.size() ? sides[s + 1].begin - 1 : static_cast<int>(walk.size()) - 1];
+    if (surface.connectivity.opposite[first] < 0) continue;
+    const auto partner = ending_with.find(surface.connectivity.edge_of[first]);
+    if (partner != ending_with.end()) {
+      sides[s].partner = partner->second;
+      sides[partner->second].partner = static_cast<int>(s);
+    } else {
+      ending_with[surface.connectivity.edge_of[last]] = static_cast<int>(s);
+    }
+  }
+  return sides;
+}
+
+// The marks on the boundary of the surface, the first `inner_marks` left out, as the cut mesh meets them.
+void check_order_on_boundary(const CutMesh& cut, const std::vector<int>& marks, int inner_marks) {
+  std::vector<int> arrangement;
+  for (const int mark : cut.arrangement)
+    if (mark >= inner_marks && mark < static_cast<int>(marks.size()))
+      arrangement.push_back(mark - inner_marks);
+  check_order_met(arrangement, {marks.begin() + inner_marks, marks.end()});
+}
+
 }  // namespace
 
 EdgeGraph edge_length_graph(const Surface& surface) {
@@ -369,13 +406,14 @@ CutMesh cut_to_disk(const Surface& surface, const std::vector<int>& marks, int i
   const std::vector<int>& opposite = surface.connectivity.opposite;
   const std::vector<int> outgoing = outgoing_halfedges(surface.triangles, opposite, surface.vertex_count());
   check_marks(marks, outgoing);
-  std::vector<char> on_boundary(outgoing.size(), 0);
-  for (std::size_t v = 0; v < outgoing.size(); ++v)
-    on_boundary[v] = outgoing[v] >= 0 && opposite[outgoing[v]] < 0;
+  const std::vector<char> on_boundary = boundary_vertices(outgoing, opposite);
   const bool closed = std::find(on_boundary.begin(), on_boundary.end(), 1) == on_boundary.end();
   const bool one_sided = closed && has_turned_faces(surface.triangles, opposite);
   if (closed) check_number_of_marks(marks, one_sided);
-  if (!closed) check_marks_of_disk(marks, inner_marks, on_boundary);
+  if (!closed) {
+    check_marks_of_disk(marks, inner_marks, on_boundary);
+    check_number_of_marks_of_disk(marks, inner_marks);
+  }
   if (closed && marks.empty()) return uncut(surface);
   CutPath path = {{marks.empty() ? start_of_boundary(surface, on_boundary) : marks[0]},
                   {}};  // if nothing is cut
@@ -387,13 +425,44 @@ CutMesh cut_to_disk(const Surface& surface, const std::vector<int>& marks, int i
                                 : path_to_boundary(graph, marks, on_boundary),
                       graph);
   }
-  OpenedMesh opened = opened_along(path, surface);
+  OpenedMesh opened = opened_along(path.edges, surface);
   if (one_sided) turn_faces(opened);
-  CutMesh cut = split_along_boundary(path.vertices.front(), std::move(opened));
+  const std::vector<int> walk = boundary_walk(boundary_halfedge(path.vertices.front(), opened), opened);
+  CutMesh cut = split_along_boundary(walk, std::move(opened));
   cut.marks = marks;
   if (!closed && (inner_marks > 0 || marks.empty())) cut.marks.push_back(path.vertices.back());
   cut.arrangement = order_met(cut.boundary, cut.source_vertex, cut.marks);
   if (!closed) check_order_met(cut.arrangement, cut.marks);
+  return cut;
+}
+
+CutMesh cut_along_tree(const Surface& surface, const std::vector<int>& marks, int inner_marks,
+                       const CutOptions& options) {
+  const std::vector<int>& opposite = surface.connectivity.opposite;
+  const std::vector<int> outgoing = outgoing_halfedges(surface.triangles, opposite, surface.vertex_count());
+  check_marks(marks, outgoing);
+  const std::vector<char> on_boundary = boundary_vertices(outgoing, opposite);
+  const std::vector<int> outer = vertices_on(on_boundary);
+  const bool is_closed = outer.empty();
+  if (marks.size() < (is_closed ? 2 : 1))
+    throw MeshError(fmt::format("a cut through {} marked vertices; mark more", marks.size()));
+  if (!is_closed) check_marks_of_disk(marks, inner_marks, on_boundary);
+
+  const std::vector<int> inner(marks.begin() + (is_closed ? 1 : 0), marks.begin() + inner_marks);
+  const std::vector<int> edges =
+      tree_of_marks(surface, is_closed ? std::vector{marks[0]} : outer, inner, options);
+  OpenedMesh opened = opened_along(edges, surface);
+  std::vector<int> all_marks = marks;
+  if (!is_closed && inner_marks == static_cast<int>(marks.size()))
+    all_marks.push_back(end_of_tree(surface, edges, on_boundary));
+  const int start = is_closed ? boundary_halfedge(marks[0], opened)
+                              : first_halfedge_at(all_marks[inner_marks], surface, opened);
+  const std::vector<int> walk = boundary_walk(start, opened);
+  CutMesh cut = split_along_boundary(walk, std::move(opened));
+  cut.marks = all_marks;
+  cut.arrangement = order_met(cut.boundary, cut.source_vertex, cut.marks);
+  if (!is_closed) check_order_on_boundary(cut, marks, inner_marks);
+  cut.sides = sides_of_tree(walk, surface, cut.marks, on_boundary);
   return cut;
 }
 

@@ -10,6 +10,16 @@
 
 namespace orbitutte {
 
+/// A part of the boundary of a cut mesh, from a corner to the next. Corners are the marked vertices, the
+/// vertices where the cut branches, and where it meets the boundary of the surface.
+struct CutSide {
+  /// Where it begins: an index into CutMesh::boundary.
+  int begin = 0;
+  /// The side on the other bank of the cut, which runs the other way; the side itself on the boundary of the
+  /// surface.
+  int partner = 0;
+};
+
 /// A mesh cut open into a disk. Cut vertices 0 .. n - 1 are the input vertices; the copies that the cut adds
 /// follow.
 struct CutMesh {
@@ -28,6 +38,9 @@ struct CutMesh {
   std::vector<int> marks;
   /// Indices into marks, in the order in which the boundary first meets them, beginning with mark 0.
   std::vector<int> arrangement;
+  /// The parts of the boundary, if the cut is a tree: the first begins at boundary[0]. Otherwise none, and
+  /// sides begin at marks alone.
+  std::vector<CutSide> sides = {};
 
   int vertex_count() const { return static_cast<int>(source_vertex.size()); }
 };
@@ -36,19 +49,26 @@ struct CutMesh {
 /// lie inside the surface, the others on its boundary.
 ///
 /// A sphere with two marks is cut along the shortest edge path between them; with three marks, along two
-/// disjoint paths from one of them to the other two; with four, along a path between two of them that
-/// disjoint paths extend to the other two. A disk whose marks are on its boundary is left as it is. A disk
-/// with a mark inside is cut along the shortest edge path from it to an unmarked vertex of the boundary; the
-/// path meets the boundary only at its end. A projective plane with one mark is cut along a one-sided loop
-/// through the mark, and its faces are turned so that those of the disk agree (see one_sided_loop). Without
-/// marks, a sphere stays closed, and a disk is left as it is: its boundary begins at its first vertex in more
-/// than one face, which takes the place of the end of a cut.
+/// disjoint paths from one of them to the other two. A disk whose marks are on its boundary is left as it is.
+/// A disk with a mark inside is cut along the shortest edge path from it to an unmarked vertex of the
+/// boundary; the path meets the boundary only at its end. A projective plane with one mark is cut along a
+/// one-sided loop through the mark, and its faces are turned so that those of the disk agree (see
+/// one_sided_loop). Without marks, a sphere stays closed, and a disk is left as it is: its boundary begins at
+/// its first vertex in more than one face, which takes the place of the end of a cut.
 ///
 /// Throws MeshError if a mark is not a vertex of a face, is given twice or lies in the wrong place, if there
 /// are too few or too many marks, or if a boundary meets its marks in another order than the given one, in
 /// whichever direction.
 CutMesh cut_to_disk(const Surface& surface, const std::vector<int>& marks, int inner_marks,
                     const CutOptions& options = {});
+
+/// The same along a tree of edges, for any number of marks: no path can block another. Each mark in turn is
+/// the nearest to the tree that was left, and is joined to it by a shortest path (H. Takahashi, A. Matsuyama,
+/// "An approximate solution for the Steiner problem in graphs", Math. Japonica 24 (1980)). On a sphere the
+/// tree begins at the first mark. On a disk the boundary belongs to it: then the boundary of the cut mesh
+/// begins at the first mark on the boundary of the surface, or, if there is none, where the cut meets it.
+CutMesh cut_along_tree(const Surface& surface, const std::vector<int>& marks, int inner_marks,
+                       const CutOptions& options = {});
 
 /// The edges with their lengths in space. Every length is increased by a tiny one, so that paths have few
 /// edges even if edges have length zero. Paths may pass through any vertex: no vertex is a dead end.

@@ -180,6 +180,57 @@ std::array<Path, 2> untangle(const Path& first, const Path& second, const std::a
   return result;
 }
 
+// A tree that grows by shortest paths: as soon as one is part of it, the search goes on from its vertices,
+// too, with the distances that it has found so far (Takahashi, Matsuyama 1980).
+class GrowingTree {
+ public:
+  explicit GrowingTree(const EdgeGraph& graph)
+      : graph_(graph), search_(graph.vertex_count()), queue_(queue_for(graph)) {}
+
+  void add(int v) {
+    search_.distance[v] = 0;
+    search_.previous[v] = -1;
+    queue_.push({0.0, v});
+  }
+
+  // Adds the path to the nearest vertex that is wanted, and returns it; -1 if none can be reached.
+  template <typename IsWanted>
+  int reach(const IsWanted& is_wanted) {
+    while (!queue_.empty()) {
+      const auto [distance, v] = queue_.pop();
+      if (distance > search_.distance[v]) continue;
+      if (is_wanted(v)) {
+        add_path_to(v);
+        return v;
+      }
+      arcs_of(graph_)(v, [&, distance = distance, v = v](int next, double length) {
+        if (!(distance + length < search_.distance[next])) return;
+        search_.distance[next] = distance + length;
+        search_.previous[next] = v;
+        queue_.push({distance + length, next});
+      });
+    }
+    return -1;
+  }
+
+  std::vector<int> edges() const { return edges_; }
+
+ private:
+  void add_path_to(int v) {
+    while (v >= 0) {
+      const int previous = search_.previous[v];
+      if (previous >= 0) edges_.push_back(edge_between(graph_, previous, v));
+      add(v);
+      v = previous;
+    }
+  }
+
+  const EdgeGraph& graph_;
+  Search search_;
+  Queue queue_;
+  std::vector<int> edges_;
+};
+
 }  // namespace
 
 int edge_between(const EdgeGraph& graph, int v, int w) {
@@ -223,6 +274,20 @@ std::array<Path, 2> disjoint_paths(const EdgeGraph& graph, int from, const std::
   Path back = second.path_to(reached);
   for (int& node : back) node = residual.vertex(node);
   return untangle(path, back, to);
+}
+
+std::vector<int> tree_edges(const EdgeGraph& graph, const std::vector<int>& roots,
+                            const std::vector<int>& to) {
+  std::vector<char> is_wanted(graph.vertex_count(), 0);
+  for (const int v : to) is_wanted[v] = 1;
+  GrowingTree tree(graph);
+  for (const int root : roots) tree.add(root);
+  for (auto left = std::count(is_wanted.begin(), is_wanted.end(), 1); left > 0; --left) {
+    const int reached = tree.reach([&](int v) { return is_wanted[v] != 0; });
+    if (reached < 0) return {};
+    is_wanted[reached] = 0;
+  }
+  return tree.edges();
 }
 
 }  // namespace orbitutte

@@ -40,4 +40,10 @@ Path shortest_path(const EdgeGraph& graph, int from, const std::vector<int>& to)
 /// `to`; both are empty if there are none.
 std::array<Path, 2> disjoint_paths(const EdgeGraph& graph, int from, const std::array<int, 2>& to);
 
+/// The edges of a tree that joins all of `to` to the roots: each is the nearest to the tree of those that
+/// were left, and joined to it by a shortest path. No path passes through a root. Empty if one cannot be
+/// reached.
+std::vector<int> tree_edges(const EdgeGraph& graph, const std::vector<int>& roots,
+                            const std::vector<int>& to);
+
 }  // namespace orbitutte

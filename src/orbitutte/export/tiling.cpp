@@ -262,6 +262,15 @@ void place_triangles(const TiledFaces& tiled, int g, const std::vector<int>& ver
   }
 }
 
+void require_copies_that_fit(const Target& target) {
+  if (tiles_its_space(target)) return;
+  throw ArgumentError(
+      fmt::format("copies of the tile fill no plane, since not all angles of {} are 2 pi/n, and pi/n at "
+                  "corners; embed the "
+                  "mesh into an orbifold",
+                  target.signature));
+}
+
 void require_closed(const Tiling& tiling) {
   if (tiling.polygons.count() > 0) {
     require_closed_sphere(tiling.mesh.V, tiling.polygons);
@@ -278,6 +287,7 @@ std::vector<TileCopy> tile_copies(const Embedding& embedding, int copies) {
 }
 
 Tiling weld_copies(const Embedding& embedding, int copies) {
+  require_copies_that_fit(embedding.target);
   const SymmetryGroup group = checked_group(embedding, copies);
   const std::vector<std::vector<int>> across = copies_across_seams(embedding, group);
   const TiledFaces tiled = tiled_faces(embedding, mirrors_of_vertices(embedding, across));

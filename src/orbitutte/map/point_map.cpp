@@ -143,7 +143,7 @@ PointLocator::PointLocator(const Embedding& embedding, int copies) {
   require_sound(embedding);
   state_ =
       std::make_unique<State>(State{embedding.space(), embedding.canonical_positions(), embedding.triangles,
-                                    group_of(embedding.target, copies).elements(), TriangleTree()});
+                                    canonical_group_of(embedding, copies).elements(), TriangleTree()});
   state_->grow_tree();
 }
 
@@ -205,7 +205,7 @@ Points map_points(const Embedding& embedding, const SurfacePoints& points) {
   require_sound(embedding);
   const int last = points.copy.empty() ? 0 : *std::max_element(points.copy.begin(), points.copy.end());
   const std::vector<Isometry> elements =
-      last > 0 ? group_of(embedding.target, std::min(last, most_copies) + 1).elements()
+      last > 0 ? canonical_group_of(embedding, std::min(last, most_copies) + 1).elements()
                : std::vector<Isometry>(1);
   const Points positions = embedding.canonical_positions();
   Points images = Points::Constant(points.count(), 3, nan);

@@ -89,45 +89,6 @@ Tile doubled_triangle(const Target& target, const Arrangement& marks) {
   return tile;
 }
 
-// *2222: the unit square with four mirrors, to the left of the x axis; to its right if the boundary meets
-// the marks the other way around. The ratio of its sides is a choice, so harmonic maps onto it are not
-// conformal.
-Tile mirrored_square(const Target& target, const Arrangement& marks) {
-  const auto first = static_cast<std::size_t>(std::find(marks.begin(), marks.end(), 0) - marks.begin());
-  const bool goes_left = marks[(first + 1) % 4] < marks[(first + 3) % 4];
-  std::array<Vector3, 4> square = {Vector3(0, 0, 1), {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
-  if (!goes_left) square = {Vector3(0, 0, 1), {0, -1, 1}, {1, -1, 1}, {1, 0, 1}};
-  std::vector<Vector3> corners(4);
-  for (std::size_t k = 0; k < 4; ++k) corners[(first + k) % 4] = square[k];
-  Tile tile = polygon(target.space, corners, marks);
-  make_mirrors(tile);
-  return tile;
-}
-
-// 2222: the pillow of two unit squares, on which mark 0 is an image of (0, 0), mark 1 of (1, 0), mark 2 of
-// (1, 1) and mark 3 of (0, 1): the plane's points with whole coordinates, taken modulo two. It is cut open
-// along the segments from a to b = a + u, to c = b + v and to d = a + v, where a, b, c, d are the marks as
-// the boundary meets them, and unfolded around the parallelogram a, b, c, d by half turns about a and d.
-Tile pillow(const Target& target, const Arrangement& marks) {
-  static const std::array<std::array<int, 2>, 4> place = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
-  const auto step = [&](int k) {
-    const auto &from = place[marks[0]], &to = place[marks[k]];
-    return Vector3((to[0] + from[0]) % 2, (to[1] + from[1]) % 2, 0);
-  };
-  Vector3 u = step(1);
-  const Vector3 v = step(3), a(place[marks[0]][0], place[marks[0]][1], 1);
-  if (u.cross(v).z() < 0) u = -u;  // det[u v] is 1: the parallelogram lies to the left of the cut
-  const Vector3 b = a + u, c = b + v, d = a + v;
-  Tile tile = polygon(target.space, {a, b, c, d, 2 * d - c, 2 * a - b},
-                      {marks[0], marks[1], marks[2], marks[3], marks[2], marks[1]});
-  Matrix3 translation = Matrix3::Identity();
-  translation.col(2) += 2 * u;
-  glue_sides(tile, 0, 5, target.space.rotation(a, pi));
-  glue_sides(tile, 1, 4, target.space.isometry(translation));
-  glue_sides(tile, 2, 3, target.space.rotation(d, pi));
-  return tile;
-}
-
 // n*m: the kite over the triangle of the cone, the corner and the end of the cut, any point p2 of the mirror,
 // where its angles are right. It is cut open from the cone p1 to p2; from there one mirror leads to the
 // corner p3, and one from the corner to the image of p2.
@@ -234,8 +195,6 @@ std::vector<int> triangle_at_equator(const Target& target) { return {2 * target.
 // Between the three planes of coordinates: for the groups of no rotation.
 std::vector<int> octant(const Target& /*target*/) { return {2, 2, 2}; }
 
-std::vector<int> square_of_marks(const Target& /*target*/) { return {2, 2, 2, 2}; }
-
 constexpr int N = 0;  // the free order in a pattern
 
 ConwaySymbol rotations(std::vector<int> orders) { return {std::move(orders), {}, false, false}; }
@@ -252,7 +211,7 @@ const ConwaySymbol mirror_alone = {{}, {}, true, false};
 const std::string infinite = "infinite";
 const std::string none_marked = "none";
 const std::string three_vertices = "three vertices, in the order of the digits";
-const std::string four_vertices = "four vertices, in the order in which they go around";
+const std::string four_vertices = "four vertices";
 const std::string two_vertices = "two vertices";
 const std::string three_boundary_vertices = "three boundary vertices, in the order of the digits";
 const std::string four_boundary_vertices = "four boundary vertices, in the order in which they go around";
@@ -265,6 +224,7 @@ const std::string one_vertex = "one vertex";
 }  // namespace
 
 const std::vector<Family>& family_table() {
+  constexpr std::nullptr_t free_tile = nullptr, no_chamber = nullptr;
   constexpr Topology sphere = Topology::sphere, disk = Topology::disk;
   static const std::vector<Family> table = {
       {"532", "60", three_vertices, rotations({2, 3, 5}), sphere, doubled_triangle, triangle_of_marks},
@@ -288,15 +248,14 @@ const std::vector<Family>& family_table() {
       {"333", infinite, three_vertices, rotations({3, 3, 3}), sphere, doubled_triangle, triangle_of_marks},
       {"442", infinite, three_vertices, rotations({2, 4, 4}), sphere, doubled_triangle, triangle_of_marks},
       {"632", infinite, three_vertices, rotations({2, 3, 6}), sphere, doubled_triangle, triangle_of_marks},
-      {"2222", infinite, four_vertices, rotations({2, 2, 2, 2}), sphere, pillow, square_of_marks},
+      {"2222", infinite, four_vertices, rotations({2, 2, 2, 2}), sphere, free_tile, no_chamber},
       {"*333", infinite, three_boundary_vertices, corners({3, 3, 3}), disk, mirrored_triangle,
        triangle_of_marks},
       {"*442", infinite, three_boundary_vertices, corners({2, 4, 4}), disk, mirrored_triangle,
        triangle_of_marks},
       {"*632", infinite, three_boundary_vertices, corners({2, 3, 6}), disk, mirrored_triangle,
        triangle_of_marks},
-      {"*2222", infinite, four_boundary_vertices, corners({2, 2, 2, 2}), disk, mirrored_square,
-       square_of_marks},
+      {"*2222", infinite, four_boundary_vertices, corners({2, 2, 2, 2}), disk, free_tile, no_chamber},
   };
   return table;
 }

@@ -25,11 +25,12 @@ struct Family {
   ConwaySymbol pattern;
   Topology topology;
 
-  /// Makes the tile of a target of this family in its canonical frame, as basic_tile describes it.
+  /// Makes the tile of a target of this family in its canonical frame, as basic_tile describes it. Null if
+  /// the shape of the tile is free (Target::has_free_tile).
   Tile (*tile)(const Target& target, const std::vector<int>& arrangement);
 
-  /// The group belongs to that of the reflections in the sides of a polygon whose corner k has the angle pi/n
-  /// with the k-th of these orders: of canonical_triangle, or of the unit square where there are four.
+  /// The group belongs to that of the reflections in the sides of the triangle whose corner k has the angle
+  /// pi/n with the k-th of these orders (canonical_triangle). Null if the shape of the tile is free.
   std::vector<int> (*chamber)(const Target& target);
 
   /// Is the corner of the tile after the first mark, or its only corner, any point of the mirror: the end of

@@ -10,6 +10,7 @@
 #include <numeric>
 #include <unordered_set>
 
+#include "orbitutte/orbifold/cone_target.h"
 #include "orbitutte/orbifold/signature.h"
 
 namespace orbitutte {
@@ -187,8 +188,20 @@ Tile polygon_tile(const std::vector<PolygonCorner>& corners, const std::vector<i
   return tile;
 }
 
+namespace {
+
+std::vector<Mark> marks_of_cones(const std::vector<ConeCopies>& cones) {
+  std::vector<Mark> marks;
+  for (const ConeCopies& cone : cones) marks.push_back(cone.mark);
+  return marks;
+}
+
+}  // namespace
+
 Target read_target(const std::string& signature, const std::vector<ConeCopies>& cones,
                    const Points& positions) {
+  if (signature == cones_signature) return cone_target(Topology::sphere, marks_of_cones(cones));
+  if (signature == mirrored_cones_signature) return cone_target(Topology::disk, marks_of_cones(cones));
   if (signature != polygon_signature) return parse_orbifold(signature);
   Corners corners;
   for (const ConeCopies& cone : cones) corners.push_back({cone.vertex, position_of(cone, positions)});
@@ -208,6 +221,7 @@ double plane_area(const Tile& tile) {
 }  // namespace
 
 double target_area(const Target& target) {
+  if (target.has_free_tile) return free_tile_area(target);
   if (target.space == Space::plane()) return plane_area(basic_tile(target, first_arrangement(target)));
   if (target.corners.empty()) return 4 * pi / target.group_order;
   double area = 2 * pi;

@@ -24,13 +24,14 @@ std::vector<int> corner_vertices(const Target& polygon);
 /// corners in another order (`arrangement`, as in basic_tile) than that of the polygon.
 Tile polygon_tile(const std::vector<PolygonCorner>& corners, const std::vector<int>& arrangement);
 
-/// The target of an embedding that was read: the one that the signature names, or the polygon with the fixed
-/// cones at their positions. Throws ArgumentError and MeshError if there is no such target.
+/// The target of an embedding that was read: the one that the signature names, with the angles of the cones
+/// if they are no part of it, or the polygon with the fixed cones at their positions. Throws ArgumentError
+/// and MeshError if there is no such target.
 Target read_target(const std::string& signature, const std::vector<ConeCopies>& cones,
                    const Points& positions);
 
 /// The area of the target: 4 pi/|G|; in the plane, the tile's; for a polygon, the sum of its interior angles
-/// less (n - 2) pi.
+/// less (n - 2) pi; free_tile_area.
 double target_area(const Target& target);
 
 }  // namespace orbitutte

@@ -43,22 +43,15 @@ std::vector<Vector3Of<Real>> sides_of_triangle(Space space, const std::vector<in
   return {{Real(0), Real(1), Real(0)}, {sin(a), -cos(a), Real(0)}, {x, y, z}};
 }
 
-// x = 0, y = 0, x = 1, y = 1.
-template <typename Real>
-std::vector<Vector3Of<Real>> sides_of_unit_square() {
-  const Real zero = 0, one = 1;
-  return {{one, zero, zero}, {zero, one, zero}, {-one, zero, one}, {zero, -one, one}};
-}
-
 template <typename Real>
 std::vector<Vector3Of<Real>> sides_of_chamber(const Target& target) {
+  if (!target.corners.empty() || target.has_free_tile) return {};
   const Family* family = find_family(target.symbol);
-  if (!target.corners.empty() || !family) return {};
-  const std::vector<int> orders = family->chamber(target);
-  return orders.size() == 3 ? sides_of_triangle<Real>(target.space, orders) : sides_of_unit_square<Real>();
+  return family ? sides_of_triangle<Real>(target.space, family->chamber(target))
+                : std::vector<Vector3Of<Real>>();
 }
 
-// The point as far from the first three sides, m . p the same for all.
+// The point as far from all three sides, m . p the same for all.
 Vector3 middle_of(Space space, const std::vector<Vector3>& lines) {
   Matrix3 rows;
   for (int i = 0; i < 3; ++i) rows.row(i) = lines[i];

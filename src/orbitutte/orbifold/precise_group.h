@@ -15,7 +15,8 @@ namespace orbitutte {
 /// chamber, so that the product of precise reflections makes it precise, be the group finite or not.
 ///
 /// Rotations about (0, 0, 1), and half turns about x, take the tiles of NN, N* and Nx to other ones and their
-/// elements to elements: they may lie turned like that. A fixed polygon has no group but the identity.
+/// elements to elements: they may lie turned like that. A fixed polygon has no group but the identity, and
+/// none is known of a target whose tile is free: its group depends on the tile.
 /// Real is double or one of the numbers of precise.h.
 template <typename Real>
 class PreciseGroup {

@@ -245,7 +245,9 @@ Target parse_orbifold(const std::string& signature) {
   target.marks = marks_of(symbol);
   target.inner_marks = static_cast<int>(symbol.rotations.size());
   target.group_order = chi.numerator > 0 ? static_cast<int>(2 * chi.denominator / chi.numerator) : 0;
-  target.is_free_to_rotate = is_free_to_rotate(basic_tile(target, first_arrangement(target)));
+  target.has_free_tile = find_family(symbol)->tile == nullptr;
+  target.is_free_to_rotate =
+      !target.has_free_tile && is_free_to_rotate(basic_tile(target, first_arrangement(target)));
   return target;
 }
 

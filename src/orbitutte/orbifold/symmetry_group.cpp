@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <queue>
@@ -129,6 +130,28 @@ SymmetryGroup SymmetryGroup::conjugated(const Isometry& isometry) const {
   return result;
 }
 
+bool tiles_its_space(const Target& target) {
+  return std::all_of(target.marks.begin(), target.marks.end(),
+                     [](const Mark& mark) { return mark.order() > 0; });
+}
+
+namespace {
+
+// The group of a tile that has the shape of the surface, in the canonical frame: that which the seams
+// generate, or the identity alone.
+SymmetryGroup group_of_seams(const Embedding& embedding, int count) {
+  const Isometry& placement = embedding.placement;
+  std::vector<Isometry> generators;
+  if (tiles_its_space(embedding.target))
+    for (const Seam& seam : embedding.seams)
+      generators.push_back(placement.inverse() * seam.transform * placement);
+  const Vector3 middle =
+      embedding.space().retract(embedding.canonical_positions().colwise().mean().transpose());
+  return SymmetryGroup::nearest_elements(embedding.space(), generators, middle, count);
+}
+
+}  // namespace
+
 SymmetryGroup group_of(const Target& target) {
   if (target.group_order == 0)
     throw ArgumentError(
@@ -151,8 +174,13 @@ SymmetryGroup group_of(const Embedding& embedding) {
   return placed(group_of(embedding.target), embedding.placement);
 }
 
+SymmetryGroup canonical_group_of(const Embedding& embedding, int count) {
+  return embedding.target.has_free_tile ? group_of_seams(embedding, count)
+                                        : group_of(embedding.target, count);
+}
+
 SymmetryGroup group_of(const Embedding& embedding, int count) {
-  return placed(group_of(embedding.target, count), embedding.placement);
+  return placed(canonical_group_of(embedding, count), embedding.placement);
 }
 
 }  // namespace orbitutte

@@ -54,7 +54,14 @@ SymmetryGroup group_of(const Target& target);
 /// first.
 SymmetryGroup group_of(const Target& target, int count);
 
-/// The same in the frame in which an embedding lies.
+/// Do all angles belong to orders, so that copies of the tile fill the space?
+bool tiles_its_space(const Target& target);
+
+/// The group of an embedding's target in its canonical frame. If the tile is free, it is the group that the
+/// seams generate, and the identity alone unless copies of the tile fill the space.
+SymmetryGroup canonical_group_of(const Embedding& embedding, int count);
+
+/// The same in the frame in which the embedding lies.
 SymmetryGroup group_of(const Embedding& embedding);
 SymmetryGroup group_of(const Embedding& embedding, int count);
 

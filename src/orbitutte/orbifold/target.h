@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a surface is mapped onto: an orbifold S^2/G or R^2/G, or a fixed spherical polygon.
+// What a surface is mapped onto: an orbifold S^2/G or R^2/G, a surface with cones of any angles, or a fixed
+// spherical polygon.
 #pragma once
 
 #include <string>
@@ -27,6 +28,9 @@ struct ConwaySymbol {
 /// The signature of fixed boundaries, which have no symbol of Conway's: theorem 1, see polygon.h.
 inline const std::string polygon_signature = "polygon";
 
+/// The signatures of surfaces with cones of any angles, closed ones and disks with corners: cone_target.h.
+inline const std::string cones_signature = "cones", mirrored_cones_signature = "*cones";
+
 enum class ConeKind { rotation, corner, fixed };
 
 /// Its names.
@@ -50,7 +54,7 @@ struct Mark {
   int order() const;
 };
 
-/// What an embedding aims at. parse_orbifold and polygon_target make targets.
+/// What an embedding aims at. parse_orbifold, cone_target and polygon_target make targets.
 struct Target {
   /// The canonical text, with the orders in the arrangement that was given.
   std::string signature;
@@ -75,6 +79,10 @@ struct Target {
   /// Do rotations about (0, 0, 1) change nothing about the target? NN, N* and Nx fix a map only up to such a
   /// rotation.
   bool is_free_to_rotate = false;
+
+  /// Do the angles leave the shape of the tile open? Then it is found together with the map, and is the
+  /// surface's own: the one for which the map is conformal (free_tile.h).
+  bool has_free_tile = false;
 };
 
 }  // namespace orbitutte

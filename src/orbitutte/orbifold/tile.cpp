@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "orbitutte/orbifold/tile.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -37,6 +39,11 @@ int end_of_cut(int marks) { return std::min(marks, 1); }
 
 Tile basic_tile(const Target& target, const std::vector<int>& arrangement) {
   if (!target.corners.empty()) return polygon_tile(target.corners, arrangement);
+  if (target.has_free_tile)
+    throw ArgumentError(
+        fmt::format("the tile of {} has no shape of its own: it is the surface's, which is known "
+                    "from an embedding alone",
+                    target.signature));
   const Family& family = *find_family(target.symbol);
   const int marks = static_cast<int>(target.marks.size()), corners = marks + family.cut_to_mirror;
   if (static_cast<int>(arrangement.size()) < corners) throw ArgumentError("the arrangement leaves marks out");
@@ -51,7 +58,7 @@ Tile basic_tile(const Target& target, const std::vector<int>& arrangement) {
 std::vector<int> first_arrangement(const Target& target) {
   std::vector<int> arrangement(target.marks.size());
   std::iota(arrangement.begin(), arrangement.end(), 0);
-  if (target.corners.empty() && find_family(target.symbol)->cut_to_mirror)
+  if (target.corners.empty() && !target.has_free_tile && find_family(target.symbol)->cut_to_mirror)
     arrangement.insert(arrangement.begin() + end_of_cut(static_cast<int>(target.marks.size())),
                        static_cast<int>(target.marks.size()));
   return arrangement;

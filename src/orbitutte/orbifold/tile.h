@@ -25,10 +25,12 @@ struct TileSide {
   /// On the sphere at most pi, or 2 pi where the side is a whole circle.
   double length = 0;
 
-  /// The marked point at the start: an index into Target::marks, or marks.size() for the end of a cut.
+  /// The marked point at the start: an index into Target::marks, or marks.size() for the end of a cut and
+  /// where it branches.
   int mark = -1;
 
-  /// Is the start any point of the mirror instead of a corner? Then its vertex is not held there.
+  /// Is the start any point of the mirror instead of a corner, or a vertex where the cut branches? Then the
+  /// vertex is not held there.
   bool slides = false;
   int partner = -1;
   Isometry transform;
@@ -70,7 +72,8 @@ struct Tile {
 /// The tile lies in the target's canonical frame, which does not depend on the arrangement: mark 0 has an
 /// image at (0, 0, 1). From there, mark 1 or a mirror has an image in the direction of x, so that the marks
 /// of a closed surface are met counterclockwise. Tiles of the same target for different cuts are made of the
-/// same points of the quotient. Throws ArgumentError if the arrangement is not such a permutation.
+/// same points of the quotient. Throws ArgumentError if the arrangement is not such a permutation, or if the
+/// tile is free: free_tile.h makes tiles from cuts.
 Tile basic_tile(const Target& target, const std::vector<int>& arrangement);
 
 /// An arrangement that basic_tile takes: the marks in their order.

@@ -13,6 +13,7 @@
 #include "orbitutte/export/html_text.h"
 #include "orbitutte/export/palette.h"
 #include "orbitutte/orbifold/polygon.h"
+#include "orbitutte/orbifold/symmetry_group.h"
 #include "orbitutte/page/html_template.h"
 #include "orbitutte/page/page_assets.h"
 #include "orbitutte/page/page_scene.h"
@@ -120,11 +121,14 @@ std::string failed_checks(const Certificate& certificate) {
 }
 
 std::string group_text(const Target& target) {
+  if (!tiles_its_space(target)) return "none";
   return target.group_order > 0 ? plural(target.group_order, "element") : "infinitely many elements";
 }
 
 // What the copies of the tile cover.
 std::string covering(const Target& target) {
+  if (!tiles_its_space(target))
+    return "the tile, glued along its seams, covers the flat surface with these cones";
   if (target.group_order == 1) return "the tile covers the sphere";
   if (target.group_order == 0)
     return fmt::format("its symmetric copies cover the {} plane", target.space.name());
@@ -211,13 +215,19 @@ Content history_rows(const std::vector<Iteration>& history) {
   return rows;
 }
 
+// The order, or the angle where there is none.
+std::string order_text(const Mark& mark) {
+  return mark.order() > 0 ? std::to_string(mark.order())
+                          : fmt::format("angle {:.4g} pi", mark.angle / std::numbers::pi);
+}
+
 Content cone_rows(const Embedding& embedding) {
   Content rows = Content::array();
   for (std::size_t c = 0; c < embedding.cones.size(); ++c) {
     const ConeCopies& cone = embedding.cones[c];
     rows.push_back({{"colour", hexadecimal(cone_colour(static_cast<int>(c)))},
                     {"vertex", std::to_string(cone.vertex)},
-                    {"order", std::to_string(cone.mark.order())},
+                    {"order", order_text(cone.mark)},
                     {"kind", name_of(cone.mark.kind)},
                     {"copies", std::to_string(cone.copies.size())}});
   }

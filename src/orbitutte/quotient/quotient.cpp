@@ -201,7 +201,8 @@ void boost_positions(const Vector3& velocity, Embedding& embedding) {
 }  // namespace
 
 Target quotient_target(const Target& base) {
-  if (!base.corners.empty() || !(has_orbifold_chart(base) || is_of_one_axis(base.symbol)))
+  const bool has_symbol = base.corners.empty() && !base.has_free_tile;
+  if (!has_symbol || !(has_orbifold_chart(base) || is_of_one_axis(base.symbol)))
     throw ArgumentError(
         fmt::format("the quotient of a map to {} is not known; there are those of NN, *NN, N*, 222 and *222",
                     base.signature));

@@ -22,7 +22,7 @@ struct BallLabel {
 /// Balls of this radius, in pixels, are large enough for their numbers to be read.
 constexpr double readable_radius = 7;
 
-/// The order of a marked vertex; 0 for the corners of a polygon, which have no order.
+/// The order of a marked vertex; 0 for the corners of a polygon, and for angles that belong to no order.
 int order_to_show(const Embedding& embedding, std::size_t cone);
 
 /// A ball that is too small for its number to be read gets none.

@@ -6,12 +6,14 @@
 #include <vector>
 
 #include "orbitutte/export/html_text.h"
+#include "orbitutte/orbifold/symmetry_group.h"
 #include "orbitutte/render/panels.h"
 
 namespace orbitutte {
 namespace {
 
-std::string group_text(const Report& report) {
+std::string group_text(const Embedding& embedding, const Report& report) {
+  if (!tiles_its_space(embedding.target)) return "no group";
   return report.group_order > 0 ? fmt::format("group of order {}", report.group_order) : "infinite group";
 }
 
@@ -37,8 +39,8 @@ std::string summary(const RenderSubject& subject) {
   const Report& report = subject.report;
   return fmt::format("{} faces,  {}{},  energy {:.6g},  {}",
                      grouped_digits(subject.embedding.faces().count()),
-                     marked_vertices_text(subject.embedding), group_text(report), report.energy,
-                     report.bijective ? "certified bijective" : "not certified");
+                     marked_vertices_text(subject.embedding), group_text(subject.embedding, report),
+                     report.energy, report.bijective ? "certified bijective" : "not certified");
 }
 
 // Returns what remains below.

@@ -46,6 +46,16 @@ Json to_json(const Seam& seam) {
           {"transform", to_json(seam.transform.matrix())}};
 }
 
+// The tile whose shape was found: its area, and where its marks lie.
+Json tile_json(const Embedding& embedding) {
+  Json positions = Json::array();
+  for (const ConeCopies& cone : embedding.cones) {
+    const Vector3 p = embedding.positions.row(cone.vertex);
+    positions.push_back({p.x(), p.y(), p.z()});
+  }
+  return {{"area", target_area(embedding.target)}, {"marks", std::move(positions)}};
+}
+
 Json to_json(const PolygonCorner& at) {
   return {{"vertex", at.vertex}, {"position", {at.position.x(), at.position.y(), at.position.z()}}};
 }
@@ -336,6 +346,10 @@ std::string report_json(const EmbedResult& result, const RunRecord& run) {
     json["centre"] = name_of(result.quotient->centre);
     if (!result.quotient->points.empty())
       json["points"] = list(result.quotient->points, [](const PolygonCorner& at) { return to_json(at); });
+  }
+  if (embedding.target.has_free_tile) {
+    json["tile"] = tile_json(embedding);
+    json["conformality"] = minimum.energy / (2 * target_area(embedding.target));
   }
   if (result.floor) json["floor"] = to_json(*result.floor);
   if (!result.moved_vertices.empty()) json["moved_vertices"] = result.moved_vertices;

@@ -189,7 +189,7 @@ Verdict verify(const Surface& surface, const Embedding& embedding, const Report&
   Verdict verdict;
   verdict.checks = certificate.checks;
   for (Check& check : check_claims(certificate, report)) verdict.checks.push_back(std::move(check));
-  if (report.placement && has_passed(certificate, "cones"))
+  if (report.placement && has_passed(certificate, "cones") && !embedding.target.has_free_tile)
     verdict.checks.push_back(placement_claim(embedding, *report.placement));
   if (report.quotient && has_passed(certificate, "cut_mesh") && embedding.target.marks.empty())
     for (Check& check : quotient_claims(surface, embedding, *report.quotient))

@@ -44,18 +44,25 @@ void hold_corners(const Tile& tile, int input_vertices, BoundaryConditions& cond
   }
 }
 
-// The transform of the copies of held corners: the product of gluings is not unique there, and none is needed
-// but one that takes the input vertex's position to the copy's. It is that of the seam through which the copy
-// is met.
+// The transforms of copies, from seam to seam in the order in which the boundary meets the left banks: a copy
+// where a cut branches is met on the left after it was met on the right. At held corners the product of
+// gluings is not unique, and none is needed but one that takes the input vertex's position to the copy's: it
+// is that of the seam through which the copy is met first.
 void spread_transforms(const std::vector<Seam>& seams, int input_vertices, BoundaryConditions& conditions) {
+  std::vector<char> is_known(conditions.transform_of.size(), 0);
+  std::fill(is_known.begin(), is_known.begin() + input_vertices, 1);
+  const auto set = [&](int v, const Isometry& transform) {
+    conditions.transform_of[v] = index_among(conditions.transforms, transform);
+    is_known[v] = 1;
+  };
   for (const Seam& seam : seams) {
     if (seam.is_mirror()) continue;
     for (std::size_t k = 0; k < seam.left.size(); ++k) {
       const int l = seam.left[k], r = seam.right[k];
-      if (r >= input_vertices && l < input_vertices) {
-        conditions.transform_of[r] = index_among(conditions.transforms, seam.transform.inverse());
-      } else if (l >= input_vertices && r < input_vertices) {
-        conditions.transform_of[l] = index_among(conditions.transforms, seam.transform);
+      if (is_known[l] && !is_known[r]) {
+        set(r, seam.transform.inverse() * conditions.transform(l));
+      } else if (is_known[r] && !is_known[l]) {
+        set(l, seam.transform * conditions.transform(r));
       }
     }
   }
@@ -84,14 +91,23 @@ void hold_unreferenced(const CutMesh& cut, BoundaryConditions& conditions) {
   }
 }
 
-// Side k of the tile takes the vertices of the boundary from its corner to the next one.
-std::vector<std::vector<int>> boundary_sides(const CutMesh& cut, const Tile& tile) {
+// Where the boundary of the cut mesh meets the tile's corners: where a tree says, or, one after the other, at
+// the marks.
+std::vector<std::size_t> corners_met(const CutMesh& cut, const Tile& tile) {
   std::vector<std::size_t> corners;
+  for (const CutSide& side : cut.sides) corners.push_back(static_cast<std::size_t>(side.begin));
+  if (!corners.empty()) return corners;
   for (std::size_t k = 0; k < cut.boundary.size(); ++k) {
     if (corners.size() == tile.sides.size()) break;
     const int mark = tile.sides[corners.size()].mark;
     if (cut.source_vertex[cut.boundary[k]] == cut.marks[mark]) corners.push_back(k);
   }
+  return corners;
+}
+
+// Side k of the tile takes the vertices of the boundary from its corner to the next one.
+std::vector<std::vector<int>> boundary_sides(const CutMesh& cut, const Tile& tile) {
+  const std::vector<std::size_t> corners = corners_met(cut, tile);
   if (corners.size() != tile.sides.size() || (!corners.empty() && corners.front() != 0))
     throw std::logic_error(
         "the boundary of the cut mesh does not meet the marked vertices as the tile's corners do");

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "orbitutte/orbifold/free_tile.h"
+#include "orbitutte/solve/conformal_map.h"
 #include "orbitutte/solve/flipped_edges.h"
 #include "orbitutte/solve/initial_embedding.h"
 
@@ -70,16 +72,45 @@ void fix_poles(const GluingProblem& problem, Placement& placed) {
   placed.boundary.make_feasible(placed.minimum.positions);
 }
 
+// The point that comes to have longitude 0, where the direction of the map is a choice: the second mark, or
+// any vertex.
+Vector3 point_to_turn(const GluingProblem& problem, const Placement& placed) {
+  const Points& positions = placed.minimum.positions;
+  if (problem.target.has_free_tile) return positions.row(problem.cut.marks[1]);
+  return highest_image(positions.row(vertex_far_from_poles(placed.boundary, positions)), placed.tile);
+}
+
 // Where a rotation about (0, 0, 1) changes nothing, turns the map so that a vertex has longitude 0.
 void fix_rotation(const GluingProblem& problem, Placement& placed) {
-  if (!problem.target.is_free_to_rotate) return;
+  if (!problem.target.is_free_to_rotate && !problem.target.has_free_tile) return;
   Points& positions = placed.minimum.positions;
-  const Vector3 p =
-      highest_image(positions.row(vertex_far_from_poles(placed.boundary, positions)), placed.tile);
+  const Vector3 p = point_to_turn(problem, placed);
   const Isometry turn = problem.target.space.rotation(Space::origin(), -std::atan2(p.y(), p.x()));
   move(problem, turn, placed);
   positions = turn.on_rows(positions);
   placed.boundary.make_feasible(positions);
+}
+
+DirichletEnergy energy_along(const GluingProblem& problem, const BoundaryConditions& boundary) {
+  return {glued_along(problem, boundary), problem.weights, boundary};
+}
+
+// The tile, its gluing and the positions from which the optimiser starts (appendix B).
+Placement start_on_tile(const GluingProblem& problem, const LaplacianSolver& laplacian) {
+  Placement placed = {{}, problem.tile, problem.boundary, {}};
+  placed.minimum.positions =
+      initial_embedding(problem.surface, problem.cut, problem.tile, problem.boundary, laplacian);
+  return placed;
+}
+
+// The same with the tile that has the surface's own shape.
+Placement start_on_free_tile(const GluingProblem& problem, const LaplacianSolver& laplacian) {
+  Placement placed;
+  placed.minimum.positions = conformal_map(problem, laplacian);
+  placed.tile = tile_through(problem.target, problem.cut, placed.minimum.positions);
+  placed.boundary = glue(problem.cut, placed.tile, problem.target);
+  placed.boundary.make_feasible(placed.minimum.positions);
+  return placed;
 }
 
 }  // namespace
@@ -91,9 +122,7 @@ GluedEdges glued_along(const GluingProblem& problem, const BoundaryConditions& b
 }
 
 double energy_of(const GluingProblem& problem, const Placement& placed) {
-  return DirichletEnergy(glued_along(problem, placed.boundary), problem.weights, placed.boundary)
-      .evaluate(placed.minimum.positions)
-      .energy;
+  return energy_along(problem, placed.boundary).evaluate(placed.minimum.positions).energy;
 }
 
 BoundaryConditions boundary_conditions(const Surface& surface, const CutMesh& cut, const Tile& tile,
@@ -115,21 +144,24 @@ Placement moved(const GluingProblem& problem, const Isometry& isometry, const Pl
 Placement place(const GluingProblem& problem, const LbfgsOptions& options, Stages& stage) {
   const GluedEdges glued = glued_along(problem, problem.boundary);
   require_apart(glued, problem.boundary, problem.target);
-  const DirichletEnergy energy(glued, problem.weights, problem.boundary);  // (2)
   const LaplacianSolver laplacian = stage("factorize", [&] {
     return LaplacianSolver(problem.cut, glued, problem.weights, problem.boundary, problem.laplacian);
   });
-  const Points start = stage("initialize", [&] {  // appendix B
-    return initial_embedding(problem.surface, problem.cut, problem.tile, problem.boundary, laplacian);
+  const bool is_free = problem.target.has_free_tile;
+  Placement placed = stage("initialize", [&] {
+    return is_free ? start_on_free_tile(problem, laplacian) : start_on_tile(problem, laplacian);
   });
+  const DirichletEnergy energy =  // (2)
+      is_free ? energy_along(problem, placed.boundary)
+              : DirichletEnergy(glued, problem.weights, placed.boundary);
   LbfgsOptions lbfgs = options;
   lbfgs.callback = [&](int iteration, const Iteration& state) {
     stage.tell({"optimize", iteration, state.energy, state.gradient_norm});
     return true;
   };
-  Placement placed = {{}, problem.tile, problem.boundary, {}};
-  placed.minimum =
-      stage("optimize", [&] { return minimize(energy, laplacian, start, lbfgs); });  // algorithm 1
+  placed.minimum = stage("optimize", [&] {  // algorithm 1
+    return minimize(energy, laplacian, placed.minimum.positions, lbfgs);
+  });
   fix_poles(problem, placed);
   fix_rotation(problem, placed);
   return placed;

@@ -45,8 +45,10 @@ BoundaryConditions boundary_conditions(const Surface& surface, const CutMesh& cu
 Placement moved(const GluingProblem& problem, const Isometry& isometry, const Placement& placed);
 
 /// Factorises, starts (appendix B) and minimises (algorithm 1, with `options`, whose callback is not called).
-/// A map that the target leaves free to rotate is turned so that one vertex has longitude 0. Throws MeshError
-/// if an edge joins marked vertices whose images are opposite to each other.
+/// A map that the target leaves free to rotate is turned so that one vertex has longitude 0. If the tile is
+/// free, `problem` has any of the target's: the map starts as conformal_map has it, the tile becomes its own,
+/// with the first mark at (0, 0, 1) and the second in the direction of x. Throws MeshError if an edge joins
+/// marked vertices whose images are opposite to each other.
 Placement place(const GluingProblem& problem, const LbfgsOptions& options, Stages& stage);
 
 }  // namespace orbitutte

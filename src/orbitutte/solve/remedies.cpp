@@ -193,6 +193,7 @@ struct Resolution {
 template <typename Real>
 std::optional<SpreadMap> refined(const GluingProblem& problem, const Placement& placed,
                                  Resolution& resolution, const RefineLimbs<Real>& refine) {
+  if (problem.target.has_free_tile) return std::nullopt;  // whose group has no more digits than doubles
   Site site(problem, placed);
   SpreadMap result = {placed, {}, {}, {}};
   PrecisePositions<Real> positions(site.gluing, result.placed.minimum.positions, problem.target);

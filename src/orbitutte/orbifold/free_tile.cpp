@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/orbifold/free_tile.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace orbitutte {
+namespace {
+
+using std::numbers::pi;
+
+// The rotation about a cone, and where the boundary of the cut mesh meets it first.
+struct MetCone {
+  int place = 0;
+  Isometry rotation;
+};
+
+// The cones in the order in which the boundary meets them.
+std::vector<MetCone> met_cones(const Target& target, const CutMesh& cut, const Points& positions) {
+  std::vector<MetCone> met;
+  for (int place = 0; place < static_cast<int>(cut.boundary.size()); ++place) {
+    const int v = cut.boundary[place];
+    for (int k = 0; k < target.inner_marks; ++k)
+      if (cut.marks[k] == v)
+        met.push_back({place, target.space.rotation(positions.row(v), target.marks[k].angle)});
+  }
+  return met;
+}
+
+// The product of the rotations about the cones that are met after `after`, up to `last`.
+Isometry product_between(const std::vector<MetCone>& met, int after, int last) {
+  Isometry product;
+  for (const MetCone& cone : met)
+    if (after < cone.place && cone.place <= last) product = product * cone.rotation;
+  return product;
+}
+
+// The mark that an input vertex is; the number of the target's marks if it is none.
+int mark_at(const Target& target, const CutMesh& cut, int vertex) {
+  int mark = 0;
+  while (mark < static_cast<int>(target.marks.size()) && cut.marks[mark] != vertex) ++mark;
+  return mark;
+}
+
+// The angle of the tile there, over all copies.
+double tile_angle_at(const Target& target, int mark) {
+  return mark < static_cast<int>(target.marks.size()) ? target.marks[mark].angle : pi;
+}
+
+// May positions be chosen there? At marks, and where the boundary of a disk without corners begins.
+bool has_chosen_position(const CutMesh& cut, int vertex) {
+  return std::find(cut.marks.begin(), cut.marks.end(), vertex) != cut.marks.end();
+}
+
+// The line of the mirror along which a walk around the tile goes: a point of it, and its direction.
+struct MirrorLine {
+  Vector3 point;
+  double angle = 0;
+
+  Vector3 direction() const { return {std::cos(angle), std::sin(angle), 0}; }
+
+  // By how much p lies to its left.
+  double distance(const Vector3& p) const { return direction().cross(p - point).z(); }
+
+  // The same line seen from behind a cut that ends on it: g takes what is behind to what is before.
+  MirrorLine behind(const Isometry& g) const {
+    const double turn = std::atan2(g.matrix()(1, 0), g.matrix()(0, 0));
+    return {g.inverse() * point, angle - turn};
+  }
+};
+
+// The sides of the tile, one after the other, from the corners and gluings of those before.
+class TileWalk {
+ public:
+  TileWalk(const Target& target, const CutMesh& cut, const Points& positions)
+      : target_(target), cut_(cut), positions_(positions), met_(met_cones(target, cut, positions)) {
+    for (int s = 0; s < static_cast<int>(cut.sides.size()); ++s) add_side(s);
+    measure_chords();
+  }
+
+  Tile tile() && { return std::move(tile_); }
+
+  std::vector<double> closing_defects() const {
+    if (target_.topology == Topology::sphere) {
+      const Isometry product = product_between(met_, -1, static_cast<int>(cut_.boundary.size()));
+      return {product.matrix()(0, 2), product.matrix()(1, 2)};
+    }
+    std::vector<double> defects = defects_;
+    defects.push_back(
+        mirror_.distance(tile_.sides.front().start));  // the last mirror leads to the first mark
+    return defects;
+  }
+
+ private:
+  int copy_at(int s) const { return cut_.boundary[cut_.sides[s].begin]; }
+
+  // Copies are met on the way back along a side, whose corners are images of its partner's.
+  Vector3 corner(int s) const {
+    if (copy_at(s) < positions_.rows()) return positions_.row(copy_at(s));
+    const TileSide& before = tile_.sides[s - 1];
+    return before.transform * tile_.sides[before.partner].start;
+  }
+
+  void add_side(int s) {
+    const int partner = cut_.sides[s].partner, vertex = cut_.source_vertex[copy_at(s)];
+    TileSide side;
+    side.space = target_.space;
+    side.start = corner(s);
+    side.mark = mark_at(target_, cut_, vertex);
+    side.slides = !has_chosen_position(cut_, vertex);
+    side.partner = partner;
+    if (partner == s) {
+      advance_mirror(s);
+      side.direction = mirror_.direction();
+      side.transform = side.space.reflection(Space::line(mirror_.point, mirror_.point + side.direction));
+    } else {
+      side.direction = Vector3::UnitX();
+      side.transform = partner > s ? product_between(met_, cut_.sides[s].begin, cut_.sides[partner].begin)
+                                   : tile_.sides[partner].transform.inverse();
+    }
+    tile_.sides.push_back(std::move(side));
+  }
+
+  // From the mirror before to that of side s: around the corner between them, and behind the cuts that end
+  // there.
+  void advance_mirror(int s) {
+    const int first = after_mirror_;  // whose corner the boundary has not met before
+    const Vector3 p = corner(first);
+    if (first == 0) {
+      mirror_.point = p;
+    } else if (has_chosen_position(cut_, copy_at(first))) {
+      defects_.push_back(mirror_.distance(p));
+      mirror_ = {p, mirror_.angle + pi - tile_angle_at(target_, mark_at(target_, cut_, copy_at(first)))};
+    }
+    mirror_ = mirror_.behind(product_between(met_, cut_.sides[first].begin, cut_.sides[s].begin));
+    after_mirror_ = s + 1;
+  }
+
+  // Lengths of all sides, and directions of those that are glued to others, which are no geodesics: chords
+  // take their place.
+  void measure_chords() {
+    for (int s = 0; s < static_cast<int>(tile_.sides.size()); ++s) {
+      TileSide& side = tile_.sides[s];
+      const Vector3 end = tile_.sides[(s + 1) % tile_.sides.size()].start;
+      side.length = side.space.distance(side.start, end);
+      if (side.partner == s || !(side.length > 0)) continue;
+      side.direction = side.space.tangent(side.start, end - side.start);
+      side.direction /= side.space.norm(side.direction);
+    }
+  }
+
+  const Target& target_;
+  const CutMesh& cut_;
+  const Points& positions_;
+  std::vector<MetCone> met_;
+  Tile tile_;
+  MirrorLine mirror_;
+  int after_mirror_ = 0;  // the side after the last mirror
+  std::vector<double> defects_;
+};
+
+// An orthonormal basis of the vectors that a matrix takes to zero, one a column.
+template <typename Matrix>
+Matrix null_space_of(const Matrix& matrix) {
+  const Eigen::ColPivHouseholderQR<Matrix> factors(matrix.adjoint());
+  const Matrix Q = factors.householderQ();
+  return Q.rightCols(matrix.cols() - factors.rank());
+}
+
+// Positions of all input vertices.
+Points all_at_origin(const CutMesh& cut) {
+  const int vertices = 1 + *std::max_element(cut.source_vertex.begin(), cut.source_vertex.end());
+  return Space::origin().transpose().replicate(vertices, 1);
+}
+
+// The defects as a matrix on the coordinates x, y, x, y ... of the marks, and below it the sums of x and of
+// y.
+Eigen::MatrixXd closing_conditions(const Target& target, const CutMesh& cut) {
+  const auto marks = static_cast<Eigen::Index>(cut.marks.size());
+  Points positions = all_at_origin(cut);
+  std::vector<std::vector<double>> columns;
+  for (const int vertex : cut.marks) {
+    for (const Vector3& unit : {Vector3(1, 0, 0), Vector3(0, 1, 0)}) {
+      positions.row(vertex) = Space::origin() + unit;
+      columns.push_back(closing_defects(target, cut, positions));
+    }
+    positions.row(vertex) = Space::origin();
+  }
+  const auto defects = static_cast<Eigen::Index>(columns.front().size());
+  Eigen::MatrixXd matrix(defects + 2, 2 * marks);
+  for (Eigen::Index k = 0; k < 2 * marks; ++k) {
+    matrix.col(k).head(defects) = Eigen::Map<const Eigen::VectorXd>(columns[k].data(), defects);
+    matrix.col(k).tail(2) = k % 2 == 0 ? Eigen::Vector2d(1, 0) : Eigen::Vector2d(0, 1);
+  }
+  return matrix;
+}
+
+}  // namespace
+
+Tile tile_through(const Target& target, const CutMesh& cut, const Points& positions) {
+  return TileWalk(target, cut, positions).tile();
+}
+
+std::vector<double> closing_defects(const Target& target, const CutMesh& cut, const Points& positions) {
+  return TileWalk(target, cut, positions).closing_defects();
+}
+
+TileShapes tile_shapes(const Target& target, const CutMesh& cut) {
+  const Eigen::MatrixXd matrix = closing_conditions(target, cut);
+  const auto marks = static_cast<Eigen::Index>(cut.marks.size());
+  if (target.topology == Topology::sphere) {  // then the defects are linear over the complex numbers
+    Eigen::MatrixXcd complex = Eigen::MatrixXcd::Ones(2, marks);
+    for (Eigen::Index k = 0; k < marks; ++k) complex(0, k) = {matrix(0, 2 * k), matrix(1, 2 * k)};
+    return {null_space_of(complex), true};
+  }
+  const Eigen::MatrixXd coordinates = null_space_of(matrix);
+  TileShapes shapes = {Eigen::MatrixXcd(marks, coordinates.cols()), false};
+  for (Eigen::Index k = 0; k < marks; ++k)
+    for (Eigen::Index j = 0; j < coordinates.cols(); ++j)
+      shapes.basis(k, j) = {coordinates(2 * k, j), coordinates(2 * k + 1, j)};
+  return shapes;
+}
+
+Points positions_of_marks(const CutMesh& cut, const Eigen::VectorXcd& shape) {
+  Points positions = all_at_origin(cut);
+  for (std::size_t k = 0; k < cut.marks.size(); ++k) {
+    const std::complex<double> z = shape[static_cast<Eigen::Index>(k)];
+    positions.row(cut.marks[k]) << z.real(), z.imag(), 1;
+  }
+  return positions;
+}
+
+Tile any_tile(const Target& target, const CutMesh& cut) {
+  return tile_through(target, cut, positions_of_marks(cut, tile_shapes(target, cut).basis.col(0)));
+}
+
+}  // namespace orbitutte

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// Tiles whose shape is free: polygons whose sides follow a cut along a tree, glued by products of rotations
+// about the cones.
+#pragma once
+
+#include <vector>
+
+#include "orbitutte/cut/cut.h"
+#include "orbitutte/orbifold/tile.h"
+
+namespace orbitutte {
+
+/// The tile of a surface that is cut along a tree (cut_along_tree), from positions of its vertices.
+///
+/// Let R_k be the rotation about the cone that the boundary of the cut mesh meets as the k-th, by its angle
+/// and about the copy that is met first. What is met between both banks of a side is a branch of the tree,
+/// with the cones i .. j, and the gluing of the side is R_i ... R_j. Its corners are the marks, which are
+/// held, and the vertices where the cut branches or ends, which are not. On a disk in the plane the
+/// directions of the mirrors follow from the angles, the first being that of x, and every mirror passes
+/// through the mark where it begins.
+///
+/// positions: n x 3, of the input vertices, of which those at corners count. Any positions in the plane make
+/// gluings; closing_defects tells whether they make a tile. The target is in the plane, or a sphere.
+Tile tile_through(const Target& target, const CutMesh& cut, const Points& positions);
+
+/// What keeps the positions of the marks from making a tile in the plane: linear in them, and zero if they
+/// do. On a sphere, the two coordinates of the translation that is the product of all rotations, which has to
+/// be the identity; on a disk, for each mark on the boundary, its distance from the mirror that leads there.
+std::vector<double> closing_defects(const Target& target, const CutMesh& cut, const Points& positions);
+
+/// The shapes of tiles in the plane: positions of the marks without closing defects, translations left out.
+struct TileShapes {
+  /// A basis, one shape a column: the complex numbers x + iy of the marks, in the order of CutMesh::marks.
+  Eigen::MatrixXcd basis;
+
+  /// Are the shapes turned by a right angle, i times a column, shapes as well? They are if there is no
+  /// mirror.
+  bool may_be_turned = false;
+};
+
+TileShapes tile_shapes(const Target& target, const CutMesh& cut);
+
+/// The marks where a shape has them, all other input vertices at (0, 0, 1): n x 3.
+Points positions_of_marks(const CutMesh& cut, const Eigen::VectorXcd& shape);
+
+/// A tile of some shape in the plane: the linear parts of its gluings are those of all others.
+Tile any_tile(const Target& target, const CutMesh& cut);
+
+}  // namespace orbitutte
