@@ -66,7 +66,8 @@ std::vector<int> extremities(const SourceMesh& mesh, const std::optional<Target>
   return choose_cones(surface, target ? *target : parse_orbifold(base));
 }
 
-// The target with these angles, and the vertices of its marks; those may be none, which stands for extremities.
+// The target with these angles, and the vertices of its marks; those may be none, which stands for
+// extremities.
 std::pair<Target, std::vector<int>> cones(const SourceMesh& mesh, const std::string& signature,
                                           const std::optional<std::vector<int>>& vertices,
                                           const std::vector<double>& angles) {

@@ -147,7 +147,9 @@ Isometry Space::rotation(const Vector3& point, double angle) const {
   const double cosine = std::cos(angle), sine = std::sin(angle);
   Matrix3 turn = cross_matrix(point);
   turn.row(2) *= k_;
-  return isometry(cosine * Matrix3::Identity() + (1 - cosine) * point * n + sine * turn);
+  Matrix3 matrix = cosine * Matrix3::Identity() + (1 - cosine) * point * n + sine * turn;
+  if (k_ == 0) matrix(2, 2) = 1;  // but for the rounding of (1 - cosine) + cosine, it is
+  return isometry(matrix);
 }
 
 // x - 2 (m . x)/(m . m#) m#, with m# = J m.
