@@ -9,27 +9,6 @@
 
 namespace orbitutte {
 
-/// Which cones are wanted.
-struct ConeWishes {
-  /// How many, those that are kept included. If `sigma` is given, at least so many.
-  int count = 3;
-
-  /// As few cones as reach it, if given.
-  std::optional<double> sigma;
-
-  /// Vertices that are cones in any case.
-  std::vector<int> kept;
-
-  FitOptions fit;
-};
-
-/// Cones and their angles.
-struct FittedCones {
-  /// The kept ones first, then the others in the order of their curvature.
-  std::vector<int> vertices;
-  FittedAngles fit;
-};
-
 /// The best that is found: one cone after the other where it helps most, among some vertices that are spread
 /// over the surface (spread_candidates); exchanges of single cones as long as they help; and moves of single
 /// cones over the mesh, uphill along the potential of what is left of u. Throws as fit_angles does; MeshError
