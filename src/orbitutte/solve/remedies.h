@@ -52,7 +52,8 @@ using PrecisePoint = std::function<Vector3Of<Precise>(int)>;
 std::optional<SpreadMap> with_digits_of(const PrecisePoint& point, const GluingProblem& problem,
                                         const Placement& placed);
 
-/// The same with more digits in the limbs, as many as the shortest edge asks for. Nothing if the tile is free.
+/// The same with more digits in the limbs, as many as the shortest edge asks for. Nothing if the tile is
+/// free.
 std::optional<SpreadMap> with_more_digits(const GluingProblem& problem, const Placement& placed);
 
 }  // namespace orbitutte
