@@ -114,18 +114,25 @@ Placement start_on_free_tile(const GluingProblem& problem, const LaplacianSolver
   return placed;
 }
 
-// The map onto a curved tile that has the surface's own shape, the first mark at (0, 0, 1).
+// Takes the canonical frame, where the first mark lies at (0, 0, 1) and the second in the direction of x, to
+// that of the positions.
+Isometry frame_of_marks(const GluingProblem& problem, const Points& positions) {
+  const Space space = problem.target.space;
+  const Isometry to_origin = space.to_origin(positions.row(problem.cut.marks[0]));
+  const Vector3 second = to_origin * Vector3(positions.row(problem.cut.marks[1]));
+  return to_origin.inverse() * space.rotation(Space::origin(), std::atan2(second.y(), second.x()));
+}
+
+// The map onto a curved tile that has the surface's own shape. It stays where it was found, around (0, 0, 1),
+// since hyperbolic coordinates lose digits with the distance from there.
 Placement place_on_curved_tile(const GluingProblem& problem, const LbfgsOptions& options, Stages& stage) {
   Placement placed;
   placed.minimum = stage("optimize", [&] { return curved_map(problem, options, stage); });
   Points& positions = placed.minimum.positions;
-  const Isometry to_origin = problem.target.space.to_origin(positions.row(problem.cut.marks.front()));
-  positions = to_origin.on_rows(positions);
-  retract_points(problem.target.space, positions);
   placed.tile = tile_through(problem.target, problem.cut, positions);
   placed.boundary = glue(problem.cut, placed.tile, problem.target);
   placed.boundary.make_feasible(positions);
-  fix_rotation(problem, placed);
+  placed.frame = frame_of_marks(problem, positions);
   return placed;
 }
 
