@@ -35,9 +35,11 @@ struct EmbedArguments {
   std::string polygon, spread = name_of(Spread::arc_length);
   std::string weights = name_of(WeightKind::standard), weights_file;
   double clamp = 0.01, tolerance = 1e-9;
+  /// Of fitted angles; a sigma of 0 and a count of 0 are none.
+  double area = 0, sigma = 0;
   std::uint64_t cut_seed = 0;
-  int max_iterations = 2000, threads = 0;
-  bool quotient = false, floor = false, quiet = false, json = false;
+  int count = 0, max_iterations = 2000, threads = 0;
+  bool orders = false, quotient = false, floor = false, quiet = false, json = false;
 };
 int embed_command(const EmbedArguments& arguments);
 

@@ -10,6 +10,8 @@
 #include "command_arguments.h"
 #include "commands.h"
 #include "orbitutte/choose.h"
+#include "orbitutte/cones/cone_wishes.h"
+#include "orbitutte/cones/extremities.h"
 #include "orbitutte/cones/marked_cones.h"
 #include "orbitutte/distortion_floor.h"
 #include "orbitutte/io/corner_file.h"
@@ -78,8 +80,55 @@ void require_fitting_angles(const EmbedArguments& arguments) {
                         arguments.orbifold.empty() ? "the best orbifold" : arguments.orbifold));
 }
 
-// Cones of any angles, on the surface. The program chooses none of them.
+constexpr const char* fitted_word = "fitted";
+
+// What stands beside --angles fitted, and means nothing without.
+void require_fitted_alone(const EmbedArguments& arguments) {
+  if (arguments.angles == fitted_word) return;
+  const bool is_fitted_asked =
+      arguments.count != 0 || arguments.sigma != 0 || arguments.area != 0 || arguments.orders;
+  if (is_fitted_asked)
+    throw ArgumentError("--count, --sigma, --area and --orders are for fitted angles; give --angles fitted");
+}
+
+// The vertices that --cones gives in the search for fitted angles.
+std::vector<int> kept_vertices(const EmbedArguments& arguments, const Surface& surface) {
+  const ConesWord word = cones_word(arguments.cones);
+  if (word == ConesWord::extremities) {
+    const bool is_disk = arguments.orbifold == mirrored_cones_signature;
+    return choose_extremities(surface, {is_disk ? 0 : arguments.count, is_disk ? arguments.count : 0});
+  }
+  return word == ConesWord::none ? parse_cones(arguments.cones) : std::vector<int>();
+}
+
+ConeWishes cone_wishes(const EmbedArguments& arguments, const Surface& surface) {
+  if (arguments.count < 0 || arguments.sigma < 0)
+    throw ArgumentError("--count and --sigma must not be negative");
+  ConeWishes wishes;
+  wishes.kept = kept_vertices(arguments, surface);
+  wishes.count = std::max(arguments.count, static_cast<int>(wishes.kept.size()));
+  std::erase(wishes.kept, best_vertex);
+  if (arguments.sigma > 0) wishes.sigma = arguments.sigma;
+  wishes.fit.area = arguments.area;
+  wishes.are_orders = arguments.orders;
+  if (wishes.count == 0 && !wishes.sigma)
+    throw ArgumentError("--count is missing; give the number of cones, or --sigma for as few as reach it");
+  return wishes;
+}
+
+// Cones whose angles, and places as far as they are not given, fit the surface best.
+Wish wish_for_fitted_angles(const EmbedArguments& arguments, const Surface& surface) {
+  const FittedCones found = find_cones(surface, cone_wishes(arguments, surface));
+  const MarkedCones marked = marked_cones(surface, arguments.orbifold, found.vertices, found.fit.angles);
+  if (!arguments.quiet)
+    tell("orbitutte: {} cones of fitted angles; sigma {:.3f} is expected\n", found.vertices.size(),
+         found.fit.sigma);
+  return {marked.target, ConesWord::none, marked.vertices};
+}
+
+// Cones of any angles, on the surface. The program chooses none of them unless the angles are fitted.
 Wish wish_for_angles(const EmbedArguments& arguments, const Surface& surface) {
+  if (arguments.angles == fitted_word) return wish_for_fitted_angles(arguments, surface);
   const std::vector<double> angles = parse_angles(arguments.angles);
   const ConesWord word = cones_word(arguments.cones);
   const std::vector<int> vertices =
@@ -268,6 +317,7 @@ int embed_command(const EmbedArguments& arguments) {
   const Stopwatch total;
   EmbedOptions options = options_from(arguments);
   require_fitting_angles(arguments);
+  require_fitted_alone(arguments);
   const bool has_angles = takes_angles(arguments.orbifold);
   Wish wish = has_angles ? Wish() : wish_from(arguments);
   const Objective objective = parse_choice<Objective>(arguments.objective, "--objective");

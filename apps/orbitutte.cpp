@@ -155,7 +155,18 @@ void add_embed(CLI::App& app, int& code) {
   command.option(
       "--angles", command->angles,
       "Of 'cones' and '*cones': the angle of each marked vertex, in radians or multiples of pi, as in "
-      "pi,1.5pi,0.75pi,0.75pi");
+      "pi,1.5pi,0.75pi,0.75pi; or 'fitted', those of least distortion");
+  command.option("--count", command->count,
+                 "With --angles fitted: how many cones there are, those that --cones gives included");
+  command.option(
+      "--sigma", command->sigma,
+      "With --angles fitted: as few cones as leave this standard deviation of the logarithm of the "
+      "scale");
+  command.option("--area", command->area,
+                 "With --angles fitted: the area of the target, above 0 on the sphere, below 0 in the "
+                 "hyperbolic plane; 0, the plane, is the default");
+  command.flag("--orders", command->orders,
+               "With --angles fitted: take angles of orbifolds alone, 2 pi/n, and pi/n at corners");
   command.option("--centre", command->centre,
                  "Of the whole sphere and the hemisphere: what comes to lie at the centre, area (of the "
                  "surface; the default) or vertices; sigma, for the least distortion of areas; or none");

@@ -39,6 +39,10 @@ struct Minimum {
   int evaluations = 0;
   Termination termination = Termination::converged;
   std::vector<Iteration> history;
+
+  /// If the shape of the tile is found on the way: a row for each tile, with the largest derivative of the
+  /// energy by a unit step of the shape for `gradient_norm`, and the length of the step.
+  std::vector<Iteration> shapes = {};
 };
 
 }  // namespace orbitutte

@@ -9,6 +9,7 @@
 #include "orbitutte/inspect/coincidence.h"
 #include "orbitutte/inspect/weak_places.h"
 #include "orbitutte/orbifold/cone_target.h"
+#include "orbitutte/orbifold/moduli.h"
 #include "orbitutte/parallel.h"
 #include "orbitutte/warnings.h"
 #include "orbitutte/weights/cone_weights.h"
@@ -50,11 +51,17 @@ void require_no_edge(const Connectivity& connectivity, const Pairs& opposite, co
   }
 }
 
-// Of the tiles whose shape is free, those of the plane alone are found.
-void require_plane(const Target& target) {
+// Of the curved tiles whose shape is free, those of spheres alone are found, with angles that have any.
+void require_tile(const Target& target) {
   if (!target.has_free_tile || target.space == Space::plane()) return;
-  throw ArgumentError(fmt::format("{}, and maps to {} surfaces with cones of any angles are not supported",
-                                  off_the_plane(target), target.space.name()));
+  if (target.topology != Topology::sphere)
+    throw ArgumentError(
+        fmt::format("{}, and maps of disks to {} surfaces with corners of any angles are not "
+                    "supported",
+                    off_the_plane(target), target.space.name()));
+  std::vector<double> angles;
+  for (const Mark& mark : target.marks) angles.push_back(mark.angle);
+  Moduli(target.space, angles);  // throws if there are none
 }
 
 // The boundary of a disk, edge by edge.
@@ -102,7 +109,7 @@ void require_fit(const EmbedRequest& request) {
     throw MeshError(fmt::format("{} needs {} marked vertices, not {}", target.signature, target.marks.size(),
                                 request.cones.size()));
   require_topology(request.prepared.surface, target);
-  require_plane(target);
+  require_tile(target);
   require_no_edge(request.prepared.surface.connectivity, opposite_vertices(request), target);
 }
 

@@ -31,6 +31,16 @@ Matrix3 inverse_in(int k, const Matrix3& M) {
   return inverse;
 }
 
+// Where a step from p leads: to the point on the line from the origin through p + step; in the hyperbolic
+// plane, where that is no point for steps longer than one, to sqrt(1 + <v, v>) p + v, v the step's tangential
+// part.
+template <int k>
+Vector3 stepped(Curvature<k> curvature, const Vector3& p, const Vector3& step) {
+  if constexpr (k >= 0) return curvature.retract(p + step);
+  const Vector3 v = curvature.tangent(p, step);
+  return curvature.retract(std::sqrt(1 + curvature.dot(v, v)) * p + v);
+}
+
 Matrix3 cross_matrix(const Vector3& p) {
   Matrix3 result;
   result << 0, -p.z(), p.y(), p.z(), 0, -p.x(), -p.y(), p.x(), 0;
@@ -186,7 +196,7 @@ void move_points(Space space, const Points& positions, const Points& directions,
   visit_curvature(space, [&](auto curvature) {
     parallel_ranges(static_cast<int>(positions.rows()), [&](int begin, int end) {
       for (int v = begin; v < end; ++v)
-        moved.row(v) = curvature.retract(positions.row(v) + step * directions.row(v));
+        moved.row(v) = stepped(curvature, positions.row(v), step * directions.row(v));
     });
   });
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Laplacians of graphs as sparse matrices, in blocks of one to three unknowns per vertex. Private to linear/
-// and solve/.
+// Laplacians of graphs as sparse matrices, in blocks of one to three unknowns per vertex. Private to linear/,
+// solve/ and cones/.
 #pragma once
 
 #include <algorithm>

@@ -233,8 +233,27 @@ Points positions_of_marks(const CutMesh& cut, const Eigen::VectorXcd& shape) {
   return positions;
 }
 
+std::vector<int> cones_as_met(const CutMesh& cut) {
+  std::vector<int> cones;
+  for (const int mark : cut.arrangement) cones.push_back(cut.marks[mark]);
+  return cones;
+}
+
+Moduli moduli_of(const Target& target, const CutMesh& cut) {
+  std::vector<double> angles;
+  for (const int mark : cut.arrangement) angles.push_back(target.marks[mark].angle);
+  return {target.space, std::move(angles)};
+}
+
 Tile any_tile(const Target& target, const CutMesh& cut) {
-  return tile_through(target, cut, positions_of_marks(cut, tile_shapes(target, cut).basis.col(0)));
+  if (target.space == Space::plane())
+    return tile_through(target, cut, positions_of_marks(cut, tile_shapes(target, cut).basis.col(0)));
+  Points positions = all_at_origin(cut);
+  const Points polygon = moduli_of(target, cut).doubled_polygon();
+  const std::vector<int> cones = cones_as_met(cut);
+  for (std::size_t k = 0; k < cones.size(); ++k)
+    positions.row(cones[k]) = polygon.row(static_cast<Eigen::Index>(k));
+  return tile_through(target, cut, positions);
 }
 
 }  // namespace orbitutte

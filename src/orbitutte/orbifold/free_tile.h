@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "orbitutte/cut/cut.h"
+#include "orbitutte/orbifold/moduli.h"
 #include "orbitutte/orbifold/tile.h"
 
 namespace orbitutte {
@@ -43,7 +44,15 @@ TileShapes tile_shapes(const Target& target, const CutMesh& cut);
 /// The marks where a shape has them, all other input vertices at (0, 0, 1): n x 3.
 Points positions_of_marks(const CutMesh& cut, const Eigen::VectorXcd& shape);
 
-/// A tile of some shape in the plane: the linear parts of its gluings are those of all others.
+/// The marked vertices of a sphere in the order in which the boundary of the cut mesh meets them, as Moduli
+/// numbers them.
+std::vector<int> cones_as_met(const CutMesh& cut);
+
+/// The shapes of a curved target of the sphere's topology. Throws ArgumentError if there are none (Moduli).
+Moduli moduli_of(const Target& target, const CutMesh& cut);
+
+/// A tile of some shape: in the plane, the linear parts of its gluings are those of all others; a curved one
+/// is made from a doubled polygon. Throws as moduli_of does.
 Tile any_tile(const Target& target, const CutMesh& cut);
 
 }  // namespace orbitutte

@@ -178,10 +178,20 @@ std::string commas(const ConwaySymbol& symbol) {
   return list(symbol.rotations) + (symbol.star ? "*" : "") + list(symbol.corners) + (symbol.cross ? "x" : "");
 }
 
+// Hyperbolic orbifolds of the sphere's topology: any other three orders or more.
+bool is_hyperbolic_sphere(const ConwaySymbol& symbol) {
+  return !symbol.star && !symbol.cross && symbol.rotations.size() >= 3 && !trivial_order(symbol) &&
+         euler_characteristic(symbol).numerator < 0;
+}
+
+bool has_target(const ConwaySymbol& symbol) {
+  return find_family(symbol) != nullptr || is_hyperbolic_sphere(symbol);
+}
+
 // Why a reading cannot be embedded; empty if it can.
 std::string objection(const ConwaySymbol& symbol) {
   if (any_above_largest(symbol.rotations) || any_above_largest(symbol.corners)) return above_largest();
-  if (find_family(symbol)) return {};
+  if (has_target(symbol)) return {};
   if (trivial_order(symbol)) return "has an order of 1, which marks nothing; orders are 2 or more";
   if (is_bad(symbol))
     return "is not an orbifold of the sphere: one order alone, or two different ones, close up no tiling (a "
@@ -191,7 +201,9 @@ std::string objection(const ConwaySymbol& symbol) {
     return "is a Euclidean orbifold for which there is no tile; of those there are 333, 442, 632, 2222, "
            "*333, "
            "*442, *632 and *2222";
-  return "is a hyperbolic orbifold: its tiles fill the hyperbolic plane, not the sphere or the plane";
+  return "is a hyperbolic orbifold with mirrors or crosses; of hyperbolic ones there are those of spheres, "
+         "of "
+         "three orders or more";
 }
 
 // The reading by the rule of the notation: one character per order, unless a half is a single number that can
@@ -230,6 +242,8 @@ Space space_of(const Fraction& chi) {
 
 std::string ConwaySymbol::text() const {
   if (rotations.empty() && corners.empty() && !star && !cross) return "1";
+  if (is_hyperbolic_sphere(*this))
+    return fmt::format("{}", fmt::join(rotations, ","));  // 2,2,2,2,2 or 2,2,222
   return join(rotations) + (star ? "*" : "") + join(corners) + (cross ? "x" : "");
 }
 
@@ -241,11 +255,12 @@ Target parse_orbifold(const std::string& signature) {
   target.signature = symbol.text();
   target.symbol = symbol;
   target.space = space_of(chi);
-  target.topology = find_family(symbol)->topology;
+  const Family* const family = find_family(symbol);
+  target.topology = family ? family->topology : Topology::sphere;
   target.marks = marks_of(symbol);
   target.inner_marks = static_cast<int>(symbol.rotations.size());
   target.group_order = chi.numerator > 0 ? static_cast<int>(2 * chi.denominator / chi.numerator) : 0;
-  target.has_free_tile = find_family(symbol)->tile == nullptr;
+  target.has_free_tile = !family || !family->tile;
   target.is_free_to_rotate =
       !target.has_free_tile && is_free_to_rotate(basic_tile(target, first_arrangement(target)));
   return target;

@@ -350,6 +350,7 @@ std::string report_json(const EmbedResult& result, const RunRecord& run) {
   if (embedding.target.has_free_tile) {
     json["tile"] = tile_json(embedding);
     json["conformality"] = minimum.energy / (2 * target_area(embedding.target));
+    if (!minimum.shapes.empty()) json["shapes"] = history_json(minimum.shapes);
   }
   if (result.floor) json["floor"] = to_json(*result.floor);
   if (!result.moved_vertices.empty()) json["moved_vertices"] = result.moved_vertices;

@@ -10,6 +10,16 @@
 #include "orbitutte/parallel.h"
 
 namespace orbitutte {
+namespace {
+
+// The covector of a tangent vector: its ordinary products with others are those of the metric.
+template <int k>
+Vector3 lowered(const Vector3& v) {
+  return k < 0 ? Vector3(v.x(), v.y(), -v.z()) : v;
+}
+
+}  // namespace
+
 GluedEdges glued_edges(const CutMesh& cut, const Connectivity& connectivity,
                        const BoundaryConditions& boundary) {
   GluedEdges result;
@@ -102,7 +112,7 @@ void DirichletEnergy::evaluate(const Points& positions, Value& value) const {
   value.energy = visit_curvature(space_, [&]<int k>(Curvature<k>) {
     return 0.5 * parallel_sum(static_cast<int>(positions.rows()), [&](int v) {
              const Pull pull = pull_at<k>(positions, v);
-             value.gradient.row(v) = -2 * pull.force;
+             value.gradient.row(v) = -2 * lowered<k>(pull.force);
              return pull.energy;
            });
   });

@@ -41,7 +41,9 @@ class DirichletEnergy {
 
   struct Value {
     double energy = 0;
-    /// n x 3: tangential, and feasible (along mirrors; zero where held).
+    /// n x 3: the covectors whose ordinary products with tangent vectors are the derivatives of E.
+    /// Tangential, but for the sign of z in the hyperbolic plane, and feasible (along mirrors; zero where
+    /// held).
     Points gradient;
   };
 

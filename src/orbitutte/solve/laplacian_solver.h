@@ -9,6 +9,7 @@
 #include "orbitutte/linear/sparse_factor.h"
 #include "orbitutte/options.h"
 #include "orbitutte/solve/dirichlet_energy.h"
+#include "orbitutte/solve/preconditioner.h"
 
 namespace orbitutte {
 
@@ -38,13 +39,13 @@ void order_ahead(LaplacianReuse& reuse, const std::vector<std::array<int, 2>>& e
 struct DiskGraph;
 class LaplacianSystems;
 
-class LaplacianSolver {
+class LaplacianSolver : public Preconditioner {
  public:
   /// Orders the mesh and factorises both systems. The arguments must outlive the solver.
   /// Throws MeshError naming a vertex that no positive weight ties to the cones.
   LaplacianSolver(const CutMesh& cut, const GluedEdges& glued, const EdgeWeights& weights,
                   const BoundaryConditions& boundary, const LaplacianSetup& setup = {});
-  ~LaplacianSolver();
+  ~LaplacianSolver() override;
   LaplacianSolver(LaplacianSolver&&) noexcept;
 
   /// The discrete harmonic map of the cut disk in space: of the positions (n x 3), those of vertices on the
@@ -56,7 +57,7 @@ class LaplacianSolver {
 
   /// P g, where P is the inverse of 2 L, and L the Laplacian glued across the cut, on the unknowns of the
   /// boundary conditions: the Hessian of E where the map is nearly flat. g and the result: n x 3, feasible.
-  Points precondition(const Points& gradient) const;
+  Points precondition(const Points& gradient) const override;
 
  private:
   /// L x, before it is projected onto the unknowns of the boundary conditions. x and the result: n x 3.

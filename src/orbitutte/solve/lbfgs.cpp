@@ -249,13 +249,13 @@ void check(const LbfgsOptions& options) {
 
 }  // namespace
 
-Minimum minimize(const DirichletEnergy& energy, const LaplacianSolver& laplacian, const Points& start,
+Minimum minimize(const DirichletEnergy& energy, const Preconditioner& preconditioner, const Points& start,
                  const LbfgsOptions& options) {
   check(options);
   Minimum result;
   State state = {start, energy.evaluate(start)}, next;
   result.evaluations = 1;
-  Points preconditioned = laplacian.precondition(state.value.gradient);
+  Points preconditioned = preconditioner.precondition(state.value.gradient);
   InverseHessian inverse_hessian(options.memory);
   const LineSearch line_search(energy, result.evaluations);
   double last_step = 0;
@@ -293,7 +293,7 @@ Minimum minimize(const DirichletEnergy& energy, const LaplacianSolver& laplacian
     }
     ++result.iterations;
     last_step = max_difference(next.x, state.x);
-    Points next_preconditioned = laplacian.precondition(next.value.gradient);
+    Points next_preconditioned = preconditioner.precondition(next.value.gradient);
     const double change = next.value.energy - state.value.energy;
     if (is_noise(change, state, energy.rounding_floor(), options.tolerance))
       inverse_hessian.forget();

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Preconditioned L-BFGS on the sphere (algorithm 1, with the corrections listed in docs/deviations.md).
+// Preconditioned L-BFGS (algorithm 1, with the corrections listed in docs/deviations.md).
 #pragma once
 
 #include <functional>
 
 #include "orbitutte/minimum.h"
-#include "orbitutte/solve/laplacian_solver.h"
+#include "orbitutte/solve/dirichlet_energy.h"
+#include "orbitutte/solve/preconditioner.h"
 
 namespace orbitutte {
 
@@ -24,8 +25,8 @@ struct LbfgsOptions {
   IterationCallback callback;
 };
 
-/// Minimises E from unit positions. Throws ArgumentError for options out of range, and Cancelled.
-Minimum minimize(const DirichletEnergy& energy, const LaplacianSolver& laplacian, const Points& start,
+/// Minimises E from points of its space. Throws ArgumentError for options out of range, and Cancelled.
+Minimum minimize(const DirichletEnergy& energy, const Preconditioner& preconditioner, const Points& start,
                  const LbfgsOptions& options = {});
 
 }  // namespace orbitutte

@@ -9,6 +9,7 @@
 
 #include "orbitutte/orbifold/free_tile.h"
 #include "orbitutte/solve/conformal_map.h"
+#include "orbitutte/solve/curved_map.h"
 #include "orbitutte/solve/flipped_edges.h"
 #include "orbitutte/solve/initial_embedding.h"
 
@@ -113,6 +114,28 @@ Placement start_on_free_tile(const GluingProblem& problem, const LaplacianSolver
   return placed;
 }
 
+// Takes the canonical frame, where the first mark lies at (0, 0, 1) and the second in the direction of x, to
+// that of the positions.
+Isometry frame_of_marks(const GluingProblem& problem, const Points& positions) {
+  const Space space = problem.target.space;
+  const Isometry to_origin = space.to_origin(positions.row(problem.cut.marks[0]));
+  const Vector3 second = to_origin * Vector3(positions.row(problem.cut.marks[1]));
+  return to_origin.inverse() * space.rotation(Space::origin(), std::atan2(second.y(), second.x()));
+}
+
+// The map onto a curved tile that has the surface's own shape. It stays where it was found, around (0, 0, 1),
+// since hyperbolic coordinates lose digits with the distance from there.
+Placement place_on_curved_tile(const GluingProblem& problem, const LbfgsOptions& options, Stages& stage) {
+  Placement placed;
+  placed.minimum = stage("optimize", [&] { return curved_map(problem, options, stage); });
+  Points& positions = placed.minimum.positions;
+  placed.tile = tile_through(problem.target, problem.cut, positions);
+  placed.boundary = glue(problem.cut, placed.tile, problem.target);
+  placed.boundary.make_feasible(positions);
+  placed.frame = frame_of_marks(problem, positions);
+  return placed;
+}
+
 }  // namespace
 
 GluedEdges glued_along(const GluingProblem& problem, const BoundaryConditions& boundary) {
@@ -142,12 +165,13 @@ Placement moved(const GluingProblem& problem, const Isometry& isometry, const Pl
 }
 
 Placement place(const GluingProblem& problem, const LbfgsOptions& options, Stages& stage) {
+  const bool is_free = problem.target.has_free_tile;
+  if (is_free && problem.target.space != Space::plane()) return place_on_curved_tile(problem, options, stage);
   const GluedEdges glued = glued_along(problem, problem.boundary);
   require_apart(glued, problem.boundary, problem.target);
   const LaplacianSolver laplacian = stage("factorize", [&] {
     return LaplacianSolver(problem.cut, glued, problem.weights, problem.boundary, problem.laplacian);
   });
-  const bool is_free = problem.target.has_free_tile;
   Placement placed = stage("initialize", [&] {
     return is_free ? start_on_free_tile(problem, laplacian) : start_on_tile(problem, laplacian);
   });

@@ -5,6 +5,7 @@
 #include "orbitutte/mesh/surface.h"
 #include "orbitutte/progress.h"
 #include "orbitutte/solve/boundary_arcs.h"
+#include "orbitutte/solve/laplacian_solver.h"
 #include "orbitutte/solve/lbfgs.h"
 
 namespace orbitutte {
@@ -46,8 +47,9 @@ Placement moved(const GluingProblem& problem, const Isometry& isometry, const Pl
 
 /// Factorises, starts (appendix B) and minimises (algorithm 1, with `options`, whose callback is not called).
 /// A map that the target leaves free to rotate is turned so that one vertex has longitude 0. If the tile is
-/// free, `problem` has any of the target's: the map starts as conformal_map has it, the tile becomes its own,
-/// with the first mark at (0, 0, 1) and the second in the direction of x. Throws MeshError if an edge joins
+/// free, `problem` has any of the target's: the map starts as conformal_map has it, or, on a curved tile, is
+/// curved_map; the tile becomes its own, with the first mark at (0, 0, 1) and the second in the direction of
+/// x, in the canonical frame. Throws MeshError if an edge joins
 /// marked vertices whose images are opposite to each other.
 Placement place(const GluingProblem& problem, const LbfgsOptions& options, Stages& stage);
 

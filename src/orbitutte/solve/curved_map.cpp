@@ -1,0 +1,362 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/solve/curved_map.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numbers>
+
+#include "orbitutte/linear/dissection.h"
+#include "orbitutte/orbifold/cone_target.h"
+#include "orbitutte/orbifold/free_tile.h"
+#include "orbitutte/solve/edge_words.h"
+#include "orbitutte/solve/initial_embedding.h"
+#include "orbitutte/solve/laplacian_solver.h"
+#include "orbitutte/solve/moduli_energy.h"
+#include "orbitutte/solve/tangent_system.h"
+#include "orbitutte/solve/trust_region.h"
+
+namespace orbitutte {
+namespace {
+
+using std::numbers::pi;
+
+// The target with all deficits of angles scaled so that its area is another one.
+Target with_area(const Target& target, double area) {
+  if (area == free_tile_area(target)) return target;
+  const double deficits = 4 * pi - total_curvature(Topology::sphere, target.marks),
+               wanted = 4 * pi - target.space.curvature() * area;
+  Target result = target;
+  for (Mark& mark : result.marks) mark.angle = 2 * pi - (2 * pi - mark.angle) * wanted / deficits;
+  return result;
+}
+
+// The areas of the targets on the way: the last is the target's own.
+std::vector<double> areas_on_the_way(const Target& target) {
+  constexpr double first = 3, step = 2;
+  const double area = free_tile_area(target);
+  if (!target.space.is_closed() || area <= 5) return {area};
+  const int steps = static_cast<int>(std::ceil((area - first) / step));
+  std::vector<double> areas;
+  for (int k = 0; k <= steps; ++k) areas.push_back(first + (area - first) * k / steps);
+  return areas;
+}
+
+// A product of a covector field with a vector field.
+double paired(const Points& covectors, const Points& vectors) {
+  return covectors.cwiseProduct(vectors).sum();
+}
+
+// Everything that belongs to one tile. The parts refer to each other.
+struct TileSystem {
+  TileSystem(const GluingProblem& problem, const Target& target, GluedEdges edges, const Points& x)
+      : boundary(glue(problem.cut, tile_through(target, problem.cut, x), target)),
+        glued(std::move(edges)),
+        energy(glued, problem.weights, boundary) {}
+  TileSystem(const TileSystem&) = delete;
+  TileSystem& operator=(const TileSystem&) = delete;
+
+  BoundaryConditions boundary;
+  GluedEdges glued;
+  DirichletEnergy energy;
+};
+
+// A tile, the harmonic map onto it, and how its energy changes with its shape.
+struct HarmonicTile {
+  Points cones;
+  std::unique_ptr<TileSystem> system;
+
+  // Where the map was expected to be: of the map itself, up to what it moved by from there.
+  std::unique_ptr<TangentSystem> hessian;
+  Minimum minimum;
+
+  // Of the shapes (Moduli::basis), and the derivative of the energy along it.
+  Eigen::MatrixXd basis;
+  Eigen::VectorXd slope;
+
+  const Points& x() const { return minimum.positions; }
+  double steepest() const { return slope.size() > 0 ? slope.cwiseAbs().maxCoeff() : 0; }
+};
+
+// The energy as a function of the shape to second order, and what the positions do meanwhile.
+struct ShapeModel {
+  QuadraticModel energy;
+  std::vector<Points> responses;
+
+  Points response(const Eigen::VectorXd& step) const {
+    Points sum = Points::Zero(responses.front().rows(), 3);
+    for (std::size_t a = 0; a < responses.size(); ++a)
+      sum += step[static_cast<Eigen::Index>(a)] * responses[a];
+    return sum;
+  }
+};
+
+// The search over the shapes of one target.
+class ShapeSearch {
+ public:
+  ShapeSearch(const GluingProblem& problem, const Target& target, const EdgeWords& edges,
+              const Dissection& dissection)
+      : problem_(problem),
+        target_(target),
+        dissection_(dissection),
+        moduli_(moduli_of(target, problem.cut)),
+        energy_(moduli_, edges, problem.weights, cones_as_met(problem.cut)) {}
+
+  const Moduli& moduli() const { return moduli_; }
+
+  // The harmonic map onto the tile of these cones, up to a tolerance, from positions near it.
+  HarmonicTile harmonic(const Points& cones, const Points& start, const LbfgsOptions& options) const {
+    HarmonicTile tile;
+    tile.cones = cones;
+    Points x = energy_.with_cones(start, cones);
+    tile.system = std::make_unique<TileSystem>(problem_, target_, energy_.glued(cones), x);
+    tile.system->boundary.make_feasible(x);
+    tile.hessian = std::make_unique<TangentSystem>(tangent_problem(*tile.system), x);
+    tile.minimum = minimize(tile.system->energy, *tile.hessian, x, options);
+    tile.basis = moduli_.basis(cones);
+    tile.slope = tile.basis.transpose() * energy_.cone_gradient(tile.x(), cones);
+    return tile;
+  }
+
+  // By differences of first derivatives of the edges that feel the cones.
+  ShapeModel model(const HarmonicTile& tile) const {
+    constexpr double h = 1e-5;
+    ShapeModel model = {{tile.slope, second_derivative(tile)}, {}};
+    std::vector<Points> mixed;
+    for (int a = 0; a < moduli_.dimension(); ++a) {
+      const Eigen::VectorXd step = h * tile.basis.col(a);
+      mixed.push_back((energy_.gradient(tile.x(), nearby(tile.cones, step)) -
+                       energy_.gradient(tile.x(), nearby(tile.cones, -step))) /
+                      (2 * h));
+      model.responses.push_back(-tile.hessian->precondition(mixed.back()));
+    }
+    for (int a = 0; a < moduli_.dimension(); ++a)
+      for (int b = 0; b < moduli_.dimension(); ++b)
+        model.energy.hessian(a, b) +=
+            0.5 * (paired(mixed[a], model.responses[b]) + paired(mixed[b], model.responses[a]));
+    return model;
+  }
+
+  std::optional<Points> moved_cones(const HarmonicTile& tile, const Eigen::VectorXd& step) const {
+    return moduli_.retract(tile.cones, tile.basis * step);
+  }
+
+ private:
+  TangentProblem tangent_problem(const TileSystem& system) const {
+    return {system.glued, problem_.weights.w, system.boundary, dissection_,
+            problem_.laplacian.options.backend};
+  }
+
+  Points nearby(const Points& cones, const Eigen::VectorXd& step) const {
+    if (const std::optional<Points> moved = moduli_.retract(cones, step)) return *moved;
+    throw MeshError(fmt::format(
+        "the tile of {} reaches so far out in the {} space that doubles do not hold it; take fewer cones, or "
+        "larger angles",
+        target_.signature, target_.space.name()));
+  }
+
+  // E_mm, by second differences.
+  Eigen::MatrixXd second_derivative(const HarmonicTile& tile) const {
+    constexpr double h = 2e-4;
+    const int count = moduli_.dimension();
+    const auto at = [&](const Eigen::VectorXd& step) {
+      return energy_.energy(tile.x(), nearby(tile.cones, tile.basis * step));
+    };
+    const auto unit = [&](int a) -> Eigen::VectorXd { return h * Eigen::VectorXd::Unit(count, a); };
+    const double here = energy_.energy(tile.x(), tile.cones);
+    std::vector<double> alone;  // the sum of both directions
+    for (int a = 0; a < count; ++a) alone.push_back(at(unit(a)) + at(-unit(a)));
+    Eigen::MatrixXd result(count, count);
+    for (int a = 0; a < count; ++a) {
+      result(a, a) = (alone[a] - 2 * here) / (h * h);
+      for (int b = 0; b < a; ++b) {
+        const Eigen::VectorXd both = unit(a) + unit(b);
+        result(a, b) = result(b, a) = (at(both) + at(-both) - alone[a] - alone[b] + 2 * here) / (2 * h * h);
+      }
+    }
+    return result;
+  }
+
+  const GluingProblem& problem_;
+  const Target& target_;
+  const Dissection& dissection_;
+  Moduli moduli_;
+  ModuliEnergy energy_;
+};
+
+// The trust region's steps through the shapes.
+class ShapeDescent {
+ public:
+  ShapeDescent(const ShapeSearch& search, const LbfgsOptions& options, const Stages& stage)
+      : search_(search), options_(options), stage_(stage) {}
+
+  HarmonicTile run(const Points& cones, const Points& start) {
+    HarmonicTile tile = search_.harmonic(cones, start, within(loosest));
+    add_row(tile, 0);
+    for (int step = 0; step < most_steps && tile.steepest() > slope_tolerance(); ++step)
+      if (!advance(tile)) break;
+    HarmonicTile last = search_.harmonic(tile.cones, tile.x(), within(options_.tolerance));
+    last.minimum.shapes = std::move(rows_);
+    last.minimum.iterations += iterations_;
+    last.minimum.evaluations += evaluations_;
+    const bool is_shape_found = last.steepest() <= std::max(1000 * slope_tolerance(), 1e-6);
+    if (!is_shape_found && last.minimum.termination == Termination::converged)
+      last.minimum.termination = Termination::max_iterations;
+    return last;
+  }
+
+ private:
+  static constexpr int most_steps = 60;
+
+  // How far a harmonic map may be from its minimum while the shape is far from its own.
+  static constexpr double loosest = 1e-5;
+
+  double slope_tolerance() const { return options_.tolerance; }
+
+  LbfgsOptions within(double tolerance) const {
+    LbfgsOptions options = options_;
+    options.tolerance = std::max(tolerance, options_.tolerance);
+    options.callback = [this](int iteration, const Iteration& state) {
+      stage_.tell({"optimize", iterations_ + iteration, state.energy, state.gradient_norm});
+      return true;
+    };
+    return options;
+  }
+
+  void add_row(const HarmonicTile& tile, double length) {
+    rows_.push_back({tile.minimum.energy, tile.steepest(), length});
+    iterations_ += tile.minimum.iterations;
+    evaluations_ += tile.minimum.evaluations;
+  }
+
+  // One accepted step; false if there is none.
+  bool advance(HarmonicTile& tile) {
+    constexpr int most_trials = 12;
+    const ShapeModel model = search_.model(tile);
+    for (int trial = 0; trial < most_trials; ++trial) {
+      const Eigen::VectorXd step = trust_region_step(model.energy, radius_);
+      const double promised = -model.energy(step), length = step.norm();
+      std::optional<HarmonicTile> next = tile_after(tile, model, step);
+      if (next && is_better(tile, *next, promised)) {
+        adapt_radius((tile.minimum.energy - next->minimum.energy) / promised, length);
+        tile = std::move(*next);
+        add_row(tile, length);
+        return true;
+      }
+      radius_ = length / 3;
+      if (!(length > 1e-14)) break;
+    }
+    return false;
+  }
+
+  std::optional<HarmonicTile> tile_after(const HarmonicTile& tile, const ShapeModel& model,
+                                         const Eigen::VectorXd& step) const {
+    const std::optional<Points> cones = search_.moved_cones(tile, step);
+    if (!cones) return std::nullopt;
+    Points x;
+    move_points(search_.moduli().space(), tile.x(), model.response(step), 1, x);
+    if (!x.allFinite()) x = tile.x();
+    return search_.harmonic(*cones, x, within(std::min(loosest, 1e-4 * tile.steepest())));
+  }
+
+  // Where rounding hides the change of the energy, by its slope.
+  bool is_better(const HarmonicTile& from, const HarmonicTile& to, double promised) const {
+    constexpr double rounding = 1e-12, least_share = 0.05;
+    if (promised <= rounding * from.minimum.energy) return to.steepest() < from.steepest();
+    return from.minimum.energy - to.minimum.energy > least_share * promised;
+  }
+
+  void adapt_radius(double share, double length) {
+    constexpr double widest = 2;
+    if (share > 0.7 && length > 0.8 * radius_) radius_ = std::min(2 * radius_, widest);
+    if (share < 0.25) radius_ = length / 2;
+  }
+
+  const ShapeSearch& search_;
+  const LbfgsOptions& options_;
+  const Stages& stage_;
+  double radius_ = 0.5;
+  int iterations_ = 0, evaluations_ = 0;
+  std::vector<Iteration> rows_;
+};
+
+// Positions of the corners of the first tile: the cones of the doubled polygon, and for all other vertices
+// the mean of these, the nearer ones counting more, so that where cuts branch they lie between.
+Points corners_of_polygon(const GluingProblem& problem, const Moduli& moduli) {
+  const std::vector<int> cones = cones_as_met(problem.cut);
+  const Points polygon = moduli.closed(moduli.doubled_polygon()).value_or(moduli.doubled_polygon());
+  const Points& V = problem.surface.V;
+  Points x(V.rows(), 3);
+  for (Eigen::Index v = 0; v < x.rows(); ++v) {
+    Vector3 sum = Vector3::Zero();
+    for (std::size_t k = 0; k < cones.size(); ++k) {
+      const double squared = (V.row(v) - V.row(cones[k])).squaredNorm();
+      sum += polygon.row(static_cast<Eigen::Index>(k)).transpose() / std::max(squared, 1e-300);
+    }
+    x.row(v) = moduli.space().retract(sum);
+  }
+  for (std::size_t k = 0; k < cones.size(); ++k) x.row(cones[k]) = polygon.row(static_cast<Eigen::Index>(k));
+  return x;
+}
+
+// On the sphere, the harmonic map to R^3 that is glued like the tile, its cones held, moved to the sphere.
+// In the hyperbolic plane, where the energy of maps onto one tile is convex, the start is a matter of speed.
+Points first_map(const GluingProblem& problem, const Target& target, const GluedEdges& glued,
+                 const Points& corners) {
+  const Tile tile = tile_through(target, problem.cut, corners);
+  const BoundaryConditions boundary = glue(problem.cut, tile, target);
+  const LaplacianSolver laplacian(problem.cut, glued, problem.weights, boundary, problem.laplacian);
+  if (!target.space.is_closed())
+    return initial_embedding(problem.surface, problem.cut, tile, boundary, laplacian);
+  Points x = Points::Zero(corners.rows(), 3);
+  for (const int v : problem.cut.marks) x.row(v) = corners.row(v);
+  Points pull = Points::Zero(corners.rows(), 3);
+  for (std::size_t e = 0; e < glued.edges.size(); ++e) {
+    const auto& [i, j, t] = glued.edges[e];
+    const Isometry& g = glued.transforms[t];
+    const Vector3 difference =
+        2 * problem.weights.w[static_cast<Eigen::Index>(e)] * (Vector3(x.row(i)) - g * Vector3(x.row(j)));
+    pull.row(i) += difference;
+    pull.row(j) -= g.inverse_matrix() * difference;
+  }
+  for (const int v : problem.cut.marks) pull.row(v).setZero();
+  x -= laplacian.precondition(pull);
+  boundary.make_feasible(x);
+  return x;
+}
+
+}  // namespace
+
+Minimum curved_map(const GluingProblem& problem, const LbfgsOptions& options, const Stages& stage) {
+  const IntrinsicTriangulation* triangulation = problem.weights.triangulation.get();
+  const Connectivity& connectivity =
+      triangulation ? triangulation->connectivity : problem.surface.connectivity;
+  const EdgeWords edges = edge_words(problem.surface, triangulation, problem.cut);
+  const Dissection dissection = dissect(vertex_neighbors(connectivity.edges, problem.surface.vertex_count()));
+  const std::vector<int> cones = cones_as_met(problem.cut);
+  Points x;
+  Minimum minimum;
+  for (const double area : areas_on_the_way(problem.target)) {
+    const Target target = with_area(problem.target, area);
+    const ShapeSearch search(problem, target, edges, dissection);
+    LbfgsOptions within = options;
+    if (area < free_tile_area(problem.target)) within.tolerance = std::max(options.tolerance, 1e-4);
+    if (x.size() == 0) {
+      const Points corners = corners_of_polygon(problem, search.moduli());
+      const ModuliEnergy energy(search.moduli(), edges, problem.weights, cones);
+      x = first_map(problem, target, energy.glued(corners(cones, Eigen::all)), corners);
+    }
+    const std::optional<Points> start = search.moduli().closed(x(cones, Eigen::all));
+    if (!start)
+      throw MeshError(fmt::format("no tile of {} with an area of {:.4g} is near that of a smaller one",
+                                  problem.target.signature, area));
+    minimum = ShapeDescent(search, within, stage).run(*start, x).minimum;
+    x = minimum.positions;
+  }
+  return minimum;
+}
+
+}  // namespace orbitutte

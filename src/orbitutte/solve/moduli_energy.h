@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// The energy (2) as a function of where the cones lie: what the edges across the cut and at cones feel.
+#pragma once
+
+#include <vector>
+
+#include "orbitutte/mesh/edge_weights.h"
+#include "orbitutte/orbifold/moduli.h"
+#include "orbitutte/solve/edge_words.h"
+
+namespace orbitutte {
+
+/// Of E(x, p) = sum of w_ij d(x_i, g_ij(p) x_j)^2, in which the cones' positions are p_1 .. p_k and the
+/// gluing of each edge is a product of rotations about them, the part that depends on p.
+class ModuliEnergy {
+ public:
+  /// cones: the input vertices of the cones, in the order of the moduli. The arguments must outlive this.
+  ModuliEnergy(const Moduli& moduli, const EdgeWords& edges, const EdgeWeights& weights,
+               std::vector<int> cones);
+
+  /// All edges with their gluing.
+  GluedEdges glued(const Points& cones) const;
+
+  /// x with the cones at their positions; x: n x 3.
+  Points with_cones(Points x, const Points& cones) const;
+
+  /// The energy of the edges that depend on p.
+  double energy(const Points& x, const Points& cones) const;
+
+  /// The gradient of that energy by x (n x 3), covectors as DirichletEnergy has them; zero at the cones.
+  Points gradient(const Points& x, const Points& cones) const;
+
+  /// The derivative of E by steps of the cones (2k numbers: Moduli), all other x being held.
+  Eigen::VectorXd cone_gradient(const Points& x, const Points& cones) const;
+
+ private:
+  std::vector<Isometry> transforms(const Points& cones) const;
+
+  /// Calls visit(edge, w, x_i, g x_j) for every edge that depends on p.
+  template <typename Visit>
+  void for_each(const Points& x, const std::vector<Isometry>& transforms, const Visit& visit) const;
+
+  const Moduli& moduli_;
+  const EdgeWords& edges_;
+  const EdgeWeights& weights_;
+  std::vector<int> cones_;
+
+  /// n: the number of the cone that a vertex is, or -1.
+  std::vector<int> cone_at_;
+
+  /// The edges that depend on p.
+  std::vector<int> dependent_;
+};
+
+}  // namespace orbitutte
