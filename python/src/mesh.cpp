@@ -68,9 +68,9 @@ std::vector<int> extremities(const SourceMesh& mesh, const std::optional<Target>
 
 // The target with these angles, and the vertices of its marks; those may be none, which stands for
 // extremities.
-std::pair<Target, std::vector<int>> cones(const SourceMesh& mesh, const std::string& signature,
-                                          const std::optional<std::vector<int>>& vertices,
-                                          const std::vector<double>& angles) {
+std::pair<Target, std::vector<int>> cones_with_angles(const SourceMesh& mesh, const std::string& signature,
+                                                      const std::optional<std::vector<int>>& vertices,
+                                                      const std::vector<double>& angles) {
   const Surface& surface = *mesh.surface();
   MarkedCones marked = vertices ? marked_cones(surface, signature, *vertices, angles)
                                 : cones_at_extremities(surface, signature, angles);
@@ -93,7 +93,7 @@ void bind_mesh(py::module_& module) {
       .def("info", &info, Release())
       .def("write", &write, Release())
       .def("extremities", &extremities, Release())
-      .def("cones", &cones, Release());
+      .def("cones", &cones_with_angles, Release());
   module.def("families", &families_json);
 }
 
