@@ -53,12 +53,21 @@ class PairResiduals {
   double bound(std::size_t k, double shortest_edge) const {
     const Tolerance& tolerance = seam_.is_mirror() ? on_mirror : across_seam;
     if (is_exact(k)) return std::min(tolerance.share * shortest_edge, largest_residual);
-    const double size = embedding_.positions.row(seam_.left[k]).cwiseAbs().maxCoeff();
+    const double size = rounded_size(k);
     return std::min(std::max(tolerance.share * shortest_edge, tolerance.rounding * size),
                     largest_residual * std::max(size, 1.0));
   }
 
  private:
+  // The size of the numbers that are rounded: in the hyperbolic plane, that of the products with the
+  // transform, which may cancel.
+  double rounded_size(std::size_t k) const {
+    const double left = embedding_.positions.row(seam_.left[k]).cwiseAbs().maxCoeff();
+    if (embedding_.space().curvature() >= 0) return left;
+    const double right = embedding_.positions.row(seam_.right[k]).cwiseAbs().maxCoeff();
+    return std::max(left, seam_.transform.matrix().cwiseAbs().maxCoeff() * right);
+  }
+
   bool is_exact_anywhere() const {
     for (std::size_t k = 0; k < seam_.left.size(); ++k)
       if (is_exact(k)) return true;
