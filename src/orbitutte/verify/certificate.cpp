@@ -128,11 +128,11 @@ Check offsets_check(const Embedding& embedding) {
   return offences.check("offsets");
 }
 
-// By how much more than on the sphere doubles round what is quadratic in these numbers: coordinates in the
+// By how much more than numbers of size one doubles round what is quadratic in these: coordinates in the
 // hyperbolic plane, and entries of its isometries, grow with the exponential of the distance from (0, 0, 1).
 template <typename Numbers>
-double rounding_scale(Space space, const Numbers& numbers) {
-  return space.curvature() < 0 ? std::max(1.0, numbers.cwiseAbs2().maxCoeff()) : 1.0;
+double rounding_scale(const Numbers& numbers) {
+  return std::max(1.0, numbers.cwiseAbs2().maxCoeff());
 }
 
 // In the target's space.
@@ -141,11 +141,10 @@ Check surface_check(const Embedding& embedding) {
   const Points& X = embedding.positions;
   if (!X.allFinite()) return none(name, 1, "a position is not finite");
   const Space space = embedding.space();
-  return at_most(
-      name,
-      parallel_max(static_cast<int>(X.rows()),
-                   [&](int v) { return space.defect(X.row(v)) / rounding_scale(space, X.row(v)); }),
-      unit_bound);
+  return at_most(name,
+                 parallel_max(static_cast<int>(X.rows()),
+                              [&](int v) { return space.defect(X.row(v)) / rounding_scale(X.row(v)); }),
+                 unit_bound);
 }
 
 // How many cut vertices faces use.
@@ -290,7 +289,7 @@ Check transform_check(const Embedding& embedding) {
   const std::vector<Seam>& seams = embedding.seams;
   for (std::size_t s = 0; s < seams.size(); ++s) {
     const Matrix3& M = seams[s].transform.matrix();
-    if (!(embedding.space().isometry_defect(M) < unit_bound * rounding_scale(embedding.space(), M))) {
+    if (!(embedding.space().isometry_defect(M) < unit_bound * rounding_scale(M))) {
       offences.add("the transform of seam {} is no isometry of the {} space", s, embedding.space().name());
     } else if (seams[s].is_mirror() && (M.determinant() > 0 || std::abs(M.trace() - 1) > unit_bound)) {
       offences.add("seam {} is glued to itself by what is no reflection", s);

@@ -59,11 +59,11 @@ class PairResiduals {
   }
 
  private:
-  // The size of the numbers that are rounded: in the hyperbolic plane, that of the products with the
-  // transform, which may cancel.
+  // The size of the numbers that are rounded. In the hyperbolic plane, whose coordinates grow with the
+  // exponential of the distance from (0, 0, 1), the products with the transform may be larger than their
+  // sums.
   double rounded_size(std::size_t k) const {
     const double left = embedding_.positions.row(seam_.left[k]).cwiseAbs().maxCoeff();
-    if (embedding_.space().curvature() >= 0) return left;
     const double right = embedding_.positions.row(seam_.right[k]).cwiseAbs().maxCoeff();
     return std::max(left, seam_.transform.matrix().cwiseAbs().maxCoeff() * right);
   }
