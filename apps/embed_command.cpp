@@ -239,7 +239,7 @@ void summarize(const EmbedArguments& arguments, const BestEmbedding& embedded) {
     tell(
         "the shape of the tile is the surface's own; energy over twice its area {:.6g}, where 1 is "
         "conformal\n",
-        minimum.energy / (2 * result.certificate.expected_area));
+        minimum.energy / (2 * target_area(result.embedding.target)));
   tell("area: within a factor of 4 of the mean scale on {} of the surface, shrunk by more than 64 on {}\n",
        percent(distortion.within_4), percent(distortion.below_64));
   tell("angles: median distortion {:.4g}, where 1 is none\n", distortion.angle.median);

@@ -99,6 +99,13 @@ EmbedOptions options(std::uint64_t cut_seed = 0, WeightKind kind = WeightKind::d
   return result;
 }
 
+/// Cotangents of right angles stay zero, up to rounding.
+EmbedOptions with_cotangents() {
+  EmbedOptions result = options(0, WeightKind::cotan);
+  result.weights.clamp = 1e-15;
+  return result;
+}
+
 EmbedResult embedded(const Case& c, const EmbedOptions& how = options()) {
   return embed(c.mesh, c.target, c.vertices, how);
 }
@@ -175,10 +182,11 @@ TEST(ConeTarget, AnglesThatNoConeHasAreRefused) {
 }
 
 TEST(ConeTarget, EmbeddingSaysBySoMuchTheAnglesAreOff) {
-  Case c = sphere_case(flat_spheres[0]);
-  c.target = cone_target(Topology::sphere, {cone(pi), cone(pi), cone(pi), cone(1.1 * pi)});
+  Case c = disk_case(flat_disks[0]);
+  c.target =
+      cone_target(Topology::disk, {corner(0.5 * pi), corner(0.5 * pi), corner(0.5 * pi), corner(0.6 * pi)});
   EXPECT_THAT(refusal([&] { embedded(c); }),
-              HasSubstr("the angles add up to 12.8805299, 0.314 more than the 12.5663706 of the plane"));
+              HasSubstr("the angles add up to 6.59734457, 0.314 more than the 6.28318531 of the plane"));
 }
 
 TEST(MarkedCones, VerticesOnTheBoundaryAreCornersAndComeLast) {
@@ -252,7 +260,7 @@ TEST(CutTree, WhereMarksFillTheMeshNothingIsBlocked) {
   std::vector<int> marks;
   for (int v = 0; v < 12; ++v) {
     marks.push_back(v);
-    if (v > 0) expect_disk(cut_along_tree(test::unjudged(mesh), marks, v + 1));
+    if (v > 1) expect_disk(cut_along_tree(test::unjudged(mesh), marks, v + 1));
   }
 }
 
@@ -464,7 +472,7 @@ TEST(Cones, RectanglesAndTheirDoublesAreLaidOutAsTheyAre) {
     for (const int sides : {1, 2}) {
       const Flat flat = flat_rectangle(columns, 6, sides);
       const Target target = parse_orbifold(sides == 1 ? "*2222" : "2222");
-      const EmbedResult result = embed(flat.mesh, target, flat.corners, options(0, WeightKind::cotan));
+      const EmbedResult result = embed(flat.mesh, target, flat.corners, with_cotangents());
       EXPECT_TRUE(result.certificate.bijective) << failures(result.certificate);
       EXPECT_NEAR(conformality(result), 1, 1e-12);
       const double scale = std::sqrt(1.0 / (columns * 6));
@@ -497,7 +505,7 @@ TEST(Cones, AnLIsLaidOutAsItIs) {
                                     vertex_at(4, 4), vertex_at(4, 8), vertex_at(0, 8)};
   const Target target = cone_target(Topology::disk, {corner(pi / 2), corner(pi / 2), corner(pi / 2),
                                                      corner(1.5 * pi), corner(pi / 2), corner(pi / 2)});
-  const EmbedResult result = embed(mesh, target, corners, options(0, WeightKind::cotan));
+  const EmbedResult result = embed(mesh, target, corners, with_cotangents());
   EXPECT_TRUE(result.certificate.bijective) << failures(result.certificate);
   EXPECT_NEAR(conformality(result), 1, 1e-12);
   EXPECT_NEAR(result.distortion.angle.max, 1, 1e-6);

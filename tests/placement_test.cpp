@@ -63,7 +63,7 @@ INSTANTIATE_TEST_SUITE_P(AllFamilies, Placement, testing::ValuesIn(signatures_of
 
 // The largest distance of a vertex's position from the nearest image of its position in the other result.
 double largest_difference(const Embedding& one, const Embedding& other, int vertices) {
-  const std::vector<Isometry> group = group_of(one.target, 200).elements();
+  const std::vector<Isometry> group = group_of(one, 200).elements();
   const Points X = one.canonical_positions(), Y = other.canonical_positions();
   double largest = 0;
   for (int v = 0; v < vertices; ++v) {
@@ -136,7 +136,7 @@ TEST_P(Placement, MarkZeroHasAnImageAtTheOrigin) {
   if (marks_.empty()) return;
   for (const std::uint64_t seed : {0, 5, 11}) {
     const Embedding embedding = embedded(seed).embedding;
-    const std::vector<Isometry> group = group_of(embedding.target, 200).elements();
+    const std::vector<Isometry> group = group_of(embedding, 200).elements();
     const Vector3 mark = embedding.canonical_positions().row(marks_[0]);
     EXPECT_TRUE(std::any_of(group.begin(), group.end(),
                             [&](const Isometry& g) { return (g * mark - Space::origin()).norm() < 1e-9; }));

@@ -118,10 +118,15 @@ class TileWalk {
       side.transform = side.space.reflection(Space::line(mirror_.point, mirror_.point + side.direction));
     } else {
       side.direction = Vector3::UnitX();
-      side.transform = partner > s ? product_between(met_, cut_.sides[s].begin, cut_.sides[partner].begin)
-                                   : tile_.sides[partner].transform.inverse();
+      side.transform = partner > s ? gluing(s, partner) : tile_.sides[partner].transform.inverse();
     }
     tile_.sides.push_back(std::move(side));
+  }
+
+  // The product of the rotations in between, which large coordinates take off the isometries by rounding.
+  Isometry gluing(int s, int partner) const {
+    const Isometry product = product_between(met_, cut_.sides[s].begin, cut_.sides[partner].begin);
+    return target_.space.nearest_isometry(product.matrix());
   }
 
   // From the mirror before to that of side s: around the corner between them, and behind the cuts that end

@@ -343,6 +343,7 @@ Minimum curved_map(const GluingProblem& problem, const LbfgsOptions& options, co
     const Target target = with_area(problem.target, area);
     const ShapeSearch search(problem, target, edges, dissection);
     LbfgsOptions within = options;
+    within.tolerance *= 0.1;  // so that other cuts give the same lengths to ten times the tolerance
     if (area < free_tile_area(problem.target)) within.tolerance = std::max(options.tolerance, 1e-4);
     if (x.size() == 0) {
       const Points corners = corners_of_polygon(problem, search.moduli());

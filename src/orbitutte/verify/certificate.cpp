@@ -16,6 +16,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <span>
@@ -128,11 +129,14 @@ Check offsets_check(const Embedding& embedding) {
   return offences.check("offsets");
 }
 
-// By how much more than numbers of size one doubles round what is quadratic in these: coordinates in the
-// hyperbolic plane, and entries of its isometries, grow with the exponential of the distance from (0, 0, 1).
-template <typename Numbers>
-double rounding_scale(const Numbers& numbers) {
-  return std::max(1.0, numbers.cwiseAbs2().maxCoeff());
+// By how much more than on the sphere doubles round what is quadratic in coordinates as large as this one: in
+// the hyperbolic plane they grow with the exponential of the distance from (0, 0, 1).
+double rounding_scale(double height) { return std::max(1.0, height * height); }
+
+// By how much a point misses the space, in units of what doubles round there.
+double relative_defect(Space space, const Vector3& p) {
+  const double defect = space.defect(p) / rounding_scale(p.z());
+  return std::isfinite(defect) ? defect : std::numeric_limits<double>::infinity();
 }
 
 // In the target's space.
@@ -141,10 +145,9 @@ Check surface_check(const Embedding& embedding) {
   const Points& X = embedding.positions;
   if (!X.allFinite()) return none(name, 1, "a position is not finite");
   const Space space = embedding.space();
-  return at_most(name,
-                 parallel_max(static_cast<int>(X.rows()),
-                              [&](int v) { return space.defect(X.row(v)) / rounding_scale(X.row(v)); }),
-                 unit_bound);
+  return at_most(
+      name, parallel_max(static_cast<int>(X.rows()), [&](int v) { return relative_defect(space, X.row(v)); }),
+      unit_bound);
 }
 
 // How many cut vertices faces use.
@@ -289,7 +292,7 @@ Check transform_check(const Embedding& embedding) {
   const std::vector<Seam>& seams = embedding.seams;
   for (std::size_t s = 0; s < seams.size(); ++s) {
     const Matrix3& M = seams[s].transform.matrix();
-    if (!(embedding.space().isometry_defect(M) < unit_bound * rounding_scale(M))) {
+    if (!(embedding.space().isometry_defect(M) < unit_bound * rounding_scale(M(2, 2)))) {
       offences.add("the transform of seam {} is no isometry of the {} space", s, embedding.space().name());
     } else if (seams[s].is_mirror() && (M.determinant() > 0 || std::abs(M.trace() - 1) > unit_bound)) {
       offences.add("seam {} is glued to itself by what is no reflection", s);
