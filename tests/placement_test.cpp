@@ -115,7 +115,7 @@ TEST_P(Placement, VerticesAreLocatedWhereTheyAreInAnyOtherResult) {
 TEST_P(Placement, ExchangedMarksAreSeen) {
   if (marks_.size() < 3) return;
   const EmbedResult first = embedded(0);
-  std::swap(marks_[1], marks_[2]);
+  std::swap(marks_[1], marks_.back());  // boundaries meet marks in their order or against it
   EXPECT_GT(largest_difference(first.embedding, embedded(0).embedding, test::vertex_count(mesh_)), 1e-3);
 }
 

@@ -203,6 +203,26 @@ Eigen::MatrixXd closing_conditions(const Target& target, const CutMesh& cut) {
   return matrix;
 }
 
+// The shortest of all p + m u + n v with whole m and n. u and v are reduced first (Lagrange and Gauss).
+Vector3 nearest_modulo(const Vector3& p, Vector3 u, Vector3 v) {
+  for (;;) {
+    if (u.squaredNorm() > v.squaredNorm()) std::swap(u, v);
+    const double times = std::round(u.dot(v) / u.squaredNorm());
+    if (!(std::abs(times) >= 1)) break;
+    v -= times * u;
+  }
+  Eigen::Matrix<double, 3, 2> lattice;
+  lattice << u, v;
+  const Eigen::Vector2d nearest = lattice.colPivHouseholderQr().solve(p).array().round();
+  const Vector3 start = p - lattice * nearest;
+  Vector3 best = start;
+  for (int m = -1; m <= 1; ++m)
+    for (int n = -1; n <= 1; ++n)
+      if (const Vector3 other = start + m * u + n * v; other.squaredNorm() < best.squaredNorm() * (1 - 1e-9))
+        best = other;
+  return best;
+}
+
 }  // namespace
 
 Tile tile_through(const Target& target, const CutMesh& cut, const Points& positions) {
@@ -248,6 +268,15 @@ Moduli moduli_of(const Target& target, const CutMesh& cut) {
   std::vector<double> angles;
   for (const int mark : cut.arrangement) angles.push_back(target.marks[mark].angle);
   return {target.space, std::move(angles)};
+}
+
+Vector3 point_towards_x(const Target& target, const CutMesh& cut, const Points& positions) {
+  const auto from_first = [&](int k) -> Vector3 {
+    return positions.row(cut.marks[k]) - positions.row(cut.marks[0]);
+  };
+  const bool is_pillow = target.symbol.rotations.size() == 4 && target.space == Space::plane();
+  if (!is_pillow) return positions.row(cut.marks[1]);
+  return nearest_modulo(from_first(1), 2 * from_first(1), 2 * from_first(2));
 }
 
 Tile any_tile(const Target& target, const CutMesh& cut) {

@@ -51,6 +51,11 @@ std::vector<int> cones_as_met(const CutMesh& cut);
 /// The shapes of a curved target of the sphere's topology. Throws ArgumentError if there are none (Moduli).
 Moduli moduli_of(const Target& target, const CutMesh& cut);
 
+/// Of a map (n x 3) whose first mark lies at (0, 0, 1), a point that has the direction which x has in the
+/// canonical frame: the second mark. For 2222, whose group has many images of it, the nearest of these, or
+/// the one opposite to it, so that it does not depend on the cut.
+Vector3 point_towards_x(const Target& target, const CutMesh& cut, const Points& positions);
+
 /// A tile of some shape: in the plane, the linear parts of its gluings are those of all others; a curved one
 /// is made from a doubled polygon. Throws as moduli_of does.
 Tile any_tile(const Target& target, const CutMesh& cut);

@@ -214,7 +214,7 @@ class ShapeDescent {
   // How far a harmonic map may be from its minimum while the shape is far from its own.
   static constexpr double loosest = 1e-5;
 
-  double slope_tolerance() const { return options_.tolerance; }
+  double slope_tolerance() const { return 0.05 * options_.tolerance; }
 
   LbfgsOptions within(double tolerance) const {
     LbfgsOptions options = options_;

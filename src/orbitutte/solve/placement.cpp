@@ -77,7 +77,7 @@ void fix_poles(const GluingProblem& problem, Placement& placed) {
 // any vertex.
 Vector3 point_to_turn(const GluingProblem& problem, const Placement& placed) {
   const Points& positions = placed.minimum.positions;
-  if (problem.target.has_free_tile) return positions.row(problem.cut.marks[1]);
+  if (problem.target.has_free_tile) return point_towards_x(problem.target, problem.cut, positions);
   return highest_image(positions.row(vertex_far_from_poles(placed.boundary, positions)), placed.tile);
 }
 

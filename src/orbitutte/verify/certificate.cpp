@@ -133,21 +133,16 @@ Check offsets_check(const Embedding& embedding) {
 // the hyperbolic plane they grow with the exponential of the distance from (0, 0, 1).
 double rounding_scale(double height) { return std::max(1.0, height * height); }
 
-// By how much a point misses the space, in units of what doubles round there.
-double relative_defect(Space space, const Vector3& p) {
-  const double defect = space.defect(p) / rounding_scale(p.z());
-  return std::isfinite(defect) ? defect : std::numeric_limits<double>::infinity();
-}
-
 // In the target's space.
 Check surface_check(const Embedding& embedding) {
   const std::string name = "unit_positions";
   const Points& X = embedding.positions;
   if (!X.allFinite()) return none(name, 1, "a position is not finite");
   const Space space = embedding.space();
-  return at_most(
-      name, parallel_max(static_cast<int>(X.rows()), [&](int v) { return relative_defect(space, X.row(v)); }),
-      unit_bound);
+  const double scale = rounding_scale(X.col(2).cwiseAbs().maxCoeff());  // copies are products of such numbers
+  const double defect =
+      parallel_max(static_cast<int>(X.rows()), [&](int v) { return space.defect(X.row(v)); }) / scale;
+  return at_most(name, std::isfinite(defect) ? defect : std::numeric_limits<double>::infinity(), unit_bound);
 }
 
 // How many cut vertices faces use.
