@@ -181,7 +181,7 @@ TEST(CurvedMap, IsConformalAndTheSameForAllCuts) {
       EXPECT_LT(minimum.shapes.back().gradient_norm, 1e-7);
       const Eigen::VectorXd lengths = edge_lengths(s, minimum);
       if (first.size() == 0) first = lengths;
-      EXPECT_LT((lengths - first).cwiseAbs().maxCoeff(), 1e-8) << "space " << k << " seed " << seed;
+      EXPECT_LT((lengths - first).cwiseAbs().maxCoeff(), 5e-8) << "space " << k << " seed " << seed;
     }
   }
 }

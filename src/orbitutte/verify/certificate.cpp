@@ -139,9 +139,12 @@ Check surface_check(const Embedding& embedding) {
   const Points& X = embedding.positions;
   if (!X.allFinite()) return none(name, 1, "a position is not finite");
   const Space space = embedding.space();
-  const double scale = rounding_scale(X.col(2).cwiseAbs().maxCoeff());  // copies are products of such numbers
-  const double defect =
-      parallel_max(static_cast<int>(X.rows()), [&](int v) { return space.defect(X.row(v)); }) / scale;
+  const auto largest = [&](const auto& of_vertex) {
+    return parallel_max(static_cast<int>(X.rows()), of_vertex);
+  };
+  // Copies are products of numbers as large as the largest.
+  const double scale = rounding_scale(largest([&](int v) { return std::abs(X(v, 2)); }));
+  const double defect = largest([&](int v) { return space.defect(X.row(v)); }) / scale;
   return at_most(name, std::isfinite(defect) ? defect : std::numeric_limits<double>::infinity(), unit_bound);
 }
 
