@@ -460,8 +460,10 @@ BestEmbedding embed_best(const std::shared_ptr<const Surface>& surface, const Ch
       }
     }
     if (best.taken < 0) throw MeshError(first_refusal);
-    if (asks_for_quotient(options.embed.quotient))
+    if (options.embed.quotient.is_wanted)
       best.result = quotient_of(*surface, best.result, options.embed);
+    else if (asks_for_quotient(options.embed.quotient))
+      best.result = embed(*surface, best.choice().target, best.choice().cones, options.embed);  // refuses it
     best.result.timings.insert(best.result.timings.begin(), {"choose", choosing.seconds()});
     add_warnings(best);
     return best;

@@ -18,7 +18,7 @@ namespace orbitutte {
 ///     L u = K - a M - sum over cones of kappa_v delta_v,
 /// with the Laplacian L of the weights, the shares M of the vertices in the surface's area, the curvature
 /// kappa_v of each cone, and the rest a, spread evenly (BFF: R. Sawhney, K. Crane, "Boundary first
-/// flattening", ACM TOG 37 (2018), equation (3)). All curvatures together are 2 pi chi, so
+/// flattening", ACM TOG 37 (2018), its (3)). All curvatures together are 2 pi chi, so
 ///     u = u_0 - sum of kappa_v c_v,  L u_0 = K - 2 pi chi M,  L c_v = delta_v - M,
 /// all of mean zero. sigma^2, the variance of u, needs products of these functions alone, and the products of
 /// one c_v with all others are a single vector, its potential L^-1 M c_v.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A step of a trust-region method in a few unknowns, by the eigenvalues of the Hessian (J. Nocedal, S. J.
-// Wright, "Numerical Optimization", section 4.3).
+// Wright, "Numerical Optimization", chapter 4.3).
 #pragma once
 
 #include <Eigen/Core>
