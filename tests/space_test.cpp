@@ -307,8 +307,9 @@ TEST_P(EverySpace, ManyPointsAreMovedAndRetractedAsOneIs) {
   for (int i = 0; i < 30; ++i) {
     const Vector3 step = 0.01 * space().tangent(p[i], v[i]);
     const double length = space().norm(step);
-    const Vector3 expected = space() == Space::hyperbolic_plane() ? Vector3(std::hypot(1, length) * p[i] + step)
-                                                             : space().retract(p[i] + step);
+    const Vector3 expected = space() == Space::hyperbolic_plane()
+                                 ? Vector3(std::hypot(1, length) * p[i] + step)
+                                 : space().retract(p[i] + step);
     EXPECT_LE((moved.row(i).transpose() - expected).norm(), 1e-13 * expected.norm());
     EXPECT_LE((retracted.row(i).transpose() - p[i]).norm(), 1e-14);
   }
