@@ -311,7 +311,9 @@ WholeMap whole_map(const EmbedRequest& request) {
 EmbedResult quotient_by_group(const EmbedRequest& request, const WholeMap& wanted, const EmbedResult& base,
                               EmbeddingCache& cache) {
   const Surface& surface = request.prepared.surface;
-  const auto& [from, onto, options] = wanted;
+  const BaseMap& from = wanted.from;
+  const Target& onto = wanted.onto;
+  const QuotientOptions& options = wanted.options;
   const EmbedRequest whole = {request.prepared, onto, from.cones, request.options};
 
   EmbedResult result = begin_quotient(from, base, options);

@@ -54,9 +54,9 @@ ScaleKernel::ScaleKernel(const Surface& surface, const EdgeWeights& weights, Bac
   measure();
   const Neighbors near = vertex_neighbors(edges_with_weights(surface, weights), surface.vertex_count());
   unknowns_ = number_unknowns(dissect(near).order, unknown_counts(surface.triangles, surface.vertex_count()));
-  const Block one = Block::Ones(1, 1);
-  factor_ = factorize_laplacian(assemble(unknowns_, near, weights.w, [&](int, int) { return one; }),
-                                unknowns_, backend);
+  factor_ = factorize_laplacian(
+      assemble(unknowns_, near, weights.w, [](int, int) -> Block { return Block::Ones(1, 1); }), unknowns_,
+      backend);
   const Eigen::VectorXd even = solve(curvature_ - curvature_.sum() * share_);
   even_variance_ = even.cwiseAbs2().dot(share_);
   even_potential_ = solve(even.cwiseProduct(share_));
