@@ -170,6 +170,7 @@ Eigen::Matrix<double, 3, 2> Moduli::frame(const Vector3& p) const {
 
 std::vector<Isometry> Moduli::rotations(const Points& marks) const {
   std::vector<Isometry> result;
+  result.reserve(mark_count());
   for (int i = 0; i < mark_count(); ++i) result.push_back(space_.rotation(marks.row(i), angles_[i]));
   return result;
 }
@@ -285,6 +286,7 @@ std::optional<Points> Moduli::retract(const Points& marks, const Eigen::VectorXd
 bool Moduli::encloses_area(const Points& marks) const {
   if (space_.curvature() == 0) return true;
   std::vector<Vector3> corners;
+  corners.reserve(mark_count());
   for (int i = 0; i < mark_count(); ++i) corners.emplace_back(marks.row(i));
   const std::vector<Isometry> rotation = rotations(marks);
   Isometry gluing;

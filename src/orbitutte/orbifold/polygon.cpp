@@ -192,6 +192,7 @@ namespace {
 
 std::vector<Mark> marks_of_cones(const std::vector<ConeCopies>& cones) {
   std::vector<Mark> marks;
+  marks.reserve(cones.size());
   for (const ConeCopies& cone : cones) marks.push_back(cone.mark);
   return marks;
 }
