@@ -109,7 +109,7 @@ double kernel_residual(const Cover& cover, const SymmetryGroup& group, const Vec
 }
 
 // The unknowns of one representation. Those of vertex i begin at start[i]; they are coordinates in basis[i].
-struct Unknowns {
+struct CoverUnknowns {
   std::vector<int> start;       // n + 1
   std::vector<MatrixXd> basis;  // n; empty for the standard basis of the whole space
 
@@ -117,9 +117,9 @@ struct Unknowns {
   int count() const { return start.back(); }
 };
 
-Unknowns unknowns_of(const Cover& cover, const Representation& rho, const VectorXd& scale) {
+CoverUnknowns unknowns_of(const Cover& cover, const Representation& rho, const VectorXd& scale) {
   const int n = static_cast<int>(cover.positions.rows());
-  Unknowns result = {std::vector<int>(n + 1, 0), std::vector<MatrixXd>(n)};
+  CoverUnknowns result = {std::vector<int>(n + 1, 0), std::vector<MatrixXd>(n)};
   for (int i = 0; i < n; ++i) {
     int free = scale[i] == 0 ? 0 : rho.dimension;
     if (free > 0 && !cover.stabilizers[i].empty()) {
@@ -132,7 +132,7 @@ Unknowns unknowns_of(const Cover& cover, const Representation& rho, const Vector
 }
 
 // The block of W in the rows of i's unknowns and the columns of j's.
-MatrixXd block(const CoverEdge& e, const Representation& rho, const Unknowns& unknowns) {
+MatrixXd block(const CoverEdge& e, const Representation& rho, const CoverUnknowns& unknowns) {
   const MatrixXd &left = unknowns.basis[e.i], &right = unknowns.basis[e.j];
   MatrixXd result = -coupling(e) * rho.matrices[e.g];
   if (left.size() > 0) result = left.transpose() * result;
@@ -147,12 +147,13 @@ void add_lower(int row, int column, double value, Entries& entries) {
 }
 
 // Away from the seams rho(1) = 1 does not couple the components of x.
-void add_scalar_edge(const CoverEdge& e, const Unknowns& unknowns, Entries& entries) {
+void add_scalar_edge(const CoverEdge& e, const CoverUnknowns& unknowns, Entries& entries) {
   for (int k = 0; k < unknowns.of(e.i); ++k)
     add_lower(unknowns.start[e.i] + k, unknowns.start[e.j] + k, -coupling(e), entries);
 }
 
-void add_edge(const CoverEdge& e, const Representation& rho, const Unknowns& unknowns, Entries& entries) {
+void add_edge(const CoverEdge& e, const Representation& rho, const CoverUnknowns& unknowns,
+              Entries& entries) {
   if (unknowns.of(e.i) == 0 || unknowns.of(e.j) == 0) return;
   if (e.g == 0 && unknowns.basis[e.i].size() == 0 && unknowns.basis[e.j].size() == 0) {
     add_scalar_edge(e, unknowns, entries);
@@ -166,7 +167,7 @@ void add_edge(const CoverEdge& e, const Representation& rho, const Unknowns& unk
 }
 
 // Gives every unknown the value of its vertex.
-VectorXd by_unknown(const VectorXd& by_vertex, const Unknowns& unknowns) {
+VectorXd by_unknown(const VectorXd& by_vertex, const CoverUnknowns& unknowns) {
   VectorXd result(unknowns.count());
   for (Eigen::Index i = 0; i < by_vertex.size(); ++i)
     result.segment(unknowns.start[i], unknowns.of(static_cast<int>(i))).setConstant(by_vertex[i]);
@@ -174,7 +175,7 @@ VectorXd by_unknown(const VectorXd& by_vertex, const Unknowns& unknowns) {
 }
 
 // The lower triangle of the part of W that belongs to rho.
-SymmetricMatrix assemble(const Cover& cover, const Representation& rho, const Unknowns& unknowns) {
+SymmetricMatrix assemble(const Cover& cover, const Representation& rho, const CoverUnknowns& unknowns) {
   Entries entries;
   entries.reserve(unknowns.count() + cover.edges.size() * rho.dimension);
   const VectorXd diagonal = by_unknown(sum_at_vertices(cover, diagonal_part), unknowns);
@@ -205,14 +206,14 @@ struct Problem {
   InertiaMethod method;
 };
 
-std::unique_ptr<InertiaCounter> counter_of(const Representation& rho, const Unknowns& unknowns,
+std::unique_ptr<InertiaCounter> counter_of(const Representation& rho, const CoverUnknowns& unknowns,
                                            const Problem& problem) {
   return inertia_counter(assemble(problem.cover, rho, unknowns), by_unknown(problem.scale, unknowns),
                          problem.method);
 }
 
 RepresentationInertia inertia_of(const Representation& rho, const Problem& problem) {
-  const Unknowns unknowns = unknowns_of(problem.cover, rho, problem.scale);
+  const CoverUnknowns unknowns = unknowns_of(problem.cover, rho, problem.scale);
   RepresentationInertia part;
   part.dimension = rho.dimension;
   part.multiplicity = rho.multiplicity;
@@ -322,7 +323,7 @@ long cover_eigenvalues_below(const Surface& surface, const EdgeWeights& weights,
   const Problem problem = {cover, group, vertex_scale(cover), least_shift, options.method};
   long below = 0;
   for (const Representation& rho : irreducible_representations(group)) {
-    const Unknowns unknowns = unknowns_of(cover, rho, problem.scale);
+    const CoverUnknowns unknowns = unknowns_of(cover, rho, problem.scale);
     if (unknowns.count() > 0)
       below += rho.multiplicity * counter_of(rho, unknowns, problem)->eigenvalues_below(shift);
   }
