@@ -168,6 +168,7 @@ class ShapeSearch {
     const auto unit = [&](int a) -> Eigen::VectorXd { return h * Eigen::VectorXd::Unit(count, a); };
     const double here = energy_.energy(tile.x(), tile.cones);
     std::vector<double> alone;  // the sum of both directions
+    alone.reserve(count);
     for (int a = 0; a < count; ++a) alone.push_back(at(unit(a)) + at(-unit(a)));
     Eigen::MatrixXd result(count, count);
     for (int a = 0; a < count; ++a) {
