@@ -35,7 +35,7 @@ struct Arguments {
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "orbitutte-io-XXXXXX").string();
+    std::string name = (fs::temp_directory_path() / ("orbitutte-io-" + std::string(6, 'X'))).string();
     if (::mkdtemp(name.data()) == nullptr) throw FileError(name + ": cannot be created");
     path_ = name;
   }

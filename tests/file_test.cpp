@@ -29,7 +29,7 @@ using testing::StartsWith;
 class File : public testing::Test {
  protected:
   File() {
-    std::string name = (fs::temp_directory_path() / "orbitutte-XXXXXX").string();
+    std::string name = (fs::temp_directory_path() / ("orbitutte-" + std::string(6, 'X'))).string();
     folder_ = ::mkdtemp(name.data());
   }
   ~File() override { fs::remove_all(folder_); }

@@ -303,10 +303,6 @@ EmbedOptions without_quotient(EmbedOptions options) {
   return options;
 }
 
-bool asks_for_quotient(const QuotientOptions& options) {
-  return options.is_wanted || options.centre || !options.points.empty();
-}
-
 // Which rows of the table are moved to where they are best, vertex by vertex.
 enum class Polished { all, contenders };
 
@@ -437,6 +433,9 @@ Candidates cone_candidates(const Surface& surface) {
 
 BestEmbedding embed_best(const std::shared_ptr<const Surface>& surface, const ChooseOptions& options) {
   return with_threads_for(options, [&] {
+    if (!options.embed.quotient.is_wanted)
+      require_no_quotient_options(options.embed.quotient,
+                                  options.target ? options.target->signature : "the best orbifold");
     Choosing choosing(surface, options, Polished::contenders);
     BestEmbedding best = {options.objective, choosing.table(), -1, {}};
     std::string first_refusal;
@@ -460,10 +459,7 @@ BestEmbedding embed_best(const std::shared_ptr<const Surface>& surface, const Ch
       }
     }
     if (best.taken < 0) throw MeshError(first_refusal);
-    if (options.embed.quotient.is_wanted)
-      best.result = quotient_of(*surface, best.result, options.embed);
-    else if (asks_for_quotient(options.embed.quotient))
-      best.result = embed(*surface, best.choice().target, best.choice().cones, options.embed);  // refuses it
+    if (options.embed.quotient.is_wanted) best.result = quotient_of(*surface, best.result, options.embed);
     best.result.timings.insert(best.result.timings.begin(), {"choose", choosing.seconds()});
     add_warnings(best);
     return best;

@@ -351,14 +351,6 @@ auto with_threads_of(const EmbedOptions& options, const Compute& compute) {
   return with_threads(options.threads, compute);
 }
 
-// What is asked of a quotient means nothing to another map.
-void require_no_quotient_options(const QuotientOptions& options, const Target& target) {
-  if (options.centre || !options.points.empty())
-    throw ArgumentError(fmt::format(
-        "{} is no map to the whole sphere, which could be centred; ask for its quotient, or for 1 or *",
-        target.signature));
-}
-
 // Validates, as the first stage, what is then embedded. validate() returns the prepared surface.
 template <typename Validate>
 EmbedResult embed_validated(const Validate& validate, const Target& target, const std::vector<int>& cones,
@@ -370,7 +362,7 @@ EmbedResult embed_validated(const Validate& validate, const Target& target, cons
     const EmbedRequest request = {prepared, target, cones, options};
     require_fit(request);
     const bool is_quotient = target.marks.empty() || options.quotient.is_wanted;
-    if (!is_quotient) require_no_quotient_options(options.quotient, target);
+    if (!is_quotient) require_no_quotient_options(options.quotient, target.signature);
     EmbedResult result =
         is_quotient ? embed_quotient(request, cache) : embed_with_some_weights(request, cache);
     result.timings.insert(result.timings.begin(), timings.begin(), timings.end());

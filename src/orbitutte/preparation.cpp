@@ -113,6 +113,13 @@ void require_fit(const EmbedRequest& request) {
   require_no_edge(request.prepared.surface.connectivity, opposite_vertices(request), target);
 }
 
+void require_no_quotient_options(const QuotientOptions& options, const std::string& onto) {
+  if (options.centre || !options.points.empty())
+    throw ArgumentError(fmt::format(
+        "{} is no map to the whole sphere, which could be centred; ask for its quotient, or for 1 or *",
+        onto));
+}
+
 EdgeWeights find_weights(const EmbedRequest& request, KnownWeights& known) {
   const Surface& surface = request.prepared.surface;
   const EmbedOptions& options = request.options;

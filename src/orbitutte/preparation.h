@@ -79,6 +79,10 @@ void require_fit(const EmbedRequest& request);
 /// names it and both remedies.
 void require_topology(const Surface& surface, const Target& target);
 
+/// Throws ArgumentError if the options ask for what means nothing unless a quotient is wanted. `onto` is what
+/// the map is onto, for the message.
+void require_no_quotient_options(const QuotientOptions& options, const std::string& onto);
+
 /// The weights (section 4), those of a metric that is flat at the cones.
 EdgeWeights find_weights(const EmbedRequest& request, KnownWeights& known);
 

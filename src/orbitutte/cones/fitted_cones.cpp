@@ -204,21 +204,8 @@ class ConePolish {
 
   // At one, two, four ... 32 edges from a vertex, the vertex of its kind with the greatest promise.
   std::vector<int> best_of_rings(int vertex, const Eigen::VectorXd& promise) const {
-    constexpr int farthest = 32;
-    std::vector<int> ring = {vertex}, before, result;
-    for (int distance = 1; distance <= farthest && !ring.empty(); ++distance) {
-      std::vector<int> next;
-      for (const int v : ring)
-        for (int k = neighbors_.start[v]; k < neighbors_.start[v + 1]; ++k)
-          next.push_back(neighbors_.neighbor[k]);
-      std::sort(next.begin(), next.end());
-      next.erase(std::unique(next.begin(), next.end()), next.end());
-      std::erase_if(next, [&](int v) {
-        return std::binary_search(ring.begin(), ring.end(), v) ||
-               std::binary_search(before.begin(), before.end(), v);
-      });
-      before = std::exchange(ring, std::move(next));
-      if ((distance & (distance - 1)) != 0) continue;
+    std::vector<int> result;
+    for (const std::vector<int>& ring : doubling_rings(neighbors_, vertex)) {
       int best = -1;
       for (const int v : ring)
         if (kernel_.flat_angle(v) == kernel_.flat_angle(vertex) && !is_among(cones_, v) &&

@@ -15,14 +15,6 @@ Topology topology_of(const std::string& signature) {
   return signature == cones_signature ? Topology::sphere : Topology::disk;
 }
 
-// By vertex: does it lie on the boundary of a disk?
-std::vector<char> boundary_of_disk(const Surface& surface) {
-  std::vector<char> on_boundary(surface.vertex_count(), 0);
-  for (int h = 0; h < static_cast<int>(surface.triangles.size()); ++h)
-    if (surface.connectivity.opposite[h] < 0) on_boundary[halfedge_origin(surface.triangles, h)] = 1;
-  return on_boundary;
-}
-
 }  // namespace
 
 bool takes_angles(const std::string& signature) {
@@ -35,7 +27,7 @@ MarkedCones marked_cones(const Surface& surface, const std::string& signature,
     throw ArgumentError(
         fmt::format("there are {} marked vertices, but {} angles; give one angle for each vertex",
                     vertices.size(), angles.size()));
-  const std::vector<char> on_boundary = boundary_of_disk(surface);
+  const std::vector<char> on_boundary = surface.boundary_vertices();
   const Topology topology = topology_of(signature);
   const auto is_corner = [&](int v) {
     return topology == Topology::disk && v >= 0 && v < surface.vertex_count() && on_boundary[v] != 0;

@@ -28,12 +28,6 @@ std::array<double, 3> angles_of_triangle(const Points& V, const Eigen::RowVector
   return result;
 }
 
-double area_of_triangle(const Points& V, const Eigen::RowVector3i& corners) {
-  const Vector3 p = V.row(corners[0]), u = V.row(corners[1]).transpose() - p,
-                v = V.row(corners[2]).transpose() - p;
-  return u.cross(v).norm() / 2;
-}
-
 const std::vector<std::array<int, 2>>& edges_with_weights(const Surface& surface,
                                                           const EdgeWeights& weights) {
   return weights.triangulation ? weights.triangulation->connectivity.edges : surface.connectivity.edges;
@@ -71,12 +65,13 @@ void ScaleKernel::measure() {
   share_.setZero(n);
   flat_angle_.assign(n, 0);
   for (const int v : F.reshaped()) flat_angle_[v] = 2 * pi;
-  for (int h = 0; h < static_cast<int>(F.size()); ++h)
-    if (surface_.connectivity.opposite[h] < 0) flat_angle_[halfedge_origin(F, h)] = pi;
+  const std::vector<char> on_boundary = surface_.boundary_vertices();
+  for (int v = 0; v < n; ++v)
+    if (on_boundary[v]) flat_angle_[v] = pi;
   for (int v = 0; v < n; ++v) curvature_[v] = flat_angle_[v];
   for (Eigen::Index f = 0; f < F.rows(); ++f) {
     const std::array<double, 3> angles = angles_of_triangle(surface_.V, F.row(f));
-    const double third = area_of_triangle(surface_.V, F.row(f)) / 3;
+    const double third = surface_.area(f) / 3;
     for (int i = 0; i < 3; ++i) {
       curvature_[F(f, i)] -= angles[i];
       share_[F(f, i)] += third;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "orbitutte/orbifold/signature.h"
 
@@ -81,6 +82,26 @@ Candidates spread_candidates(const Surface& surface, const Candidates& first, in
           farthest_first(surface.V, all.on_boundary, first.on_boundary, count)};
 }
 
+std::vector<std::vector<int>> doubling_rings(const Neighbors& neighbors, int vertex) {
+  constexpr int farthest = 32;
+  std::vector<int> ring = {vertex}, before;
+  std::vector<std::vector<int>> result;
+  for (int distance = 1; distance <= farthest && !ring.empty(); ++distance) {
+    std::vector<int> next;
+    for (const int v : ring)
+      for (int k = neighbors.start[v]; k < neighbors.start[v + 1]; ++k) next.push_back(neighbors.neighbor[k]);
+    std::sort(next.begin(), next.end());
+    next.erase(std::unique(next.begin(), next.end()), next.end());
+    std::erase_if(next, [&](int v) {  // neighbours lie in the same ring, or in one beside it
+      return std::binary_search(ring.begin(), ring.end(), v) ||
+             std::binary_search(before.begin(), before.end(), v);
+    });
+    before = std::exchange(ring, std::move(next));
+    if ((distance & (distance - 1)) == 0) result.push_back(ring);
+  }
+  return result;
+}
+
 ConeSearch::ConeSearch(ScaleField& field, const Surface& surface, const Neighbors& neighbors,
                        Objective objective)
     : field_(field), neighbors_(neighbors), objective_(objective), is_outer_(surface.boundary_vertices()) {}
@@ -144,22 +165,11 @@ Score ConeSearch::descend(MarkedTarget& choice, const Candidates& candidates, co
 }
 
 std::vector<int> ConeSearch::rings_around(int vertex) const {
-  constexpr int farthest = 32, of_each = 8;
-  std::vector<int> ring = {vertex}, seen = {vertex}, result;
-  for (int distance = 1; distance <= farthest && !ring.empty(); ++distance) {
-    std::vector<int> next;
-    for (const int v : ring)
-      for (int k = neighbors_.start[v]; k < neighbors_.start[v + 1]; ++k)
-        next.push_back(neighbors_.neighbor[k]);
-    std::sort(next.begin(), next.end());
-    next.erase(std::unique(next.begin(), next.end()), next.end());
-    std::erase_if(next, [&](int v) { return std::binary_search(seen.begin(), seen.end(), v); });
-    ring = next;
-    seen.insert(seen.end(), ring.begin(), ring.end());
-    std::sort(seen.begin(), seen.end());
-    if ((distance & (distance - 1)) != 0) continue;
-    std::erase_if(next, [&](int v) { return is_outer_[v] != is_outer_[vertex]; });
-    for (const int v : thinned(next, of_each)) result.push_back(v);
+  constexpr int of_each = 8;
+  std::vector<int> result;
+  for (std::vector<int> ring : doubling_rings(neighbors_, vertex)) {
+    std::erase_if(ring, [&](int v) { return is_outer_[v] != is_outer_[vertex]; });
+    for (const int v : thinned(ring, of_each)) result.push_back(v);
   }
   return result;
 }

@@ -68,6 +68,9 @@ struct Freedom {
   bool orders_move = false;
 };
 
+/// The vertices at one, two, four ... 32 edges from a vertex: a ring each, ascending.
+std::vector<std::vector<int>> doubling_rings(const Neighbors& neighbors, int vertex);
+
 /// Coordinate descent over the vertices of the marks.
 class ConeSearch {
  public:

@@ -82,13 +82,6 @@ std::vector<int> outgoing_halfedges(const Triangles& F, const std::vector<int>& 
   return result;
 }
 
-std::vector<char> boundary_vertices(const std::vector<int>& outgoing, const std::vector<int>& opposite) {
-  std::vector<char> on_boundary(outgoing.size(), 0);
-  for (std::size_t v = 0; v < outgoing.size(); ++v)
-    on_boundary[v] = outgoing[v] >= 0 && opposite[outgoing[v]] < 0;
-  return on_boundary;
-}
-
 void check_marks(const std::vector<int>& marks, const std::vector<int>& outgoing) {
   const int n = static_cast<int>(outgoing.size());
   for (std::size_t k = 0; k < marks.size(); ++k) {
@@ -406,7 +399,7 @@ CutMesh cut_to_disk(const Surface& surface, const std::vector<int>& marks, int i
   const std::vector<int>& opposite = surface.connectivity.opposite;
   const std::vector<int> outgoing = outgoing_halfedges(surface.triangles, opposite, surface.vertex_count());
   check_marks(marks, outgoing);
-  const std::vector<char> on_boundary = boundary_vertices(outgoing, opposite);
+  const std::vector<char> on_boundary = surface.boundary_vertices();
   const bool closed = std::find(on_boundary.begin(), on_boundary.end(), 1) == on_boundary.end();
   const bool one_sided = closed && has_turned_faces(surface.triangles, opposite);
   if (closed) check_number_of_marks(marks, one_sided);
@@ -441,7 +434,7 @@ CutMesh cut_along_tree(const Surface& surface, const std::vector<int>& marks, in
   const std::vector<int>& opposite = surface.connectivity.opposite;
   const std::vector<int> outgoing = outgoing_halfedges(surface.triangles, opposite, surface.vertex_count());
   check_marks(marks, outgoing);
-  const std::vector<char> on_boundary = boundary_vertices(outgoing, opposite);
+  const std::vector<char> on_boundary = surface.boundary_vertices();
   const std::vector<int> outer = vertices_on(on_boundary);
   const bool is_closed = outer.empty();
   if (marks.size() < (is_closed ? 2 : 1))
