@@ -183,19 +183,23 @@ std::vector<ScaleField::Place> ScaleField::places(const MarkedTarget& choice) {
   return result;
 }
 
-ChartPoint ScaleField::point(const Place& place) const {
-  const ChartPoint point = chart_.of_vertex(place.vertex);
-  return place.is_mirrored ? conjugate(point) : point;
+const ChartPoint& ScaleField::point(const Place& place) {
+  const auto [at, is_new] = points_.try_emplace(place.key());
+  if (is_new) {
+    const ChartPoint point = chart_.of_vertex(place.vertex);
+    at->second = place.is_mirrored ? conjugate(point) : point;
+  }
+  return at->second;
 }
 
-Complex ScaleField::log_bracket(const Place& a, const Place& b) const {
+Complex ScaleField::log_bracket(const Place& a, const Place& b) {
   return finite_log(bracket(point(a), point(b)));
 }
 
 const ScaleField::Column& ScaleField::column(const Place& place) {
   const auto [at, is_new] = columns_.try_emplace(place.key());
   if (is_new) {
-    const ChartPoint cone = point(place);
+    const ChartPoint& cone = point(place);
     at->second.reserve(samples_.size());
     for (const ScaleSample& sample : samples_) at->second.push_back(finite_log(bracket(sample.point, cone)));
   }
@@ -237,7 +241,7 @@ void ScaleField::add_flat_cones(const std::vector<Place>& cones, std::vector<dou
 
 // The excess of the triangles at a cone, whose images are laid out around it: z -> z^a with z = [s, cone]/[s,
 // other].
-double ScaleField::excess_at(const Place& cone, const Place& other) const {
+double ScaleField::excess_at(const Place& cone, const Place& other) {
   const Surface& surface = stars_.surface;
   const auto log_ratio = [&](int v) {
     const Place place = {v, false, 0};
@@ -261,7 +265,7 @@ double ScaleField::excess_at(const Place& cone, const Place& other) const {
 // Maps to NN and *NN may slide along their axis, which does not change their Dirichlet energy. What holds
 // them are the linear elements at both cones: their energy exceeds the area by the square of their size times
 // what excess_at says, and the sum of both is least where they are equal.
-double ScaleField::scale_along_axis(const std::vector<Place>& cones) const {
+double ScaleField::scale_along_axis(const std::vector<Place>& cones) {
   const double first = excess_at(cones[0], cones[1]), second = excess_at(cones[1], cones[0]);
   return first > 0 && second > 0 ? 0.25 * std::log(second / first) : 0;
 }

@@ -111,17 +111,20 @@ class ScaleField {
 
   static std::vector<Place> places(const MarkedTarget& choice);
   const Column& column(const Place& place);
-  ChartPoint point(const Place& place) const;
-  Complex log_bracket(const Place& a, const Place& b) const;
+  const ChartPoint& point(const Place& place);
+  Complex log_bracket(const Place& a, const Place& b);
   void add_three_cones(const std::vector<Place>& cones, std::vector<double>& u);
   void add_two_cones(const MarkedTarget& choice, const std::vector<Place>& cones, std::vector<double>& u);
   void add_flat_cones(const std::vector<Place>& cones, std::vector<double>& u);
-  double scale_along_axis(const std::vector<Place>& cones) const;
-  double excess_at(const Place& cone, const Place& other) const;
+  double scale_along_axis(const std::vector<Place>& cones);
+  double excess_at(const Place& cone, const Place& other);
 
   const OrbifoldChart& chart_;
   const VertexStars& stars_;
   std::vector<ScaleSample> samples_;
+  /// Near the chart's own cones they are computed with many digits, so each only once.
+  std::map<std::pair<int, bool>, ChartPoint> points_;
+
   std::map<std::pair<int, bool>, Column> columns_;
   std::map<std::array<double, 3>, ConeMetric> metrics_;
 };
