@@ -117,7 +117,8 @@ def test_a_thousand_embeddings_leave_nothing_behind():
     V, F = orbitutte.sample_mesh("figure", 124)
     def use(count):
         for k in range(count):
-            embedding = orbitutte.embed(V, F, "22", progress=lambda *_: None)
+            cones = "best" if k % 10 == 0 else "extremities"  # the search takes twenty times as long
+            embedding = orbitutte.embed(V, F, "22", cones, progress=lambda *_: None)
             embedding.locate([0, 0, 1])
             embedding.seams, embedding.group, embedding.weights, orbitutte.tile(embedding)
             if k % 4 == 0:

@@ -55,7 +55,7 @@ export async function pixels(page, id) {
   await drawn(page);
   return page.evaluate((panel) => {
     const view = window.orbitutteView;
-    view.painter.drawNow();  // the canvas keeps its pixels only until the frame ends
+    view.painter.drawNow([view.panels[panel]]);  // the canvas keeps its pixels only until the frame ends
     const [stage, canvas] = [document.getElementById(panel).getBoundingClientRect(), view.painter.canvas.getBoundingClientRect()];
     const ratio = view.painter.renderer.getPixelRatio(), copy = document.createElement('canvas');
     copy.width = 120;
@@ -75,7 +75,7 @@ export async function pixelAt(page, id, place) {
   await drawn(page);
   return page.evaluate(([panel, {x, y}]) => {
     const view = window.orbitutteView;
-    view.painter.drawNow();
+    view.painter.drawNow([view.panels[panel]]);
     const [stage, canvas] = [document.getElementById(panel).getBoundingClientRect(), view.painter.canvas.getBoundingClientRect()];
     const ratio = view.painter.renderer.getPixelRatio(), copy = new OffscreenCanvas(1, 1).getContext('2d');
     copy.drawImage(view.painter.canvas, (stage.left - canvas.left + x) * ratio, (stage.top - canvas.top + y) * ratio, 1, 1, 0, 0, 1, 1);

@@ -232,7 +232,7 @@ test('on a phone nothing is wider than the screen, and text is no smaller than 1
 }, {viewport: {width: 390, height: 844}}));
 
 test('a disk with mirrors and 48 copies is drawn', async () => {
-  const mask = workshop.makePage('mask', {shape: 'mask', orbifold: '*2,2,12'});
+  const mask = workshop.makePage('mask', {shape: 'mask', faces: 500, orbifold: '*2,2,12'});
   await withPage(mask.page, async (page) => {
     for (const panel of PANELS) assert.ok((await pixels(page, panel)).colours > 50, panel);
     assert.equal(await page.evaluate(() => window.orbitutteView.scene.copies.length), 48);

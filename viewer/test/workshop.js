@@ -25,7 +25,7 @@ export class Workshop {
   }
 
   /** A sample mesh, its embedding and report, as the paths that commands take in this order. */
-  embed(name, {shape = 'figure', faces = 2000, orbifold = '432', coloured = false} = {}) {
+  embed(name, {shape = 'figure', faces = 1000, orbifold = '432', coloured = false} = {}) {
     const [mesh, map, json] = ['obj', 'map.ply', 'json'].map((ending) => this.path(`${name}.${ending}`));
     this.run('sample', '--shape', shape, '--faces', String(faces), '-o', mesh);
     if (coloured) writeFileSync(mesh, withColours(readFileSync(mesh, 'utf8')));
