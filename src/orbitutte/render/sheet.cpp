@@ -17,10 +17,15 @@ std::string group_text(const Embedding& embedding, const Report& report) {
   return report.group_order > 0 ? fmt::format("group of order {}", report.group_order) : "infinite group";
 }
 
-const char* tile_caption(const Embedding& embedding) {
+std::string tile_caption(const Embedding& embedding) {
   if (embedding.seams.empty()) return "Its image on the sphere";
-  return embedding.space().is_closed() ? "Its tile on the sphere, and the copies"
-                                       : "Its tile in the plane, and copies";
+  const int k = embedding.space().curvature();
+  const char* where = k > 0 ? "on the sphere" : k == 0 ? "in the plane" : "in Poincaré's disk";
+  const bool are_all = embedding.target.group_order > 0;
+  const char* copies = !tiles_its_space(embedding.target) ? ""
+                       : are_all                          ? ", and the copies"
+                                                          : ", and copies";
+  return fmt::format("Its tile {}{}", where, copies);
 }
 
 // What the source mesh is drawn with.
@@ -54,7 +59,7 @@ Box draw_headline(Canvas& canvas, const Box& box, const RenderSubject& subject) 
 
 struct Captioned {
   Panel panel;
-  const char* caption;
+  std::string caption;
 };
 
 void draw_captioned(Canvas& canvas, const Box& box, PictureParts& parts, const Captioned& what) {

@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "orbitutte/orbifold/polygon.h"
+#include "orbitutte/orbifold/symmetry_group.h"
 #include "orbitutte/render/ball_labels.h"
 #include "orbitutte/render/mesh_lines.h"
 #include "orbitutte/render/source_figure.h"
@@ -26,7 +27,7 @@ constexpr float contact = 0.55F;  // the share of the light that they can take a
 
 // A tile that is held on a polygon stands alone.
 std::vector<TileCopy> copies_of(const Embedding& embedding) {
-  constexpr int enough_to_fill_a_picture = 100;
+  constexpr int enough_to_fill_a_picture = 200;
   return embedding.seams.empty() ? std::vector<TileCopy>(1)
                                  : tile_copies(embedding, enough_to_fill_a_picture);
 }
@@ -42,15 +43,16 @@ RayScene copies_of_tile(const Points& positions, const Triangles& faces,
   return scene;
 }
 
-// The least distance between two marked vertices of the tile; 2 if there is only one.
+// The least distance at which two marked vertices of the tile are drawn; 2 if there is only one.
 double smallest_gap(const Embedding& embedding) {
+  const DrawnSpace drawn = drawn_space(embedding);
   double gap = 2;
-  std::vector<int> corners;
+  std::vector<Vector3> corners;
   for (const ConeCopies& cone : embedding.cones)
     for (const int v : cone.copies) {
-      for (const int w : corners)
-        gap = std::min(gap, (embedding.positions.row(v) - embedding.positions.row(w)).norm());
-      corners.push_back(v);
+      const Vector3 at = drawn.at(embedding.positions.row(v));
+      for (const Vector3& other : corners) gap = std::min(gap, (at - other).norm());
+      corners.push_back(at);
     }
   return gap;
 }
@@ -64,7 +66,7 @@ Vector3 brought_forward(Space space, const Vector3& point, double radius, const 
   return point + (space.lift(inner, 0).z() - depth) * viewer;
 }
 
-// The great arcs through these vertices, in steps so short that no chord sinks into the sphere by more than a
+// The geodesics through these vertices, in steps so short that no chord sinks into the sphere by more than a
 // small part of a tube.
 Points arcs(Space space, const Points& positions, const std::vector<int>& vertices) {
   constexpr double step = 0.05;  // radians
@@ -83,6 +85,40 @@ Points arcs(Space space, const Points& positions, const std::vector<int>& vertic
   return result;
 }
 
+// Where points of the space (n x 3) are drawn after an isometry; those between the ends that are nearer than
+// `least` to the one before are left out.
+Points drawn_line(const DrawnSpace& drawn, const Isometry& transform, const Points& points, double least) {
+  std::vector<Vector3> kept;
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    const Vector3 at = drawn.at(transform * Vector3(points.row(i)));
+    const bool is_end = i == 0 || i + 1 == points.rows();
+    if (is_end || (at - kept.back()).norm() >= least) kept.push_back(at);
+  }
+  Points result(static_cast<Eigen::Index>(kept.size()), 3);
+  for (std::size_t i = 0; i < kept.size(); ++i) result.row(static_cast<Eigen::Index>(i)) = kept[i];
+  return result;
+}
+
+// The seams of all copies, thin and grey; no line is thinner than a small part of a pixel.
+Ornaments seams_of_copies(const Embedding& embedding, const std::vector<TileCopy>& copies, double pixel) {
+  constexpr double thinnest = 0.05;
+  const DrawnSpace drawn = drawn_space(embedding);
+  const Vector3 middle = tile_centre(embedding);
+  const double radius = 0.45 * seam_radius(embedding.target);
+  std::vector<Points> lines;
+  for (const Seam& seam : embedding.seams)
+    lines.push_back(arcs(embedding.space(), embedding.positions, seam.left));
+  Ornaments result;
+  for (const TileCopy& copy : copies) {
+    const double there = radius * drawn.scale(copy.transform * middle) / drawn.scale(middle);
+    if (there < thinnest * pixel) continue;
+    for (const Points& line : lines)
+      result.add_tube(drawn_line(drawn, copy.transform, line, 0.5 * pixel), there, {120, 124, 134});
+  }
+  result.commit();
+  return result;
+}
+
 Colour copy_colour(const TileCopy& copy) {
   return mix(linear(tile_colour(copy.colour, false)), linear(ink::paper), copy.mirrored ? 0.45F : 0.6F);
 }
@@ -90,7 +126,7 @@ Colour copy_colour(const TileCopy& copy) {
 }  // namespace
 
 SphereFigure::SphereFigure(const Embedding& embedding, std::vector<float> relief)
-    : space_(embedding.space()),
+    : drawn_(drawn_space(embedding)),
       positions_(embedding.positions),
       faces_(embedding.triangles),
       relief_(std::move(relief)),
@@ -115,17 +151,21 @@ Image SphereFigure::draw(const Camera& camera, const Ornaments& ornaments) const
   const Blocker is_blocked = [&](const Ray& ray) { return ornaments.is_blocked(ray); };
   return supersample(camera.size, [&](const Sample& sample) -> Rgba {
     const Ray ray = camera.ray(sample.x, sample.y, camera_distance);
-    const auto distance = space_.meeting(ray.origin.cast<double>(), ray.direction.cast<double>());
+    const auto distance = drawn_.surface().meeting(ray.origin.cast<double>(), ray.direction.cast<double>());
     const auto ornament = ornaments.first_hit(ray);
     if (ornament && (distance ? ornament->distance < *distance : ornament->copy < 0))
       return shade_ornament(camera, ornaments, *ornament);
     if (!distance) return Rgba::Zero();  // copies' seams do not stand out: the outline stays round
-    const Vector3 at = space_.retract(ray.origin.cast<double>() + *distance * ray.direction.cast<double>());
-    const Vector3f point = at.cast<float>(), upright = space_.upright(at).cast<float>();
+    const Vector3 at =
+        drawn_.surface().retract(ray.origin.cast<double>() + *distance * ray.direction.cast<double>());
+    const std::optional<Vector3> seen = drawn_.point_at(at);
+    if (!seen) return Rgba::Zero();
+    const Vector3f point = at.cast<float>(), upright = drawn_.surface().upright(at).cast<float>();
     const Vector3f normal = camera.axes.cast<float>() * upright;
     const float open = openness(is_blocked, {above_sphere * point, upright, reach_of_contact}, 1, sample);
     const float shade = 1 - contact + contact * open;
-    return opaque((0.40F + 0.62F * brightness(normal, {})) * shade * surface_colour(point, camera.pixel) +
+    return opaque((0.40F + 0.62F * brightness(normal, {})) * shade *
+                      surface_colour(seen->cast<float>(), camera.pixel / drawn_.scale(*seen)) +
                   0.6F * gloss(normal));
   });
 }
@@ -142,39 +182,35 @@ double ball_radius(const Embedding& embedding, double pixel) {
 
 Ornaments sphere_ornaments(const Embedding& embedding, const std::vector<TileCopy>& copies,
                            const Camera& camera) {
+  const DrawnSpace drawn = drawn_space(embedding);
   const double radius = seam_radius(embedding.target);
-  Ornaments thin;
-  for (const Seam& seam : embedding.seams)
-    thin.add_tube(arcs(embedding.space(), embedding.positions, seam.left), 0.45 * radius, {120, 124, 134});
-  thin.commit();
   Ornaments result;
-  std::vector<Matrix3> transforms;
-  transforms.reserve(copies.size());
-  for (const TileCopy& copy : copies) transforms.push_back(copy.transform.matrix());
-  result.add_copies(thin, transforms);
+  result.add_copies(seams_of_copies(embedding, copies, camera.pixel), {Matrix3::Identity()});
   for (std::size_t s = 0; s < embedding.seams.size(); ++s) {
     const Seam& seam = embedding.seams[s];
     for (const std::vector<int>* bank : {&seam.left, &seam.right})
-      result.add_tube(arcs(embedding.space(), embedding.positions, *bank), radius,
-                      seam_colour(static_cast<int>(s)));
+      result.add_tube(drawn_line(drawn, Isometry(), arcs(embedding.space(), embedding.positions, *bank), 0),
+                      radius, seam_colour(static_cast<int>(s)));
   }
   const double ball = ball_radius(embedding, camera.pixel);
   for (std::size_t c = 0; c < embedding.cones.size(); ++c)
     for (const int v : embedding.cones[c].copies)
       result.add_ball(
-          brought_forward(embedding.space(), embedding.positions.row(v), ball, camera.axes.row(2)), ball,
-          cone_colour(static_cast<int>(c)));
+          brought_forward(drawn.surface(), drawn.at(embedding.positions.row(v)), ball, camera.axes.row(2)),
+          ball, cone_colour(static_cast<int>(c)));
   result.commit();
   return result;
 }
 
 Camera sphere_camera(const Embedding& embedding, const View& view, const PictureSize& size, double fill) {
-  constexpr double tiles_across = 2.2;  // of a space without an end, so many times the tile is seen
+  const DrawnSpace drawn = drawn_space(embedding);
   Camera camera;
   camera.axes = view_axes(view);
   camera.size = size;
   double radius = 1;
-  if (!embedding.space().is_closed()) {
+  if (drawn.is_disk()) camera.centre = Space::origin();
+  if (!drawn.is_disk() && !embedding.space().is_closed()) {
+    const double tiles_across = tiles_its_space(embedding.target) ? 2.2 : 1.1;
     camera.centre = tile_centre(embedding);
     radius = tiles_across *
              (embedding.positions.rowwise() - camera.centre.transpose()).rowwise().norm().maxCoeff();
@@ -182,6 +218,8 @@ Camera sphere_camera(const Embedding& embedding, const View& view, const Picture
   camera.pixel = 2 * radius / (fill * std::min(size.width, size.height));
   return camera;
 }
+
+DrawnSpace drawn_space(const Embedding& embedding) { return {embedding.space(), tile_centre(embedding)}; }
 
 Vector3 tile_centre(const Embedding& embedding) {
   const Points& X = embedding.positions;

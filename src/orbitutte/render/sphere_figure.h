@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The tile on the sphere or in the plane, in bold colour, among its pale copies.
+// The tile on the sphere, in the plane or in Poincaré's disk, in bold colour, among its pale copies.
 #pragma once
 
 #include "orbitutte/export/tiling.h"
 #include "orbitutte/orbifold/embedding.h"
 #include "orbitutte/render/camera.h"
+#include "orbitutte/render/drawn_space.h"
 #include "orbitutte/render/lighting.h"
 #include "orbitutte/render/ornaments.h"
 
@@ -23,7 +24,7 @@ class SphereFigure {
  private:
   Colour surface_colour(const Vector3f& point, double pixel) const;
 
-  Space space_;
+  DrawnSpace drawn_;
   Points positions_;
   Triangles faces_;
   std::vector<float> relief_;
@@ -45,9 +46,12 @@ double ball_radius(const Embedding& embedding, double pixel);
 Ornaments sphere_ornaments(const Embedding& embedding, const std::vector<TileCopy>& copies,
                            const Camera& camera);
 
-/// The camera for which the sphere fills the share `fill` of the picture's shorter side; in the plane, the
-/// tile with the copies around it.
+/// The camera for which the sphere or Poincaré's disk fills the share `fill` of the picture's shorter side;
+/// in the plane, the tile with the copies around it if there are any.
 Camera sphere_camera(const Embedding& embedding, const View& view, const PictureSize& size, double fill);
+
+/// The space of the embedding, in the disk with the tile in its middle.
+DrawnSpace drawn_space(const Embedding& embedding);
 
 /// The tile in the middle of the sphere, seen a little from above and from the right (more so if the tile is
 /// large), with the sphere's axis upright. The plane is seen from above.

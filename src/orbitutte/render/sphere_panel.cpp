@@ -40,9 +40,10 @@ void draw_sphere_panel(Canvas& canvas, const Box& box, PictureParts& parts) {
   const SphereFigure sphere(embedding, relief(parts.figure(), embedding, parts.source_view()));
   const Camera camera = sphere_camera(embedding, sphere_view(parts), size_of(box), figure_fill);
   canvas.image({box.x, box.y}, sphere.draw(camera, sphere_ornaments(embedding, sphere.copies(), camera)));
+  const DrawnSpace drawn = drawn_space(embedding);
   for (std::size_t c = 0; c < embedding.cones.size(); ++c)
     for (const int v : embedding.cones[c].copies) {
-      const Vector3 at = camera.project(embedding.positions.row(v));
+      const Vector3 at = camera.project(drawn.at(embedding.positions.row(v)));
       if (at[2] < 0) continue;  // on the far side
       draw_label(canvas, {.at = {box.x + at[0], box.y + at[1]},
                           .radius = ball_radius(embedding, camera.pixel) / camera.pixel,
