@@ -15,6 +15,7 @@ Solver(V, F, **options).embed(signature, cones) -> Embedding     many embeddings
 info(V, F) -> dict                      topology, quality, defects, what a mesh embeds into
 families() -> list of dict              the families of orbifolds
 choose_cones(V, F, signature) -> list   well separated vertices to be marked
+fitted_cones(V, F, count) -> FittedCones    cones of the angles that distort least, for embed(V, F, "cones", vertices, angles=angles)
 verify(embedding[, V, F]) -> dict       the certificate again, from the data alone
 distortion(embedding[, V, F]) -> dict   area and angle distortion again
 distortion_floor(V, F, signature, cones) -> dict    the distortion that the coarseness of the mesh costs
@@ -41,7 +42,7 @@ except ImportError as error:
                       "PYTHONPATH=build/python finds it; it belongs to the Python that it was built for") from error
 
 from ._api import (
-    Solver, Tiling, build, choose, choose_cones, distortion, distortion_floor, embed, families, info, keep_freed_memory, read_mesh, sample_mesh, signatures, tile,
+    FittedCones, Solver, Tiling, build, choose, choose_cones, distortion, distortion_floor, embed, families, fitted_cones, info, keep_freed_memory, read_mesh, sample_mesh, signatures, tile,
     use_huge_pages, verify, write_mesh,
 )
 from ._embedding import Cone, EdgeWeights, Embedding, Location, Offsets, Seam
@@ -50,7 +51,7 @@ from .errors import ArgumentError, Cancelled, EmbeddingWarning, Error, FileError
 
 __all__ = [
     "ArgumentError", "Cancelled", "Cone", "EdgeWeights", "Embedding", "EmbeddingWarning", "Error", "FileError",
-    "Location", "MeshError", "MeshWarning", "Offsets", "Seam", "Solver", "Tiling", "__version__", "build", "choose", "choose_cones", "distortion",
-    "distortion_floor", "embed", "families", "info", "keep_freed_memory", "read_mesh", "sample_mesh", "signatures", "tile",
+    "FittedCones", "Location", "MeshError", "MeshWarning", "Offsets", "Seam", "Solver", "Tiling", "__version__", "build", "choose", "choose_cones", "distortion",
+    "distortion_floor", "embed", "families", "fitted_cones", "info", "keep_freed_memory", "read_mesh", "sample_mesh", "signatures", "tile",
     "use_huge_pages", "verify", "write_mesh",
 ]

@@ -182,6 +182,49 @@ def choose_cones(V: npt.ArrayLike, F: Any, signature: str, *, geometry: str | No
     return _arrays.mesh(V, F).extremities(_options.target(signature, None, None, geometry))
 
 
+class FittedCones(NamedTuple):
+    """Cones whose angles fit a surface; `embed` takes them: ``embed(V, F, "cones", cones.vertices, angles=cones.angles)``."""
+
+    vertices: list[int]
+    angles: npt.NDArray[np.float64]  #: (k,) radians, in the order of the vertices
+    area: float  #: curvature times area of what is embedded into, by Gauss and Bonnet
+    sigma: float  #: the standard deviation of the logarithm of the scale that is expected
+
+
+def fitted_cones(V: npt.ArrayLike, F: Any, count: int | None = None, *, kept: Sequence[int] = (), sigma: float | None = None, area: float | None = 0.0,
+                 orders: bool = False) -> FittedCones:
+    """Cones of the angles, and as far as wanted at the vertices, that distort a sphere or disk least: least squares on the Laplacian.
+
+    Parameters
+    ----------
+    V, F
+        As for `embed`.
+    count : int
+        How many cones, `kept` included; if it is not given, as many as are kept.
+    kept : sequence of int
+        Vertices that are cones in any case.
+    sigma : float
+        As few cones as reach this standard deviation of the logarithm of the scale.
+    area : float or None
+        Curvature times area of what is embedded into: 0 for the plane, above 0 for the sphere, below 0 for the hyperbolic plane; None to fit
+        it, too.
+    orders : bool
+        Round the angles to those of an orbifold, 2 pi/n, and pi/n on the boundary. Their area is then their own.
+
+    Raises
+    ------
+    MeshError
+        If a kept vertex is no vertex of a face, if no such angles have the area, or if `sigma` is out of reach.
+    ArgumentError, TypeError
+        If neither cones nor `sigma` are asked for, or if an argument has no meaning.
+    """
+    wishes = _options.cone_wishes(count, kept, sigma)
+    wishes.area = None if area is None else _options.real(area, "area")
+    wishes.are_orders = _options.flag(orders, "orders")
+    found = _orbitutte.fitted_cones(_arrays.mesh(V, F), wishes)
+    return FittedCones(found.vertices, np.array(found.angles), found.area, found.sigma)
+
+
 def verify(embedding: Embedding, V: npt.ArrayLike | None = None, F: Any = None, *, weights_file: str | os.PathLike | None = None,
            theorem2: bool = False) -> dict[str, Any]:
     """Judge an embedding and its report again, from the data alone.

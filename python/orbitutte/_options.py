@@ -104,6 +104,19 @@ def _angles(angles: Any) -> list[float]:
     return values.astype(np.float64).tolist()
 
 
+def cone_wishes(count: Any, kept: Any, sigma: Any) -> _orbitutte.ConeWishes:
+    """How many cones of fitted angles are wanted."""
+    result = _orbitutte.ConeWishes()
+    result.kept = _arrays.indices(kept, "kept").tolist() if len(kept) else []
+    result.count = len(result.kept) if count is None else whole(count, "count")
+    result.sigma = None if sigma is None else real(sigma, "sigma")
+    if result.count == 0 and result.sigma is None:
+        raise ArgumentError("count is missing; give the number of cones, or sigma for as few as reach it")
+    if result.count < len(result.kept):
+        raise ArgumentError(f"count is {result.count}, but kept has {len(result.kept)} vertices; give a larger count, or leave it out")
+    return result
+
+
 class Marks(NamedTuple):
     """The marked vertices, `BEST_VERTEX` for those that are to be chosen; none if all are."""
 

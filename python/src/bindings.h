@@ -12,6 +12,7 @@ namespace py = pybind11;
 void bind_errors(py::module_& module);
 void bind_mesh(py::module_& module);
 void bind_orbifold(py::module_& module);
+void bind_cones(py::module_& module);
 void bind_embedding(py::module_& module);
 void bind_solver(py::module_& module);
 void bind_point_map(py::module_& module);

@@ -29,6 +29,7 @@ PYBIND11_MODULE(_orbitutte, module) {
   python::bind_errors(module);
   python::bind_mesh(module);
   python::bind_orbifold(module);
+  python::bind_cones(module);
   python::bind_embedding(module);
   python::bind_solver(module);
   python::bind_point_map(module);

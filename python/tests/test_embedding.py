@@ -301,3 +301,30 @@ def test_floor_lies_below_the_map_and_does_not_depend_on_the_weights():
     assert floor["angle"]["median"] < embedding.distortion["angle"]["median"] + 0.01
     assert floor["measured_faces"] == len(F)
     assert floor == orbitutte.distortion_floor(V, F, "432", "auto")
+
+
+def test_fitted_cones_distort_as_little_as_expected(figure):
+    few, many = (orbitutte.fitted_cones(*figure, count) for count in (4, 8))
+    assert many.sigma < few.sigma and len(many.vertices) == len(many.angles) == 8
+    assert np.isclose(np.sum(2 * np.pi - many.angles), 4 * np.pi)
+    embedding = orbitutte.embed(*figure, "cones", many.vertices, angles=many.angles)
+    assert embedding.bijective
+    assert abs(embedding.distortion["sigma"] - many.sigma) < 0.15
+
+
+def test_kept_cones_come_first_and_the_area_is_as_given(figure):
+    cones = orbitutte.fitted_cones(*figure, 6, kept=[17, 3], area=0.5)
+    assert cones.vertices[:2] == [17, 3] and cones.area == 0.5
+    assert np.isclose(4 * np.pi - np.sum(2 * np.pi - cones.angles), 0.5)
+    rounded = orbitutte.fitted_cones(*figure, kept=[17, 3, 90, 150], orders=True)
+    turns = 2 * np.pi / rounded.angles
+    assert np.allclose(turns, np.round(turns))
+
+
+def test_fitted_cones_say_what_is_missing(figure):
+    with pytest.raises(orbitutte.ArgumentError, match="count is missing"):
+        orbitutte.fitted_cones(*figure)
+    with pytest.raises(orbitutte.ArgumentError, match="count is 1"):
+        orbitutte.fitted_cones(*figure, 1, kept=[1, 2])
+    with pytest.raises(orbitutte.MeshError, match="out of reach|sigma"):
+        orbitutte.fitted_cones(*figure, sigma=1e-9)
