@@ -19,9 +19,9 @@
 #include "orbitutte/page/page_scene.h"
 #include "orbitutte/page/svg_chart.h"
 #include "orbitutte/report/charts.h"
+#include "orbitutte/report/program.h"
 #include "orbitutte/report/report.h"
 #include "orbitutte/verify/certificate.h"
-#include "orbitutte/version.h"
 
 namespace orbitutte {
 namespace {
@@ -368,7 +368,7 @@ Content page_content(const PageSubject& subject, const Json& report, const PageO
   const std::vector<FaceDistortion> faces = measure_triangles(subject.surface, embedding);
   const std::vector<Iteration> history = history_of(report);
   const std::string style_sheet = style();
-  Content content = {{"version", version},
+  Content content = {{"version", this_program().version},
                      {"style", style_sheet},
                      {"policy", policy(style_sheet, options)},
                      {"mesh_name", mesh_name(report)},

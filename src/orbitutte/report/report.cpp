@@ -11,7 +11,7 @@
 #include "orbitutte/io/file.h"
 #include "orbitutte/orbifold/polygon.h"
 #include "orbitutte/report/embedding_file.h"
-#include "orbitutte/version.h"
+#include "orbitutte/report/program.h"
 
 namespace orbitutte {
 namespace {
@@ -128,8 +128,9 @@ Json timings_json(const Timings& stages, const RunRecord& run) {
 }
 
 Json environment_json(const EmbedResult& result, const RunRecord& run) {
-  return {{"version", version},         {"commit", commit},          {"backend", name_of(result.backend)},
-          {"blas", blas_description()}, {"threads", result.threads}, {"input_sha256", run.input_sha256}};
+  return {{"version", this_program().version},  {"commit", this_program().commit},
+          {"backend", name_of(result.backend)}, {"blas", blas_description()},
+          {"threads", result.threads},          {"input_sha256", run.input_sha256}};
 }
 
 template <typename Values, typename Convert>
