@@ -84,20 +84,19 @@ Candidates spread_candidates(const Surface& surface, const Candidates& first, in
 
 std::vector<std::vector<int>> doubling_rings(const Neighbors& neighbors, int vertex) {
   constexpr int farthest = 32;
-  std::vector<int> ring = {vertex}, before;
+  std::vector<char> is_reached(neighbors.start.size() - 1, 0);
+  is_reached[vertex] = 1;
+  std::vector<int> ring = {vertex};
   std::vector<std::vector<int>> result;
   for (int distance = 1; distance <= farthest && !ring.empty(); ++distance) {
     std::vector<int> next;
     for (const int v : ring)
-      for (int k = neighbors.start[v]; k < neighbors.start[v + 1]; ++k) next.push_back(neighbors.neighbor[k]);
-    std::sort(next.begin(), next.end());
-    next.erase(std::unique(next.begin(), next.end()), next.end());
-    std::erase_if(next, [&](int v) {  // neighbours lie in the same ring, or in one beside it
-      return std::binary_search(ring.begin(), ring.end(), v) ||
-             std::binary_search(before.begin(), before.end(), v);
-    });
-    before = std::exchange(ring, std::move(next));
-    if ((distance & (distance - 1)) == 0) result.push_back(ring);
+      for (int k = neighbors.start[v]; k < neighbors.start[v + 1]; ++k)
+        if (const int u = neighbors.neighbor[k]; !std::exchange(is_reached[u], 1)) next.push_back(u);
+    ring = std::move(next);
+    if ((distance & (distance - 1)) != 0) continue;
+    result.push_back(ring);
+    std::sort(result.back().begin(), result.back().end());
   }
   return result;
 }
