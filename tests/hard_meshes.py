@@ -219,8 +219,7 @@ def several_limbs_mesh(orbifold, count, rings):
 
 @kind
 def several_limbs():
-    # Not 2222: tiles of free shape have no more digits than doubles (docs/limits.md).
-    yield from variants(several_limbs_mesh, ['432', '332'], [2, 4, 6], [12, 24, 40])
+    yield from variants(several_limbs_mesh, ['432', '332', '2222'], [2, 4, 6], [12, 24, 40])
 
 
 def branching_limb_mesh(orbifold, trunk, branches):
@@ -543,8 +542,7 @@ def ears_mesh(orbifold, count):
 
 @kind
 def ears():
-    # Not *2222: many ears of tiles of free shape are not rounded outward yet (docs/limits.md).
-    yield from variants(ears_mesh, ['*432', '3*2'], [1, 4, 12])
+    yield from variants(ears_mesh, ['*432', '3*2', '*2222'], [1, 4, 12])
 
 
 def corridor(steps):

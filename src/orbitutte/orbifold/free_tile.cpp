@@ -144,14 +144,18 @@ class TileWalk {
     after_mirror_ = s + 1;
   }
 
-  // Lengths of all sides, and directions of those that are glued to others, which are no geodesics: chords
-  // take their place.
+  // Lengths of all sides, and their directions: those of their chords. Sides that are glued to others are no
+  // geodesics; mirrors are, and a shape may be turned by half a turn from how the walk has it.
   void measure_chords() {
     for (int s = 0; s < static_cast<int>(tile_.sides.size()); ++s) {
       TileSide& side = tile_.sides[s];
       const Vector3 end = tile_.sides[(s + 1) % tile_.sides.size()].start;
       side.length = side.space.distance(side.start, end);
-      if (side.partner == s || !(side.length > 0)) continue;
+      if (side.partner == s) {
+        if (side.space.dot(side.direction, end - side.start) < 0) side.direction = -side.direction;
+        continue;
+      }
+      if (!(side.length > 0)) continue;
       side.direction = side.space.tangent(side.start, end - side.start);
       side.direction /= side.space.norm(side.direction);
     }

@@ -11,7 +11,9 @@
 #include <algorithm>
 #include <boost/math/constants/constants.hpp>
 #include <cmath>
+#include <limits>
 
+#include "orbitutte/geometry/precise_isometry.h"
 #include "orbitutte/orbifold/families.h"
 
 namespace orbitutte {
@@ -22,10 +24,10 @@ constexpr double largest_entry = 1e6;       // of elements far out in the plane
 constexpr double line_tolerance = 1e-9;     // points nearer to a line than this lie on it
 constexpr double inside_tolerance = 1e-12;  // and points no further outside the chamber than this, in it
 
-// J m, with J = diag(1, 1, k): where the reflection in the line moves points.
-template <typename Real>
-Vector3Of<Real> raised(Space space, const Vector3Of<Real>& line) {
-  return {line.x(), line.y(), space.curvature() * line.z()};
+void require_near(const Matrix3& element, const Matrix3& isometry, double tolerance) {
+  const double off = (element - isometry).cwiseAbs().maxCoeff();
+  if (!(off <= tolerance))
+    throw ArgumentError(fmt::format("an isometry is no element of the target's group (off by {:.2g})", off));
 }
 
 // The sides of the triangle with the angles pi/n[k], as canonical_triangle lays it: the side between corners
@@ -58,12 +60,10 @@ Vector3 middle_of(Space space, const std::vector<Vector3>& lines) {
   return space.retract(rows.fullPivLu().solve(Vector3::Ones()));
 }
 
-// 1 - 2 m# m^T/(m . m#).
-template <typename Real>
-Matrix3Of<Real> reflection(Space space, const Vector3Of<Real>& line) {
-  const Vector3Of<Real> moved = raised(space, line);
-  const Real scale = Real(2) / line.dot(moved);
-  return Matrix3Of<Real>::Identity() - scale * (moved * line.transpose());
+// By how much rounding may move an entry of a product of two in doubles, many factors behind each.
+double rounding_of_product(const Matrix3& a, const Matrix3& b) {
+  constexpr double part = 1e-12;
+  return part * a.cwiseAbs().maxCoeff() * b.cwiseAbs().maxCoeff();
 }
 
 }  // namespace
@@ -72,30 +72,97 @@ template <typename Real>
 PreciseGroup<Real>::PreciseGroup(const Target& target)
     : space_(target.space), lines_(sides_of_chamber<Real>(target)) {
   for (const Vector3Of<Real>& line : lines_) {
-    reflections_.push_back(reflection(space_, line));
+    reflections_.push_back(precise_reflection(space_, line));
     rough_lines_.push_back(line.template cast<double>());
     rough_reflections_.push_back(reflections_.back().template cast<double>());
   }
-  if (!lines_.empty()) middle_ = middle_of(space_, rough_lines_);
+  if (lines_.empty()) {
+    know({Isometry(), Matrix3Of<Real>::Identity()});
+  } else {
+    middle_ = middle_of(space_, rough_lines_);
+  }
+}
+
+template <typename Real>
+PreciseGroup<Real>::PreciseGroup(Space space, const std::vector<PreciseElement<Real>>& generators,
+                                 std::vector<Vector3Of<Real>> corners)
+    : space_(space), corners_(std::move(corners)) {
+  know({Isometry(), Matrix3Of<Real>::Identity()});
+  for (const PreciseElement<Real>& generator : generators) know(generator);
 }
 
 template <typename Real>
 Matrix3Of<Real> PreciseGroup<Real>::element(const Isometry& isometry) const {
+  if (!isometry.matrix().allFinite()) throw ArgumentError("an isometry is not finite");
+  return lines_.empty() ? found(isometry) : folded(isometry);
+}
+
+template <typename Real>
+Matrix3Of<Real> PreciseGroup<Real>::folded(const Isometry& isometry) const {
   const Matrix3& matrix = isometry.matrix();
   const double size = std::max(1.0, matrix.cwiseAbs().maxCoeff());
   Matrix3Of<Real> result = Matrix3Of<Real>::Identity();
-  if (matrix.allFinite() && size <= largest_entry) {
+  if (size <= largest_entry) {
     Vector3 image = isometry * middle_;
     result = product(fold(image));
   }
-  const double off = (result.template cast<double>() - matrix).cwiseAbs().maxCoeff();
-  if (!(off <= element_tolerance * size))
-    throw ArgumentError(fmt::format("an isometry is no element of the target's group (off by {:.2g})", off));
+  require_near(result.template cast<double>(), matrix, element_tolerance * size);
   return result;
 }
 
 template <typename Real>
+Matrix3Of<Real> PreciseGroup<Real>::found(const Isometry& isometry) const {
+  const Matrix3& matrix = isometry.matrix();
+  const double size = std::max(1.0, matrix.cwiseAbs().maxCoeff());
+  std::size_t nearest = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < known_.size(); ++k) {
+    const double off = (known_[k].rough.matrix() - matrix).cwiseAbs().maxCoeff();
+    if (off < least) least = off, nearest = k;
+  }
+  if (least <= element_tolerance * size) return known_[nearest].precise;
+  const auto [first, second] = nearest_product(matrix);
+  const PreciseElement<Real>&a = known_[first], &b = known_[second];
+  require_near((a.rough * b.rough).matrix(), matrix,
+               element_tolerance * size + rounding_of_product(a.rough.matrix(), b.rough.matrix()));
+  const Matrix3Of<Real> result = a.precise * b.precise;
+  know({isometry, result});
+  return result;
+}
+
+// The images of (0, 0, 1) tell most of them apart.
+template <typename Real>
+typename PreciseGroup<Real>::Factors PreciseGroup<Real>::nearest_product(const Matrix3& matrix) const {
+  Factors nearest = {0, 0};
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t a = 0; a < known_.size(); ++a) {
+    for (std::size_t b = 0; b < known_.size(); ++b) {
+      const Matrix3 &first = known_[a].rough.matrix(), &second = known_[b].rough.matrix();
+      if ((first * second.col(2) - matrix.col(2)).cwiseAbs().maxCoeff() >= least) continue;
+      const double off = (first * second - matrix).cwiseAbs().maxCoeff();
+      if (off < least) least = off, nearest = {a, b};
+    }
+  }
+  return nearest;
+}
+
+template <typename Real>
+void PreciseGroup<Real>::know(const PreciseElement<Real>& element) const {
+  known_.push_back(element);
+  known_.push_back({element.rough.inverse(), precise_inverse(space_, element.precise)});
+}
+
+template <typename Real>
 Vector3Of<Real> PreciseGroup<Real>::held_point(const Vector3& point) const {
+  const auto distance = [&](const Vector3Of<Real>& corner) {
+    return (corner.template cast<double>() - point).cwiseAbs().maxCoeff();
+  };
+  const auto nearest = std::min_element(corners_.begin(), corners_.end(), [&](const auto& a, const auto& b) {
+    return distance(a) < distance(b);
+  });
+  if (nearest != corners_.end() &&
+      distance(*nearest) <= element_tolerance * std::max(1.0, point.cwiseAbs().maxCoeff()))
+    return *nearest;
   Vector3 folded = point;
   const Matrix3Of<Real> out = product(fold(folded));
   std::vector<int> through;
@@ -108,16 +175,14 @@ Vector3Of<Real> PreciseGroup<Real>::held_point(const Vector3& point) const {
     return out * (is_opposite ? Vector3Of<Real>(-corner) : corner);
   }
   const Vector3Of<Real>& line = lines_[through[0]];
-  const Vector3Of<Real> here = out.inverse() * point.template cast<Real>(), across = raised(space_, line);
+  const Vector3Of<Real> here = out.inverse() * point.template cast<Real>(),
+                        across = precise_raised(space_, line);
   return out * retract(here - across * (line.dot(here) / line.dot(across)));
 }
 
-// k (x^2 + y^2) + z^2 = 1 there.
 template <typename Real>
 Vector3Of<Real> PreciseGroup<Real>::retract(const Vector3Of<Real>& p) const {
-  using std::sqrt;
-  if (space_.curvature() == 0) return p / p.z();
-  return p / Real(sqrt(Real(space_.curvature() * (p.x() * p.x() + p.y() * p.y()) + p.z() * p.z())));
+  return precise_retract(space_, p);
 }
 
 template <typename Real>

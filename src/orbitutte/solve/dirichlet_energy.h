@@ -67,6 +67,9 @@ class DirichletEnergy {
 
   Space space() const { return space_; }
 
+  /// GluedEdges::transforms.
+  const std::vector<Isometry>& transforms() const { return transforms_; }
+
   /// How exactly the gradient can be known in double precision: per vertex, the rounding error of a position
   /// of length one times the sum of its weights. n.
   const Eigen::VectorXd& rounding_floor() const { return rounding_floor_; }

@@ -8,9 +8,16 @@
 
 namespace orbitutte {
 
-/// A growing list of distinct group elements; element 0 is the identity.
+/// A growing list of distinct group elements; element 0 is the identity. Each is made of some before it: it
+/// is a product of two, or of one and the transform of a cut vertex, or of two such, or of their inverses.
 class Elements {
  public:
+  Elements() = default;
+  /// Those of `first`, in its order.
+  explicit Elements(const std::vector<Isometry>& first) {
+    for (const Isometry& element : first) index(element);
+  }
+
   /// The index of an element, which is appended if it is new.
   int index(const Isometry& element) { return index_among(elements_, element); }
 

@@ -13,6 +13,18 @@ Vector3Of<Real> to_precise(const Vector3& p) {
   return p.cast<Real>();
 }
 
+// The marks are where input vertices are held.
+template <typename Real>
+PreciseGroup<Real> group_of(const Gluing& gluing, const Target& target) {
+  const auto& [cut, boundary, elements] = gluing;
+  const auto position = [&](int v) {
+    const int source = cut.source_vertex[v];
+    return to_precise<Real>(boundary.transform(v) * Vector3(boundary.held.row(source)));
+  };
+  return group_of_boundary<Real>(target,
+                                 {cut.boundary, cut.source_vertex, boundary.seams, boundary.cones, position});
+}
+
 }  // namespace
 
 Vector3 MovablePositions::difference(int v, int u, int element) const {
@@ -55,7 +67,9 @@ void MovablePositions::take_back(std::size_t moves) {
 
 template <typename Real>
 PrecisePositions<Real>::PrecisePositions(Gluing gluing, Points& positions, const Target& target)
-    : MovablePositions(gluing, positions), group_(target), slot_(positions.rows(), -1) {
+    : MovablePositions(gluing, positions),
+      group_(group_of<Real>(gluing, target)),
+      slot_(positions.rows(), -1) {
   const BoundaryConditions& boundary = gluing.boundary;
   for (const Isometry& transform : boundary.transforms) transforms_.push_back(group_.element(transform));
   for (const Isometry& mirror : boundary.mirrors) mirrors_.push_back(group_.element(mirror));
@@ -66,11 +80,12 @@ typename PrecisePositions<Real>::Vector PrecisePositions<Real>::precise(int v) c
   return is_refined(v) ? digits_[slot_[v]] : to_precise<Real>(rounded(v));
 }
 
+// In the order in which they were made, each from some before it: so the group finds them.
 template <typename Real>
 const typename PrecisePositions<Real>::Matrix& PrecisePositions<Real>::element(int k) const {
-  if (static_cast<int>(elements_.size()) <= k) elements_.resize(k + 1);
-  if (!elements_[k]) elements_[k] = group_.element(gluing().elements[k]);
-  return *elements_[k];
+  while (static_cast<int>(elements_.size()) <= k)
+    elements_.push_back(group_.element(gluing().elements[static_cast<int>(elements_.size())]));
+  return elements_[k];
 }
 
 template <typename Real>

@@ -3,12 +3,11 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "orbitutte/cut/cut.h"
 #include "orbitutte/geometry/precise.h"
-#include "orbitutte/orbifold/precise_group.h"
+#include "orbitutte/orbifold/seam_group.h"
 #include "orbitutte/solve/boundary_conditions.h"
 #include "orbitutte/solve/elements.h"
 
@@ -76,10 +75,11 @@ class MovablePositions {
 };
 
 /// The same, with more digits for the vertices that are refined. The map must lie in the canonical frame of
-/// its target.
+/// its target, unless its tile is free.
 template <typename Real>
 class PrecisePositions final : public MovablePositions {
  public:
+  /// Throws ArgumentError if what the vertices are glued by are no elements of the target's group.
   PrecisePositions(Gluing gluing, Points& positions, const Target& target);
 
   Vector3 difference(int v, int u, int element) const override;
@@ -124,7 +124,7 @@ class PrecisePositions final : public MovablePositions {
   std::vector<int> slot_;
   std::vector<Vector> digits_;
   std::vector<Entry> journal_;
-  mutable std::vector<std::optional<Matrix>> elements_;
+  mutable std::vector<Matrix> elements_;
   /// BoundaryConditions::transforms and mirrors.
   std::vector<Matrix> transforms_, mirrors_;
 };

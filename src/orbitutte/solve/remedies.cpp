@@ -22,6 +22,7 @@ struct Site {
       : problem(the_problem),
         placed(the_placed),
         energy(glued_along(problem, placed.boundary), problem.weights, placed.boundary),
+        elements(energy.transforms()),
         ears(ears_of(problem, placed)),
         stars(problem.cut, placed.boundary, ears, elements),
         may_move(placed.boundary.basis_of.size()) {
@@ -32,8 +33,8 @@ struct Site {
 
   const GluingProblem& problem;
   const Placement& placed;
-  Elements elements;
   DirichletEnergy energy;
+  Elements elements;
   std::vector<Ear> ears;
   Stars stars;
   std::vector<char> may_move;
@@ -172,6 +173,18 @@ SpreadMap spread_map(const GluingProblem& problem, Placement placed, std::vector
   return {std::move(placed), std::move(all), {}, std::move(moved)};
 }
 
+// The vertices that say exactly how a free tile is glued: its marks, and the ends of its mirrors.
+std::vector<int> vertices_of_gluing(const Site& site) {
+  if (!site.problem.target.has_free_tile) return {};
+  std::vector<int> result;
+  for (const ConeCopies& cone : site.placed.boundary.cones) result.push_back(cone.vertex);
+  for (const Seam& seam : site.placed.boundary.seams)
+    if (seam.is_mirror())
+      for (const int end : {seam.left.front(), seam.left.back()})
+        result.push_back(site.problem.cut.source_vertex[end]);
+  return result;
+}
+
 // Gives the limbs more digits where they belong; false if that fails.
 template <typename Real>
 using RefineLimbs = std::function<bool(Site&, const std::vector<int>&, PrecisePositions<Real>&)>;
@@ -193,12 +206,13 @@ struct Resolution {
 template <typename Real>
 std::optional<SpreadMap> refined(const GluingProblem& problem, const Placement& placed,
                                  Resolution& resolution, const RefineLimbs<Real>& refine) {
-  if (problem.target.has_free_tile) return std::nullopt;  // whose group has no more digits than doubles
   Site site(problem, placed);
   SpreadMap result = {placed, {}, {}, {}};
   PrecisePositions<Real> positions(site.gluing, result.placed.minimum.positions, problem.target);
   const std::vector<int> limbs = vertices_of_limbs(site, positions);
   if (limbs.empty()) return std::nullopt;
+  const std::vector<int> of_gluing = vertices_of_gluing(site);
+  for (const int v : of_gluing) positions.refine(v);
   const bool are_refined = refine(site, limbs, positions);
   std::vector<double> shortest(site.may_move.size(), std::numeric_limits<double>::infinity());
   double least = 1;
@@ -208,6 +222,7 @@ std::optional<SpreadMap> refined(const GluingProblem& problem, const Placement& 
   const std::optional<std::vector<int>> moved = put_right(site, turned_faces(site, positions), positions);
   if (!moved) return std::nullopt;
   for (const int v : limbs) shortest[v] = shortest_edge(site, positions, v);
+  for (const int v : of_gluing) shortest[v] = least;
   result.moved_vertices = *moved;
   result.positions = positions.spread(shortest, result.offsets);
   result.placed.minimum.positions = result.positions.topRows(placed.minimum.positions.rows());
@@ -279,10 +294,14 @@ std::optional<SpreadMap> with_digits_of(const PrecisePoint& point, const GluingP
 
 std::optional<SpreadMap> with_more_digits(const GluingProblem& problem, const Placement& placed) {
   Resolution fine = {finest_edge}, finest = {finest_edge_of_all};
-  std::optional<SpreadMap> result = refined<Precise>(problem, placed, fine, refine_and_settle<Precise>);
-  if (fine.is_too_coarse)
-    result = refined<MorePrecise>(problem, placed, finest, refine_and_settle<MorePrecise>);
-  return result;
+  try {
+    std::optional<SpreadMap> result = refined<Precise>(problem, placed, fine, refine_and_settle<Precise>);
+    if (fine.is_too_coarse)
+      result = refined<MorePrecise>(problem, placed, finest, refine_and_settle<MorePrecise>);
+    return result;
+  } catch (const ArgumentError&) {  // doubles do not tell the group's elements apart
+    return std::nullopt;
+  }
 }
 
 }  // namespace orbitutte

@@ -47,13 +47,12 @@ std::optional<SpreadMap> with_limbs_resolved(const GluingProblem& problem, const
 using PrecisePoint = std::function<Vector3Of<Precise>(int)>;
 
 /// The same with the vertices of limbs put where `point` says, near to where they are, and turned faces
-/// repaired. Nothing if there are no limbs, if edges are shorter than 1e-60, if the tile is free, or if that
-/// fails.
+/// repaired. Nothing if there are no limbs, if edges are shorter than 1e-60, or if that fails.
 std::optional<SpreadMap> with_digits_of(const PrecisePoint& point, const GluingProblem& problem,
                                         const Placement& placed);
 
-/// The same with more digits in the limbs, as many as the shortest edge asks for. Nothing if the tile is
-/// free.
+/// The same with more digits in the limbs, as many as the shortest edge asks for. If the tile is free, its
+/// marks and the ends of its mirrors have them too, which say how it is glued.
 std::optional<SpreadMap> with_more_digits(const GluingProblem& problem, const Placement& placed);
 
 }  // namespace orbitutte

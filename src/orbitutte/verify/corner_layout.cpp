@@ -47,7 +47,7 @@ CornerLayout::CornerLayout(const Surface& surface, const Embedding& embedding)
 void CornerLayout::take_offsets(const Embedding& embedding, const std::vector<int>& copy) {
   const ExactPositions positions(embedding);
   if (!positions.has_offsets()) return;
-  group_.emplace(embedding.target);
+  group_ = exact_group(embedding, positions);
   for (int h = 0; h < static_cast<int>(F_.size()); ++h)
     if (positions.has_offsets(copy[h]))
       exact_[h] = {positions.exact(copy[h]), positions.offset_count(copy[h])};
@@ -58,9 +58,13 @@ CornerLayout::Corner CornerLayout::corner(int h) const {
   return {F_.data()[h], positions_.row(h), at == exact_.end() ? std::nullopt : std::optional(at->second)};
 }
 
+// The group is asked for every transform when it is made of others, so that it finds the next.
 CornerLayout::Corner CornerLayout::moved(const Isometry& into, Corner corner) const {
+  if (into.is_identity()) return corner;
   corner.position = into * corner.position;
-  if (corner.exact) corner.exact->position = group_->element(into) * corner.exact->position;
+  if (!group_) return corner;
+  const Matrix3Of<MostPrecise> element = group_->element(into);
+  if (corner.exact) corner.exact->position = element * corner.exact->position;
   return corner;
 }
 
@@ -108,6 +112,7 @@ void CornerLayout::set_beyond(int h, const Isometry& transform) {
     beyond_.erase(h);
   } else {
     beyond_[h] = transform;
+    if (group_) group_->element(transform);
   }
 }
 

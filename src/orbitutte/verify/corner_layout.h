@@ -11,8 +11,7 @@
 
 #include "orbitutte/mesh/surface.h"
 #include "orbitutte/orbifold/embedding.h"
-#include "orbitutte/orbifold/exact_positions.h"
-#include "orbitutte/orbifold/precise_group.h"
+#include "orbitutte/verify/exact_group.h"
 
 namespace orbitutte {
 
@@ -33,7 +32,7 @@ class CornerLayout {
   };
 
   /// `embedding` is of the surface, and its seams fit (see certify). Throws ArgumentError if it has offsets
-  /// and a transform is no element of the target's group in its canonical frame.
+  /// and a transform is no element of the target's group (exact_group).
   CornerLayout(const Surface& surface, const Embedding& embedding);
 
   /// The corner at which half-edge h begins, in the frame of its face.

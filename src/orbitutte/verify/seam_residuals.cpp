@@ -8,9 +8,8 @@
 #include <limits>
 #include <optional>
 
-#include "orbitutte/orbifold/polygon.h"
-#include "orbitutte/orbifold/precise_group.h"
 #include "orbitutte/verify/angle_sums.h"
+#include "orbitutte/verify/exact_group.h"
 
 namespace orbitutte {
 namespace {
@@ -28,12 +27,12 @@ constexpr Tolerance across_seam = {1e-3, 1e-15}, on_mirror = {1e-2, 4e-15};
 class PairResiduals {
  public:
   // Throws ArgumentError if a position of the seam has offsets and the transform is no element of the group.
-  PairResiduals(const Embedding& embedding, const ExactPositions& positions, const Seam& seam)
+  PairResiduals(const Embedding& embedding, const ExactPositions& positions, const Seam& seam,
+                std::optional<PreciseGroup<MostPrecise>>& group)
       : embedding_(embedding), positions_(positions), seam_(seam) {
-    if (is_exact_anywhere())
-      element_ = PreciseGroup<MostPrecise>(
-                     read_target(embedding.target.signature, embedding.cones, embedding.positions))
-                     .element(seam.transform);
+    if (!is_exact_anywhere()) return;
+    if (!group) group = exact_group(embedding, positions);
+    element_ = group->element(seam.transform);
   }
 
   bool is_exact(std::size_t k) const {
@@ -93,11 +92,12 @@ std::vector<double> shortest_edges_at_seams(const Embedding& triangles, const Ex
 SeamResiduals judge_seams(const Embedding& triangles, const ExactPositions& positions) {
   const std::vector<double> shortest = shortest_edges_at_seams(triangles, positions);
   SeamResiduals result;
+  std::optional<PreciseGroup<MostPrecise>> group;  // as soon as a seam needs it
   double worst = -1;
   for (std::size_t s = 0; s < triangles.seams.size(); ++s) {
     const Seam& seam = triangles.seams[s];
     try {
-      const PairResiduals pairs(triangles, positions, seam);
+      const PairResiduals pairs(triangles, positions, seam, group);
       for (std::size_t k = 0; k < seam.left.size(); ++k) {
         const int l = seam.left[k], r = seam.right[k];
         const double value = pairs.residual(k), bound = pairs.bound(k, std::min(shortest[l], shortest[r]));

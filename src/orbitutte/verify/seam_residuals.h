@@ -24,8 +24,9 @@ struct SeamResiduals {
 /// A pair may be off by a thousandth of the shortest edge at its two vertices. A mirror's vertex may be off
 /// by a hundredth, since ears are rounded to the outer side of their mirror. Rounding of doubles is always
 /// allowed, and more than 1e-12 never is (in units of the position, if that is large). If a position has
-/// offsets, exact positions are compared by the exact element of the target's group, so the embedding has to
-/// lie in the canonical frame. triangles: the embedding, its polygons divided.
+/// offsets, exact positions are compared by the exact element of the target's group (exact_group), so the
+/// embedding has to lie in the canonical frame, unless its tile is free: then the exact positions of its
+/// marks say where it lies. triangles: the embedding, its polygons divided.
 SeamResiduals judge_seams(const Embedding& triangles, const ExactPositions& positions);
 
 }  // namespace orbitutte
