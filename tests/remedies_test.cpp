@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <random>
 
 #include "orbitutte/embed.h"
+#include "orbitutte/orbifold/cone_target.h"
+#include "orbitutte/orbifold/exact_positions.h"
 #include "orbitutte/solve/kernel.h"
 #include "orbitutte/solve/lbfgs.h"
 #include "orbitutte/solve/repair.h"
@@ -193,6 +196,138 @@ TEST(Limbs, OfAnyLengthAreCertified) {
     EXPECT_TRUE(result.certificate.bijective) << length;
     EXPECT_TRUE(certify(make_surface(mesh), result.embedding).bijective);
   }
+}
+
+// The neighbours of a vertex, counterclockwise.
+std::vector<int> ring_around(const Mesh& mesh, int v) {
+  std::map<int, int> next;
+  for (Eigen::Index f = 0; f < mesh.F.rows(); ++f)
+    for (int k = 0; k < 3; ++k)
+      if (mesh.F(f, k) == v) next[mesh.F(f, (k + 1) % 3)] = mesh.F(f, (k + 2) % 3);
+  std::vector<int> ring = {next.begin()->first};
+  while (ring.size() < next.size()) ring.push_back(next.at(ring.back()));
+  return ring;
+}
+
+// A tube of so many rings in place of the star of a vertex, which closes it. The rings are the last vertices.
+Mesh with_limb(const Mesh& mesh, int v, int rings) {
+  const std::vector<int> base = ring_around(mesh, v);
+  const int around = static_cast<int>(base.size()), n = static_cast<int>(mesh.V.rows());
+  const Vector3 axis = mesh.V.row(v).normalized();
+  const double height = (mesh.V.row(base[0]) - mesh.V.row(base[1])).norm();
+  Mesh result = mesh;
+  result.V.conservativeResize(n + rings * around, 3);
+  const auto vertex = [&](int ring, int k) {
+    return ring == 0 ? base[k % around] : n + (ring - 1) * around + k % around;
+  };
+  std::vector<Eigen::RowVector3i> faces;
+  for (Eigen::Index f = 0; f < mesh.F.rows(); ++f)
+    if ((mesh.F.row(f).array() != v).all()) faces.emplace_back(mesh.F.row(f));
+  for (int ring = 1; ring <= rings; ++ring) {
+    for (int k = 0; k < around; ++k) {
+      result.V.row(vertex(ring, k)) = mesh.V.row(base[k]) + ring * height * axis.transpose();
+      const int a = vertex(ring - 1, k), b = vertex(ring - 1, k + 1), c = vertex(ring, k + 1),
+                d = vertex(ring, k);
+      faces.emplace_back(a, b, c);
+      faces.emplace_back(a, c, d);
+    }
+  }
+  for (int k = 0; k < around; ++k) faces.emplace_back(vertex(rings, k), vertex(rings, k + 1), v);
+  result.V.row(v) += rings * height * axis.transpose();
+  result.F.resize(static_cast<Eigen::Index>(faces.size()), 3);
+  for (std::size_t f = 0; f < faces.size(); ++f) result.F.row(static_cast<Eigen::Index>(f)) = faces[f];
+  return result;
+}
+
+// Two limbs, and cones beside them; the last one in the middle of the first limb, so that seams run there.
+struct LimbCase {
+  Mesh mesh;
+  std::vector<int> cones;
+};
+
+LimbCase with_cone_in_limb(int cones, int rings) {
+  LimbCase result = {with_limb(with_limb(test::icosphere(2), 6, rings), 10, rings), {0, 1, 3, 2, 8, 9}};
+  result.cones.resize(cones);
+  result.cones.back() = static_cast<int>(test::icosphere(2).V.rows()) + 5 * (rings / 2);
+  return result;
+}
+
+std::string failed_checks(const Certificate& certificate) {
+  std::string failed;
+  for (const Check& check : certificate.checks)
+    if (!check.passed) failed += check.name + ": " + check.detail + "; ";
+  return failed;
+}
+
+std::vector<Target> targets_with_free_tiles() {
+  const auto cones = [](const std::vector<double>& angles) {
+    std::vector<Mark> marks;
+    for (const double angle : angles) marks.push_back({angle * M_PI, ConeKind::rotation});
+    return cone_target(Topology::sphere, marks);
+  };
+  return {parse_orbifold("2222"), cones({0.9, 1, 0.8, 0.6, 0.7}), cones({0.8, 0.9, 1, 0.7}),
+          cones({0.9, 0.8, 0.9})};
+}
+
+TEST(Limbs, OfFreeTilesAreCertifiedWithMoreDigits) {
+  for (const Target& target : targets_with_free_tiles()) {
+    SCOPED_TRACE(target.signature + " " + target.space.name());
+    const LimbCase c = with_cone_in_limb(static_cast<int>(target.marks.size()), 24);
+    const EmbedResult result = embed(c.mesh, target, c.cones);
+    EXPECT_TRUE(result.certificate.bijective) << failed_checks(result.certificate);
+    const std::vector<Offset>& offsets = result.embedding.offsets;
+    for (const ConeCopies& cone : result.embedding.cones)
+      for (const int copy : cone.copies)
+        EXPECT_TRUE(std::any_of(offsets.begin(), offsets.end(), [&](const Offset& offset) {
+          return offset.vertex == copy;
+        })) << "a mark says how the tile is glued";
+    EXPECT_TRUE(certify(make_surface(c.mesh), result.embedding).bijective);
+  }
+}
+
+// The seam in the limb, the pairs of its smallest edges first.
+std::vector<std::pair<int, int>> pairs_in_limb(const Embedding& embedding) {
+  const ExactPositions positions(embedding);
+  std::map<double, std::pair<int, int>> by_size;
+  for (const Seam& seam : embedding.seams)
+    for (std::size_t k = 1; k + 1 < seam.left.size(); ++k)
+      if (positions.has_offsets(seam.left[k]))
+        by_size[positions.chord(seam.left[k], seam.left[k + 1])] = {seam.left[k], seam.right[k]};
+  std::vector<std::pair<int, int>> pairs;
+  for (const auto& [size, pair] : by_size) pairs.push_back(pair);
+  return pairs;
+}
+
+TEST(Limbs, FaultsInTheSeamsOfFreeTilesAreSeen) {
+  const Target target = parse_orbifold("2222");
+  const LimbCase c = with_cone_in_limb(4, 24);
+  const EmbedResult result = embed(c.mesh, target, c.cones);
+  ASSERT_TRUE(result.certificate.bijective) << failed_checks(result.certificate);
+  const Surface surface = make_surface(c.mesh);
+  const std::vector<std::pair<int, int>> pairs = pairs_in_limb(result.embedding);
+  ASSERT_GT(pairs.size(), 4u);
+  const auto is_certified = [&](const Embedding& embedding) { return certify(surface, embedding).bijective; };
+  const auto exchanged = [&](int a, int b) {
+    Embedding embedding = result.embedding;
+    Points& X = embedding.positions;
+    X.row(a).swap(X.row(b));
+    for (Offset& offset : embedding.offsets)
+      offset.vertex = offset.vertex == a ? b : offset.vertex == b ? a : offset.vertex;
+    return embedding;
+  };
+  for (std::size_t k = 1; k < pairs.size(); ++k)
+    EXPECT_FALSE(is_certified(exchanged(pairs[k - 1].second, pairs[k].second))) << k;
+  // A mark that is moved by a part of the smallest edges turns the group away from the positions.
+  const double smallest = ExactPositions(result.embedding).chord(pairs[0].first, pairs[1].first);
+  ASSERT_LT(smallest, 1e-6);
+  const auto with_mark_moved = [&](int mark, double step) {
+    Embedding embedding = result.embedding;
+    for (const int copy : embedding.cones[mark].copies)
+      embedding.offsets.push_back({copy, Vector3(step, step, 0)});
+    return embedding;
+  };
+  EXPECT_TRUE(is_certified(with_mark_moved(3, 1e-6 * smallest)));
+  EXPECT_FALSE(is_certified(with_mark_moved(3, 0.1 * smallest)));
 }
 
 }  // namespace

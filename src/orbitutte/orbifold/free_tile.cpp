@@ -7,16 +7,25 @@
 #include <cmath>
 #include <numbers>
 
+#include "orbitutte/geometry/precise_isometry.h"
+#include "orbitutte/orbifold/seam_group.h"
+
 namespace orbitutte {
 namespace {
 
 using std::numbers::pi;
 
-// The rotation about a cone, and where the boundary of the cut mesh meets it first.
+// The rotation about a cone, and where the boundary of the cut mesh meets it first. Partial products in the
+// hyperbolic plane may be much larger than the whole, and doubles would lose its digits.
 struct MetCone {
   int place = 0;
-  Isometry rotation;
+  Matrix3Of<Precise> rotation;
 };
+
+Matrix3Of<Precise> rotation_about(Space space, const Vector3& point, const Mark& mark) {
+  const Vector3Of<Precise> centre = precise_retract<Precise>(space, point.cast<Precise>());
+  return precise_rotation(space, centre, precise_angle<Precise>(mark));
+}
 
 // The cones in the order in which the boundary meets them.
 std::vector<MetCone> met_cones(const Target& target, const CutMesh& cut, const Points& positions) {
@@ -25,17 +34,22 @@ std::vector<MetCone> met_cones(const Target& target, const CutMesh& cut, const P
     const int v = cut.boundary[place];
     for (int k = 0; k < target.inner_marks; ++k)
       if (cut.marks[k] == v)
-        met.push_back({place, target.space.rotation(positions.row(v), target.marks[k].angle)});
+        met.push_back({place, rotation_about(target.space, positions.row(v), target.marks[k])});
   }
   return met;
 }
 
 // The product of the rotations about the cones that are met after `after`, up to `last`.
-Isometry product_between(const std::vector<MetCone>& met, int after, int last) {
-  Isometry product;
+Matrix3Of<Precise> precise_product(const std::vector<MetCone>& met, int after, int last) {
+  Matrix3Of<Precise> product = Matrix3Of<Precise>::Identity();
   for (const MetCone& cone : met)
     if (after < cone.place && cone.place <= last) product = product * cone.rotation;
   return product;
+}
+
+// The same in doubles.
+Matrix3 product_between(const std::vector<MetCone>& met, int after, int last) {
+  return precise_product(met, after, last).cast<double>();
 }
 
 // The mark that an input vertex is; the number of the target's marks if it is none.
@@ -85,8 +99,8 @@ class TileWalk {
 
   std::vector<double> closing_defects() const {
     if (target_.topology == Topology::sphere) {
-      const Isometry product = product_between(met_, -1, static_cast<int>(cut_.boundary.size()));
-      return {product.matrix()(0, 2), product.matrix()(1, 2)};
+      const Matrix3 product = product_between(met_, -1, static_cast<int>(cut_.boundary.size()));
+      return {product(0, 2), product(1, 2)};
     }
     std::vector<double> defects = defects_;
     defects.push_back(
@@ -125,8 +139,8 @@ class TileWalk {
 
   // The product of the rotations in between, which large coordinates take off the isometries by rounding.
   Isometry gluing(int s, int partner) const {
-    const Isometry product = product_between(met_, cut_.sides[s].begin, cut_.sides[partner].begin);
-    return target_.space.nearest_isometry(product.matrix());
+    return target_.space.nearest_isometry(
+        product_between(met_, cut_.sides[s].begin, cut_.sides[partner].begin));
   }
 
   // From the mirror before to that of side s: around the corner between them, and behind the cuts that end
@@ -140,7 +154,8 @@ class TileWalk {
       defects_.push_back(mirror_.distance(p));
       mirror_ = {p, mirror_.angle + pi - tile_angle_at(target_, mark_at(target_, cut_, copy_at(first)))};
     }
-    mirror_ = mirror_.behind(product_between(met_, cut_.sides[first].begin, cut_.sides[s].begin));
+    mirror_ = mirror_.behind(
+        target_.space.isometry(product_between(met_, cut_.sides[first].begin, cut_.sides[s].begin)));
     after_mirror_ = s + 1;
   }
 
@@ -235,6 +250,13 @@ Tile tile_through(const Target& target, const CutMesh& cut, const Points& positi
 
 std::vector<double> closing_defects(const Target& target, const CutMesh& cut, const Points& positions) {
   return TileWalk(target, cut, positions).closing_defects();
+}
+
+Vector3 closing_position(const Target& target, const CutMesh& cut, const Points& positions) {
+  const std::vector<MetCone> met = met_cones(target, cut, positions);
+  const Matrix3Of<Precise> others =
+      precise_product(met, met.front().place, static_cast<int>(cut.boundary.size()));
+  return precise_fixed_point(target.space, others, positions.row(cut.marks.front())).cast<double>();
 }
 
 TileShapes tile_shapes(const Target& target, const CutMesh& cut) {

@@ -29,6 +29,11 @@ Tile tile_through(const Target& target, const CutMesh& cut, const Points& positi
 /// be the identity; on a disk, for each mark on the boundary, its distance from the mirror that leads there.
 std::vector<double> closing_defects(const Target& target, const CutMesh& cut, const Points& positions);
 
+/// Where the first mark of a sphere has to lie so that the product of all rotations is the identity, if their
+/// angles allow that: near its position, the point that the product of the others leaves where it is. In the
+/// hyperbolic plane, positions that close up to the rounding of doubles may be off by a million times that.
+Vector3 closing_position(const Target& target, const CutMesh& cut, const Points& positions);
+
 /// The shapes of tiles in the plane: positions of the marks without closing defects, translations left out.
 struct TileShapes {
   /// A basis, one shape a column: the complex numbers x + iy of the marks, in the order of CutMesh::marks.

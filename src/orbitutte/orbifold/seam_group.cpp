@@ -3,7 +3,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <boost/math/constants/constants.hpp>
 #include <optional>
 #include <unordered_map>
 
@@ -11,13 +10,6 @@
 
 namespace orbitutte {
 namespace {
-
-// 2 pi/n has all digits, other angles are doubles.
-template <typename Real>
-Real exact_angle(const Mark& mark) {
-  const int order = mark.order();
-  return order > 0 ? Real(boost::math::constants::two_pi<Real>() / order) : Real(mark.angle);
-}
 
 // The gluings of all seams, from a walk along the boundary.
 template <typename Real>
@@ -80,9 +72,9 @@ class GluingWalk {
     for (int place = 0; place < count_; ++place) {
       const auto at = mark_at.find(source_at(place));
       if (at == mark_at.end() || !met_at_.emplace(at->first, place).second) continue;
-      MetMark met = {place, boundary_.position(boundary_.loop[place]), {}};
+      MetMark met = {place, precise_retract(space_, boundary_.position(boundary_.loop[place])), {}};
       if (at->second && at->second->kind == ConeKind::rotation)
-        met.rotation = precise_rotation(space_, met.position, exact_angle<Real>(*at->second));
+        met.rotation = precise_rotation(space_, met.position, precise_angle<Real>(*at->second));
       met_.push_back(std::move(met));
     }
     if (is_closed_ && !met_.empty()) close();

@@ -2,6 +2,7 @@
 // The group that the seams of a cut surface generate, with as many digits as are wanted.
 #pragma once
 
+#include <boost/math/constants/constants.hpp>
 #include <functional>
 #include <vector>
 
@@ -9,6 +10,16 @@
 #include "orbitutte/orbifold/precise_group.h"
 
 namespace orbitutte {
+
+/// The angle of a mark: if it has an order n, 2 pi/n or pi/n with all digits, otherwise the double that it
+/// is.
+template <typename Real>
+Real precise_angle(const Mark& mark) {
+  const int order = mark.order();
+  if (order == 0 || mark.kind == ConeKind::fixed) return mark.angle;
+  const Real& pi = boost::math::constants::pi<Real>();
+  return mark.kind == ConeKind::corner ? Real(pi / order) : Real(2 * pi / order);
+}
 
 /// The boundary of a cut mesh, which was cut along a tree: its marks, and how it is glued.
 template <typename Real>

@@ -129,6 +129,7 @@ Placement place_on_curved_tile(const GluingProblem& problem, const LbfgsOptions&
   Placement placed;
   placed.minimum = stage("optimize", [&] { return curved_map(problem, options, stage); });
   Points& positions = placed.minimum.positions;
+  positions.row(problem.cut.marks.front()) = closing_position(problem.target, problem.cut, positions);
   placed.tile = tile_through(problem.target, problem.cut, positions);
   placed.boundary = glue(problem.cut, placed.tile, problem.target);
   placed.boundary.make_feasible(positions);
