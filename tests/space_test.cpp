@@ -542,6 +542,20 @@ TEST(Spaces, AgreeOnSmallTriangles) {
   }
 }
 
+TEST(Spaces, PointsThatRoundingAloneTellsApartHaveADistance) {
+  for (const Space space : {Space::sphere(), Space::plane(), Space::hyperbolic_plane()}) {
+    for (int k = 0; k < 200; ++k) {
+      const Vector3 p = space.polar(0.015 * k, k);
+      for (int i = 0; i < 3; ++i) {
+        Vector3 q = p;
+        q[i] = std::nextafter(q[i], 10.0);
+        EXPECT_GE(space.distance(p, q), 0) << k;  // and is a number
+        EXPECT_LT(space.distance(p, q), 1e-13);
+      }
+    }
+  }
+}
+
 TEST(Spaces, HaveNamesCurvaturesAndShortestGeodesics) {
   EXPECT_EQ(Space::sphere().name(), "spherical");
   EXPECT_EQ(Space::plane().name(), "euclidean");

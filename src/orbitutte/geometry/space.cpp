@@ -65,8 +65,9 @@ Vector3 Space::retract(const Vector3& p) const {
   return visit_curvature(*this, [&](auto c) -> Vector3 { return c.retract(p); });
 }
 
+// In the hyperbolic plane, rounding may leave a squared chord between neighbours below zero.
 double Space::distance(const Vector3& p, const Vector3& q) const {
-  return visit_curvature(*this, [&](auto c) { return std::sqrt(c.distance(p, q).squared); });
+  return visit_curvature(*this, [&](auto c) { return std::sqrt(std::max(c.distance(p, q).squared, 0.0)); });
 }
 
 double Space::longest_unique() const {
