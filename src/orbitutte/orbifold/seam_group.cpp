@@ -2,14 +2,37 @@
 #include "orbitutte/orbifold/seam_group.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/QR>
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <unordered_map>
 
 #include "orbitutte/geometry/precise_isometry.h"
+#include "orbitutte/orbifold/moduli.h"
 
 namespace orbitutte {
 namespace {
+
+// The angles of the marks. In the plane those that are no 2 pi/n are doubles that add up but for rounding:
+// without corners, which would take it, the rest is shared out among them.
+template <typename Real>
+std::vector<Real> exact_angles(Space space, bool is_closed, const std::vector<ConeCopies>& marks) {
+  const Real two_pi = boost::math::constants::two_pi<Real>();
+  std::vector<Real> angles;
+  std::vector<std::size_t> inexact;
+  bool has_corners = false;
+  Real rest = is_closed ? Real(2 * two_pi) : two_pi;  // 2 pi chi - sum of (2 pi - angle)
+  for (const ConeCopies& at : marks) {
+    if (at.mark.kind != ConeKind::rotation) has_corners = true;
+    if (precise_angle<Real>(at.mark) == Real(at.mark.angle)) inexact.push_back(angles.size());
+    angles.push_back(precise_angle<Real>(at.mark));
+    rest -= two_pi - angles.back();
+  }
+  if (space.curvature() != 0 || has_corners) return angles;
+  for (const std::size_t k : inexact) angles[k] -= rest / Real(static_cast<int>(inexact.size()));
+  return angles;
+}
 
 // The gluings of all seams, from a walk along the boundary.
 template <typename Real>
@@ -48,6 +71,7 @@ class GluingWalk {
   struct MetMark {
     int place = 0;
     Point position;
+    Real angle = 0;
     std::optional<Matrix> rotation;  // of cones
   };
 
@@ -66,26 +90,70 @@ class GluingWalk {
   }
 
   void meet_marks() {
-    std::unordered_map<int, const Mark*> mark_at;
-    for (const ConeCopies& cone : boundary_.cones) mark_at[cone.vertex] = &cone.mark;
-    if (count_ > 0 && !is_closed_) mark_at.try_emplace(source_at(0), nullptr);
+    const std::vector<Real> angles = exact_angles<Real>(space_, is_closed_, boundary_.cones);
+    std::unordered_map<int, int> mark_at;
+    for (std::size_t k = 0; k < boundary_.cones.size(); ++k)
+      mark_at[boundary_.cones[k].vertex] = static_cast<int>(k);
+    if (count_ > 0 && !is_closed_) mark_at.try_emplace(source_at(0), -1);
     for (int place = 0; place < count_; ++place) {
       const auto at = mark_at.find(source_at(place));
       if (at == mark_at.end() || !met_at_.emplace(at->first, place).second) continue;
-      MetMark met = {place, precise_retract(space_, boundary_.position(boundary_.loop[place])), {}};
-      if (at->second && at->second->kind == ConeKind::rotation)
-        met.rotation = precise_rotation(space_, met.position, precise_angle<Real>(*at->second));
+      MetMark met = {place, precise_retract(space_, boundary_.position(boundary_.loop[place])), 0, {}};
+      if (const int k = at->second; k >= 0 && boundary_.cones[k].mark.kind == ConeKind::rotation) {
+        met.angle = angles[k];
+        met.rotation = precise_rotation(space_, met.position, met.angle);
+      }
       met_.push_back(std::move(met));
     }
     if (is_closed_ && !met_.empty()) close();
   }
 
-  // Puts the first cone where the others leave it.
+  // Moves the marks so that the product of all rotations is the identity: of curved surfaces all of them, as
+  // little as possible, and then, as in the plane, where the angles alone close, the first to where the
+  // others leave it.
   void close() {
+    if (space_.curvature() != 0) turn_by_angle();
     MetMark& first = met_.front();
     const Matrix others = product_between(first.place, count_);
     first.position = precise_fixed_point(space_, others, first.position.template cast<double>());
     first.rotation.reset();
+  }
+
+  // Newton's method with one Jacobian in doubles: each step gains some ten digits.
+  void turn_by_angle() {
+    constexpr int most_steps = 100;
+    constexpr double finest = 1e-300;
+    Points marks(static_cast<Eigen::Index>(met_.size()), 3);
+    std::vector<double> angles;
+    for (std::size_t k = 0; k < met_.size(); ++k) {
+      marks.row(static_cast<Eigen::Index>(k)) = met_[k].position.template cast<double>();
+      angles.push_back(static_cast<double>(met_[k].angle));
+    }
+    const Moduli moduli(space_, angles);
+    const auto solver = moduli.closing_jacobian(marks).completeOrthogonalDecomposition();
+    double least = std::numeric_limits<double>::infinity();
+    for (int step = 0; step < most_steps; ++step) {
+      const Vector3 rest = closing_defect();
+      const double size = rest.cwiseAbs().maxCoeff();
+      if (!(size < 0.1 * least) || size < finest) break;
+      least = size;
+      const Points moves = moduli.tangents(marks, -solver.solve(rest));
+      for (std::size_t k = 0; k < met_.size(); ++k)
+        move(met_[k], moves.row(static_cast<Eigen::Index>(k)).transpose());
+    }
+  }
+
+  // The product of all rotations at first order (Moduli::closing).
+  Vector3 closing_defect() const {
+    const Matrix M = met_.front().rotation.value() * product_between(met_.front().place, count_);
+    const int k = space_.curvature();
+    const Point defect((k * M(2, 1) - M(1, 2)) / 2, (M(0, 2) - k * M(2, 0)) / 2, (M(1, 0) - M(0, 1)) / 2);
+    return defect.template cast<double>();
+  }
+
+  void move(MetMark& mark, const Vector3& step) const {
+    mark.position = precise_retract(space_, Point(mark.position + step.template cast<Real>()));
+    mark.rotation = precise_rotation(space_, mark.position, mark.angle);
   }
 
   // Of the rotations about the cones that are met after `after`, up to `last`.

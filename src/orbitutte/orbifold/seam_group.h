@@ -11,12 +11,11 @@
 
 namespace orbitutte {
 
-/// The angle of a mark: if it has an order n, 2 pi/n or pi/n with all digits, otherwise the double that it
-/// is.
+/// The angle of a mark: with all digits if it is the double nearest to 2 pi/n or pi/n, otherwise the double.
 template <typename Real>
 Real precise_angle(const Mark& mark) {
   const int order = mark.order();
-  if (order == 0 || mark.kind == ConeKind::fixed) return mark.angle;
+  if (order == 0 || Mark::of_order(order, mark.kind).angle != mark.angle) return mark.angle;
   const Real& pi = boost::math::constants::pi<Real>();
   return mark.kind == ConeKind::corner ? Real(pi / order) : Real(2 * pi / order);
 }
@@ -40,11 +39,10 @@ struct GluedBoundary {
 ///
 /// Let R_k be the rotation by the angle of the cone that the loop meets as the k-th, about the copy that it
 /// meets first. The gluing of a seam is the product R_i ... R_j of those that are met between its banks
-/// (free_tile.h). On a sphere, where the product of all has to be the identity, the first cone's is never
-/// among them: it takes the place that the others leave it, less than rounding away from its position, and
-/// its angle is as near to what it has to be. A mirror is the line through the corners at its ends, also if
-/// cuts end on it, whose far sides are seen through their gluings. So any positions make a group whose
-/// relations hold to the last digit.
+/// (free_tile.h). On a sphere, where the product of all has to be the identity, the positions are corrected
+/// by what rounding left, as little as possible. A mirror is the line through the corners at its ends, also
+/// if cuts end on it, whose far sides are seen through their gluings. So the group's relations hold to the
+/// last digit, but for the angles of corners, which are those of the lines.
 template <typename Real>
 PreciseGroup<Real> group_of_boundary(const Target& target, const GluedBoundary<Real>& boundary);
 
