@@ -14,6 +14,10 @@ namespace orbitutte {
 
 using Block = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 3, 3>;
 
+/// Solutions are in single precision. Along edges with larger weights than this, their errors would be forces
+/// of the size of those that they are to remove.
+constexpr double stiff_weight = 1e6;
+
 // The unknowns of all vertices, numbered in the order of elimination.
 struct Unknowns {
   /// The vertices that have unknowns.
@@ -38,6 +42,9 @@ MeshError not_tied(int vertex);
 /// unknowns.
 std::unique_ptr<SparseFactor> factorize_laplacian(const SparseMatrix& A, const Unknowns& unknowns,
                                                   Backend backend);
+
+/// Calls eliminate() for all unknowns, with the same error. The factor is in single precision.
+LeadingFactor eliminate_laplacian(const SparseMatrix& A, const Unknowns& unknowns, Backend backend);
 
 // The lower triangle of the Laplacian of sum of w |x_i - g x_j|^2 over the edges, in blocks. `coupling(e, v)`
 // is the block of edge e in the rows of its other end and the columns of v, without the factor -w.

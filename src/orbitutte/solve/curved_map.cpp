@@ -12,6 +12,8 @@
 #include "orbitutte/linear/dissection.h"
 #include "orbitutte/orbifold/cone_target.h"
 #include "orbitutte/orbifold/free_tile.h"
+#include "orbitutte/solve/conformal_metric.h"
+#include "orbitutte/solve/development.h"
 #include "orbitutte/solve/edge_words.h"
 #include "orbitutte/solve/initial_embedding.h"
 #include "orbitutte/solve/laplacian_solver.h"
@@ -69,8 +71,9 @@ struct HarmonicTile {
   Points cones;
   std::unique_ptr<TileSystem> system;
 
-  // Where the map was expected to be: of the map itself, up to what it moved by from there.
-  std::unique_ptr<TangentSystem> hessian;
+  // Factorised at this tile or an earlier one, and how far the shape has moved from there.
+  std::shared_ptr<const TangentSystem> hessian;
+  double moved = 0;
   Minimum minimum;
 
   // Of the shapes (Moduli::basis), and the derivative of the energy along it.
@@ -94,6 +97,11 @@ struct ShapeModel {
   }
 };
 
+// Where a search begins: the cones of a tile, and positions of all vertices.
+struct ShapeStart {
+  Points cones, x;
+};
+
 // The search over the shapes of one target.
 class ShapeSearch {
  public:
@@ -109,15 +117,21 @@ class ShapeSearch {
 
   // The harmonic map onto the tile of these cones, up to a tolerance, from positions near it.
   HarmonicTile harmonic(const Points& cones, const Points& start, const LbfgsOptions& options) const {
-    HarmonicTile tile;
-    tile.cones = cones;
-    Points x = energy_.with_cones(start, cones);
-    tile.system = std::make_unique<TileSystem>(problem_, target_, energy_.glued(cones), x);
-    tile.system->boundary.make_feasible(x);
-    tile.hessian = std::make_unique<TangentSystem>(tangent_problem(*tile.system), x);
-    tile.minimum = minimize(tile.system->energy, *tile.hessian, x, options);
-    tile.basis = moduli_.basis(cones);
-    tile.slope = tile.basis.transpose() * energy_.cone_gradient(tile.x(), cones);
+    HarmonicTile tile = started(cones, start);
+    tile.hessian = std::make_shared<TangentSystem>(tangent_problem(*tile.system), tile.minimum.positions);
+    relax(options, tile);
+    return tile;
+  }
+
+  // The same from a tile whose shape is so far away: nearby its factor serves once more.
+  HarmonicTile harmonic_beside(const HarmonicTile& from, double distance, const ShapeStart& start,
+                               const LbfgsOptions& options) const {
+    constexpr double nearby = 0.1;
+    if (from.moved + distance > nearby) return harmonic(start.cones, start.x, options);
+    HarmonicTile tile = started(start.cones, start.x);
+    tile.hessian = std::make_shared<TangentSystem>(from.hessian->moved_to(tile.minimum.positions));
+    tile.moved = from.moved + distance;
+    relax(options, tile);
     return tile;
   }
 
@@ -125,17 +139,17 @@ class ShapeSearch {
   ShapeModel model(const HarmonicTile& tile) const {
     constexpr double h = 1e-5;
     ShapeModel model = {{tile.slope, second_derivative(tile)}, {}};
-    std::vector<Points> mixed;
+    std::vector<Points> mixed;  // its negative
     for (int a = 0; a < moduli_.dimension(); ++a) {
       const Eigen::VectorXd step = h * tile.basis.col(a);
       mixed.push_back((energy_.gradient(tile.x(), nearby(tile.cones, step)) -
                        energy_.gradient(tile.x(), nearby(tile.cones, -step))) /
-                      (2 * h));
-      model.responses.push_back(-tile.hessian->precondition(mixed.back()));
+                      (-2 * h));
     }
+    model.responses = tile.hessian->precondition_all(mixed);
     for (int a = 0; a < moduli_.dimension(); ++a)
       for (int b = 0; b < moduli_.dimension(); ++b)
-        model.energy.hessian(a, b) +=
+        model.energy.hessian(a, b) -=
             0.5 * (paired(mixed[a], model.responses[b]) + paired(mixed[b], model.responses[a]));
     return model;
   }
@@ -148,6 +162,22 @@ class ShapeSearch {
   TangentProblem tangent_problem(const TileSystem& system) const {
     return {system.glued, problem_.weights.w, system.boundary, dissection_,
             problem_.laplacian.options.backend};
+  }
+
+  // The tile of these cones, with positions from which its map can be relaxed.
+  HarmonicTile started(const Points& cones, const Points& start) const {
+    HarmonicTile tile;
+    tile.cones = cones;
+    Points& x = tile.minimum.positions = energy_.with_cones(start, cones);
+    tile.system = std::make_unique<TileSystem>(problem_, target_, energy_.glued(cones), x);
+    tile.system->boundary.make_feasible(x);
+    return tile;
+  }
+
+  void relax(const LbfgsOptions& options, HarmonicTile& tile) const {
+    tile.minimum = minimize(tile.system->energy, *tile.hessian, tile.minimum.positions, options);
+    tile.basis = moduli_.basis(tile.cones);
+    tile.slope = tile.basis.transpose() * energy_.cone_gradient(tile.x(), tile.cones);
   }
 
   Points nearby(const Points& cones, const Eigen::VectorXd& step) const {
@@ -194,12 +224,12 @@ class ShapeDescent {
   ShapeDescent(const ShapeSearch& search, const LbfgsOptions& options, const Stages& stage)
       : search_(search), options_(options), stage_(stage) {}
 
-  HarmonicTile run(const Points& cones, const Points& start) {
-    HarmonicTile tile = search_.harmonic(cones, start, within(loosest));
+  HarmonicTile run(const ShapeStart& start) {
+    HarmonicTile tile = search_.harmonic(start.cones, start.x, within(loosest));
     add_row(tile, 0);
     for (int step = 0; step < most_steps && tile.steepest() > slope_tolerance(); ++step)
       if (!advance(tile)) break;
-    HarmonicTile last = search_.harmonic(tile.cones, tile.x(), within(options_.tolerance));
+    HarmonicTile last = search_.harmonic_beside(tile, 0, {tile.cones, tile.x()}, within(options_.tolerance));
     last.minimum.shapes = std::move(rows_);
     last.minimum.iterations += iterations_;
     last.minimum.evaluations += evaluations_;
@@ -260,7 +290,8 @@ class ShapeDescent {
     Points x;
     move_points(search_.moduli().space(), tile.x(), model.response(step), 1, x);
     if (!x.allFinite()) x = tile.x();
-    return search_.harmonic(*cones, x, within(std::min(loosest, 1e-4 * tile.steepest())));
+    return search_.harmonic_beside(tile, step.norm(), {*cones, x},
+                                   within(std::min(loosest, 1e-4 * tile.steepest())));
   }
 
   // Where rounding hides the change of the energy, by its slope.
@@ -283,6 +314,43 @@ class ShapeDescent {
   int iterations_ = 0, evaluations_ = 0;
   std::vector<Iteration> rows_;
 };
+
+// What the angles around each vertex are to add up to.
+Eigen::VectorXd angles_around_vertices(const GluingProblem& problem) {
+  Eigen::VectorXd angles = Eigen::VectorXd::Zero(problem.surface.vertex_count());
+  for (const int v : problem.surface.triangles.reshaped()) angles[v] = 2 * pi;
+  for (std::size_t k = 0; k < problem.target.marks.size(); ++k)
+    angles[problem.cut.marks[k]] = problem.target.marks[k].angle;
+  return angles;
+}
+
+// Where the boundary of the cut mesh first meets each cone, in that order.
+Points cones_when_met(const CutMesh& cut, const Points& positions) {
+  const std::vector<int> cones = cones_as_met(cut);
+  Points result(static_cast<Eigen::Index>(cones.size()), 3);
+  for (std::size_t k = 0; k < cones.size(); ++k) {
+    const int first = *std::find_if(cut.boundary.begin(), cut.boundary.end(),
+                                    [&](int v) { return cut.source_vertex[v] == cones[k]; });
+    result.row(static_cast<Eigen::Index>(k)) = positions.row(first);
+  }
+  return result;
+}
+
+// The surface with its discretely conformal metric, developed; nothing where its triangles have none.
+std::optional<ShapeStart> developed_start(const GluingProblem& problem, const Dissection& dissection) {
+  constexpr double largest_defect = 0.01;
+  const Space space = problem.target.space;
+  const ConformalMetric metric =
+      conformal_metric({problem.surface, space, angles_around_vertices(problem), problem.weights, dissection,
+                        problem.laplacian.options.backend});
+  if (!(metric.defect < largest_defect)) return std::nullopt;
+  const Points positions = developed(problem.surface, problem.cut, space, metric);
+  if (!positions.allFinite()) return std::nullopt;
+  const std::optional<Points> cones =
+      moduli_of(problem.target, problem.cut).closed(cones_when_met(problem.cut, positions));
+  if (!cones) return std::nullopt;
+  return ShapeStart{*cones, positions.topRows(problem.surface.vertex_count())};
+}
 
 // Positions of the corners of the first tile: the cones of the doubled polygon, and for all other vertices
 // the mean of these, the nearer ones counting more, so that where cuts branch they lie between.
@@ -329,6 +397,46 @@ Points first_map(const GluingProblem& problem, const Target& target, const Glued
   return x;
 }
 
+// From the doubled polygon, through tiles of less area.
+class AreaContinuation {
+ public:
+  AreaContinuation(const GluingProblem& problem, const EdgeWords& edges, const Dissection& dissection)
+      : problem_(problem), edges_(edges), dissection_(dissection) {}
+
+  Minimum run(const LbfgsOptions& options, const Stages& stage) const {
+    Minimum minimum;
+    for (const double area : areas_on_the_way(problem_.target)) {
+      const Target target = with_area(problem_.target, area);
+      const ShapeSearch search(problem_, target, edges_, dissection_);
+      if (minimum.positions.size() == 0) minimum.positions = start_on_polygon(target, search.moduli());
+      LbfgsOptions within = options;
+      if (area < free_tile_area(problem_.target)) within.tolerance = std::max(options.tolerance, 1e-4);
+      const ShapeStart start = {cones_of(minimum.positions, search.moduli()), minimum.positions};
+      minimum = ShapeDescent(search, within, stage).run(start).minimum;
+    }
+    return minimum;
+  }
+
+ private:
+  Points start_on_polygon(const Target& target, const Moduli& moduli) const {
+    const Points corners = corners_of_polygon(problem_, moduli);
+    const std::vector<int> cones = cones_as_met(problem_.cut);
+    const ModuliEnergy energy(moduli, edges_, problem_.weights, cones);
+    return first_map(problem_, target, energy.glued(corners(cones, Eigen::all)), corners);
+  }
+
+  Points cones_of(const Points& x, const Moduli& moduli) const {
+    if (const std::optional<Points> cones = moduli.closed(x(cones_as_met(problem_.cut), Eigen::all)))
+      return *cones;
+    throw MeshError(fmt::format("no tile of {} with an area of {:.4g} is near that of a smaller one",
+                                problem_.target.signature, moduli.area()));
+  }
+
+  const GluingProblem& problem_;
+  const EdgeWords& edges_;
+  const Dissection& dissection_;
+};
+
 }  // namespace
 
 Minimum curved_map(const GluingProblem& problem, const LbfgsOptions& options, const Stages& stage) {
@@ -337,28 +445,13 @@ Minimum curved_map(const GluingProblem& problem, const LbfgsOptions& options, co
       triangulation ? triangulation->connectivity : problem.surface.connectivity;
   const EdgeWords edges = edge_words(problem.surface, triangulation, problem.cut);
   const Dissection dissection = dissect(vertex_neighbors(connectivity.edges, problem.surface.vertex_count()));
-  const std::vector<int> cones = cones_as_met(problem.cut);
-  Points x;
-  Minimum minimum;
-  for (const double area : areas_on_the_way(problem.target)) {
-    const Target target = with_area(problem.target, area);
-    const ShapeSearch search(problem, target, edges, dissection);
-    LbfgsOptions within = options;
-    within.tolerance *= 0.1;  // so that other cuts give the same lengths to ten times the tolerance
-    if (area < free_tile_area(problem.target)) within.tolerance = std::max(options.tolerance, 1e-4);
-    if (x.size() == 0) {
-      const Points corners = corners_of_polygon(problem, search.moduli());
-      const ModuliEnergy energy(search.moduli(), edges, problem.weights, cones);
-      x = first_map(problem, target, energy.glued(corners(cones, Eigen::all)), corners);
-    }
-    const std::optional<Points> start = search.moduli().closed(x(cones, Eigen::all));
-    if (!start)
-      throw MeshError(fmt::format("no tile of {} with an area of {:.4g} is near that of a smaller one",
-                                  problem.target.signature, area));
-    minimum = ShapeDescent(search, within, stage).run(*start, x).minimum;
-    x = minimum.positions;
+  LbfgsOptions within = options;
+  within.tolerance *= 0.1;  // so that other cuts give the same lengths to ten times the tolerance
+  if (const std::optional<ShapeStart> start = developed_start(problem, dissection)) {
+    const ShapeSearch search(problem, problem.target, edges, dissection);
+    return ShapeDescent(search, within, stage).run(*start).minimum;
   }
-  return minimum;
+  return AreaContinuation(problem, edges, dissection).run(within, stage);
 }
 
 }  // namespace orbitutte

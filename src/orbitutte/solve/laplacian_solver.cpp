@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "orbitutte/linear/laplacian_matrix.h"
 #include "orbitutte/parallel.h"
 #include "orbitutte/solve/laplacian_systems.h"
 
@@ -16,17 +17,13 @@ bool banks_are_short(const CutMesh& cut, std::size_t vertex_count) {
   return static_cast<double>(cut.boundary.size()) <= 200 + 4 * std::sqrt(static_cast<double>(vertex_count));
 }
 
-// Solutions are in single precision. Along edges with larger weights than this, their errors would be forces
-// of the size of those that they are to remove.
-constexpr double stiff = 1e6;
-
 }  // namespace
 
 LaplacianSolver::LaplacianSolver(const CutMesh& cut, const GluedEdges& glued, const EdgeWeights& weights,
                                  const BoundaryConditions& boundary, const LaplacianSetup& setup)
     : w_(weights.w),
       glued_(glued),
-      is_stiff_(weights.w.size() > 0 && weights.w.maxCoeff() > stiff),
+      is_stiff_(weights.w.size() > 0 && weights.w.maxCoeff() > stiff_weight),
       graph_(std::make_unique<DiskGraph>(disk_graph(cut, glued, boundary))) {
   const std::size_t n = boundary.basis_of.size();
   const std::shared_ptr<LaplacianReuse> reuse = setup.reuse ? setup.reuse : reusable_laplacians(Kept::order);

@@ -54,26 +54,38 @@ std::vector<int> tangent_unknowns(const BoundaryConditions& boundary) {
 
 }  // namespace
 
-TangentSystem::TangentSystem(const TangentProblem& problem, const Points& x)
-    : unknowns_(number_unknowns(problem.dissection.order, tangent_unknowns(problem.boundary))) {
-  const Space space = problem.boundary.space;
-  frames_.resize(static_cast<std::size_t>(x.rows()));
+TangentSystem::TangentSystem(Space space, std::shared_ptr<const Factored> factored, const Points& x)
+    : space_(space), frames_(static_cast<std::size_t>(x.rows())), factored_(std::move(factored)) {
   parallel_ranges(static_cast<int>(x.rows()), [&](int begin, int end) {
-    for (int v = begin; v < end; ++v) frames_[v] = space.to_origin(x.row(v)).inverse_matrix().leftCols<2>();
+    for (int v = begin; v < end; ++v) frames_[v] = space_.to_origin(x.row(v)).inverse_matrix().leftCols<2>();
   });
-  if (unknowns_.total == 0) return;
-  try {
-    factor_ = factorize(assemble_hessian(problem, x, true), problem.backend);
-  } catch (const NotPositiveDefinite&) {
-    is_exact_ = false;
-    factor_ = factorize_laplacian(assemble_hessian(problem, x, false), unknowns_, problem.backend);
-  }
 }
 
-TangentSystem::~TangentSystem() = default;
+TangentSystem::TangentSystem(const TangentProblem& problem, const Points& x)
+    : TangentSystem(problem.boundary.space, nullptr, x) {
+  factored_ = std::make_shared<Factored>(factored(problem, x));
+}
 
-SparseMatrix TangentSystem::assemble_hessian(const TangentProblem& problem, const Points& x,
-                                             bool is_exact) const {
+TangentSystem TangentSystem::moved_to(const Points& x) const { return {space_, factored_, x}; }
+
+TangentSystem::Factored TangentSystem::factored(const TangentProblem& problem, const Points& x) const {
+  Factored result;
+  result.unknowns = number_unknowns(problem.dissection.order, tangent_unknowns(problem.boundary));
+  if (result.unknowns.total == 0) return result;
+  SparseMatrix A = assemble_form(problem, x, result.unknowns, Form::hessian);
+  try {
+    result.factor = eliminate(A, problem.backend, 0).factor;
+  } catch (const NotPositiveDefinite&) {
+    result.is_exact = false;
+    A = assemble_form(problem, x, result.unknowns, Form::laplacian);
+    result.factor = eliminate_laplacian(A, result.unknowns, problem.backend);
+  }
+  if (problem.w.maxCoeff() > stiff_weight) result.stiff = std::move(A);
+  return result;
+}
+
+SparseMatrix TangentSystem::assemble_form(const TangentProblem& problem, const Points& x,
+                                          const Unknowns& unknowns, Form form) const {
   const std::vector<GluedEdge>& edges = problem.glued.edges;
   const int k_of_space = problem.boundary.space.curvature();
   const auto lowered = [&](int v) {
@@ -89,7 +101,8 @@ SparseMatrix TangentSystem::assemble_hessian(const TangentProblem& problem, cons
         const Isometry& g = problem.glued.transforms[t];
         const Vector3 p = x.row(i), x_j = x.row(j), q = g * x_j, seen = g.inverse_matrix() * p;
         const auto d = curvature.distance(p, q);
-        const NormalFactors factors = is_exact ? normal_factors<k>(d.squared, d.over_sn) : NormalFactors();
+        const NormalFactors factors =
+            form == Form::hessian ? normal_factors<k>(d.squared, d.over_sn) : NormalFactors();
         const Row2 e_p = unit_in_frame(curvature.tangent(p, q - p), lowered(i)),
                    e_q = -unit_in_frame(curvature.tangent(x_j, seen - x_j), lowered(j));
         const EdgeHessian one = hessian_along(e_p, e_q, factors);
@@ -101,7 +114,7 @@ SparseMatrix TangentSystem::assemble_hessian(const TangentProblem& problem, cons
   std::vector<Eigen::Triplet<double, long>> entries;
   entries.reserve(10 * edges.size());
   const auto add = [&](int row_vertex, int column_vertex, const Block2& block) {
-    const long row = unknowns_.first[row_vertex], column = unknowns_.first[column_vertex];
+    const long row = unknowns.first[row_vertex], column = unknowns.first[column_vertex];
     if (row < 0 || column < 0) return;
     for (int r = 0; r < 2; ++r)
       for (int c = 0; c < 2; ++c)
@@ -114,21 +127,46 @@ SparseMatrix TangentSystem::assemble_hessian(const TangentProblem& problem, cons
     add(i, j, hessians[e].ij);
     add(j, i, hessians[e].ij.transpose());
   }
-  SparseMatrix lower(unknowns_.total, unknowns_.total);
+  SparseMatrix lower(unknowns.total, unknowns.total);
   lower.setFromTriplets(entries.begin(), entries.end());
   return lower;
 }
 
+SinglePoints TangentSystem::solve(const SinglePoints& b) const {
+  SinglePoints y = b;
+  factored_->factor.forward(y);
+  factored_->factor.backward(y);
+  return y;
+}
+
 Points TangentSystem::precondition(const Points& gradient) const {
-  Points result = Points::Zero(gradient.rows(), 3);
-  if (!factor_) return result;
-  Eigen::MatrixXd b(unknowns_.total, 1);
-  for (const int v : unknowns_.order)
-    b.block<2, 1>(unknowns_.first[v], 0) = frames_[v].transpose() * gradient.row(v).transpose();
-  const Eigen::MatrixXd y = factor_->solve(b);
-  for (const int v : unknowns_.order)
-    result.row(v) = (frames_[v] * y.block<2, 1>(unknowns_.first[v], 0)).transpose();
-  return result;
+  return precondition_all({gradient}).front();
+}
+
+std::vector<Points> TangentSystem::precondition_all(const std::vector<Points>& gradients) const {
+  const Unknowns& unknowns = factored_->unknowns;
+  std::vector<Points> results(gradients.size());
+  for (std::size_t first = 0; first < gradients.size(); first += 3) {
+    const std::size_t count = std::min<std::size_t>(3, gradients.size() - first);
+    SinglePoints b = SinglePoints::Zero(unknowns.total, 3);
+    for (const int v : unknowns.order)
+      for (std::size_t c = 0; c < count; ++c)
+        b.block<2, 1>(unknowns.first[v], static_cast<long>(c)) =
+            (frames_[v].transpose() * gradients[first + c].row(v).transpose()).cast<float>();
+    SinglePoints y = solve(b);
+    if (factored_->stiff.nonZeros() > 0) {
+      const Eigen::MatrixXd image =
+          factored_->stiff.selfadjointView<Eigen::Lower>() * Eigen::MatrixXd(y.cast<double>());
+      y += solve((b.cast<double>() - image).cast<float>());
+    }
+    for (std::size_t c = 0; c < count; ++c) {
+      Points& result = results[first + c] = Points::Zero(gradients[first + c].rows(), 3);
+      for (const int v : unknowns.order)
+        result.row(v) =
+            (frames_[v] * y.block<2, 1>(unknowns.first[v], static_cast<long>(c)).cast<double>()).transpose();
+    }
+  }
+  return results;
 }
 
 }  // namespace orbitutte

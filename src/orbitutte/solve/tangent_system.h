@@ -32,28 +32,52 @@ struct TangentProblem {
 ///
 /// The glued Laplacian of R^3 (LaplacianSolver), which takes less time, serves only near (0, 0, 1) in the
 /// hyperbolic plane, whose coordinates grow with the exponential of the distance from there.
+///
+/// The factor is in single precision, which is enough for a preconditioner. Where some weights are so large
+/// that it is not (stiff_weight), each solution is refined once.
 class TangentSystem : public Preconditioner {
  public:
   /// At positions x (n x 3) of the input vertices; those that are held have no unknowns, all others may move
   /// in the whole space. Throws MeshError naming a vertex that no positive weight ties to the cones.
   TangentSystem(const TangentProblem& problem, const Points& x);
-  ~TangentSystem() override;
+
+  /// The same factor between the frames of other positions: a preconditioner for maps nearby, onto the same
+  /// tile or one of almost the same shape.
+  TangentSystem moved_to(const Points& x) const;
 
   /// The inverse Hessian times a covector at x, as DirichletEnergy has gradients: tangent vectors at x.
   Points precondition(const Points& gradient) const override;
 
-  /// Is it the second derivative itself?
-  bool is_exact() const { return is_exact_; }
+  /// The same of several, three of which take little longer than one.
+  std::vector<Points> precondition_all(const std::vector<Points>& gradients) const;
+
+  /// Is it the second derivative itself, of the map for which it was factorised?
+  bool is_exact() const { return factored_->is_exact; }
 
  private:
   using Frame = Eigen::Matrix<double, 3, 2>;
 
-  SparseMatrix assemble_hessian(const TangentProblem& problem, const Points& x, bool is_exact) const;
+  enum class Form { hessian, laplacian };
 
+  // What does not depend on the frames.
+  struct Factored {
+    Unknowns unknowns;
+    LeadingFactor factor = LeadingFactor(std::vector<int>());
+    // Only if some weights are large.
+    SparseMatrix stiff = SparseMatrix(0, 0);
+    bool is_exact = true;
+  };
+
+  TangentSystem(Space space, std::shared_ptr<const Factored> factored, const Points& x);
+
+  Factored factored(const TangentProblem& problem, const Points& x) const;
+  SparseMatrix assemble_form(const TangentProblem& problem, const Points& x, const Unknowns& unknowns,
+                             Form form) const;
+  SinglePoints solve(const SinglePoints& b) const;
+
+  Space space_;
   std::vector<Frame> frames_;
-  Unknowns unknowns_;
-  std::unique_ptr<SparseFactor> factor_;
-  bool is_exact_ = true;
+  std::shared_ptr<const Factored> factored_;
 };
 
 }  // namespace orbitutte
