@@ -154,6 +154,39 @@ TEST_P(EveryCutSurface, TheTangentSystemInvertsTheSecondDerivative) {
   EXPECT_LT((recovered - direction).cwiseAbs().maxCoeff(), 1e-3 * direction.cwiseAbs().maxCoeff());
 }
 
+// The system of one map, refined by the Hessian of another nearby, inverts that; so does the system whose
+// frames alone were moved, but not as well.
+TEST_P(EveryCutSurface, ATangentSystemServesForMapsNearby) {
+  const CutSurface s = cut_surface();
+  const GluingProblem problem = s.problem();
+  const GluedEdges glued = s.energy.glued(s.polygon());
+  const DirichletEnergy energy(glued, s.weights, problem.boundary);
+  const Dissection dissection =
+      dissect(vertex_neighbors(s.weights.triangulation->connectivity.edges, s.surface.vertex_count()));
+  const TangentProblem tangent = {glued, s.weights.w, problem.boundary, dissection,
+                                  available_backends().front()};
+  const LaplacianSolver laplacian(s.cut, glued_along(problem, problem.boundary), s.weights, problem.boundary);
+  const Points x = s.energy.with_cones(
+      initial_embedding(s.surface, s.cut, problem.tile, problem.boundary, laplacian), s.polygon());
+  const TangentSystem system(tangent, x);
+  if (!system.is_exact()) {
+    ASSERT_GT(GetParam(), 0) << "only on the sphere it need not be positive";
+    return;
+  }
+  const Points gradient = energy.evaluate(x).gradient, direction = system.precondition(gradient);
+  const double step = 0.02 / direction.cwiseAbs().maxCoeff();
+  Points beside;
+  move_points(s.target.space, x, direction, step, beside);
+  const Points covector = energy.evaluate(beside).gradient,
+               wanted = TangentSystem(tangent, beside).precondition(covector),
+               refined = system.beside(tangent, beside).solve({covector, gradient}).front(),
+               moved = system.moved_to(beside).precondition(covector);
+  const double size = wanted.cwiseAbs().maxCoeff(), error = (refined - wanted).cwiseAbs().maxCoeff();
+  EXPECT_LT(error, 0.02 * size);
+  EXPECT_LT((moved - wanted).cwiseAbs().maxCoeff(), 0.2 * size);
+  EXPECT_LE(error, (moved - wanted).cwiseAbs().maxCoeff() + 1e-5 * size);
+}
+
 Eigen::VectorXd edge_lengths(const CutSurface& s, const Minimum& minimum) {
   const Tile tile = tile_through(s.target, s.cut, minimum.positions);
   const BoundaryConditions boundary = glue(s.cut, tile, s.target);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "orbitutte/solve/conformal_metric.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "orbitutte/linear/laplacian_matrix.h"
 #include "orbitutte/parallel.h"
@@ -14,16 +15,6 @@ namespace orbitutte {
 namespace {
 
 using std::numbers::pi;
-
-// A triangle by its sides. Side i runs from corner i to corner i + 1.
-struct TriangleAngles {
-  // At each corner.
-  std::array<double, 3> angle = {};
-
-  // Of each side, what couples the scales of its ends: tan((a_i + a_j - a_o)/2)/2.
-  std::array<double, 3> coupling = {};
-  bool is_flat = false;
-};
 
 // What remains of a triangle whose longest side is too long for the other two.
 TriangleAngles flat_triangle(const std::array<double, 3>& half_sn) {
@@ -38,6 +29,8 @@ TriangleAngles flat_triangle(const std::array<double, 3>& half_sn) {
 double tan_of_sum(double x, double y, double minus_z) {
   return (x + y - minus_z + x * y * minus_z) / (1 - x * y + (x + y) * minus_z);
 }
+
+}  // namespace
 
 // From sn of the half sides: with x, y, z the half sides, the angle a opposite to x has
 // tan^2(a/2) = sn(x + y - z) sn(x - y + z)/(sn(x + y + z) sn(-x + y + z)).
@@ -63,6 +56,8 @@ TriangleAngles triangle_angles(int k, const std::array<double, 3>& half_sn) {
     result.coupling[i] = 0.5 * tan_of_sum(half_tan[i], half_tan[(i + 1) % 3], half_tan[(i + 2) % 3]);
   return result;
 }
+
+namespace {
 
 // The area of the surface in space.
 double area_of(const Surface& surface) {
@@ -90,6 +85,7 @@ class ConformalScale {
   explicit ConformalScale(const ConformalProblem& problem)
       : surface_(problem.surface),
         k_(problem.space.curvature()),
+        wanted_(problem.angles),
         angles_(problem.angles),
         area_(k_ * (problem.angles.sum() - pi * problem.surface.triangle_count())),
         length_(surface_.triangle_count(), 3),
@@ -102,15 +98,19 @@ class ConformalScale {
                 .norm();
   }
 
-  ConformalMetric solve() const {
-    constexpr int most_steps = 40;
-    constexpr double tolerance = 1e-5;
-    const double scale = 0.5 * std::log(area_ / area_of(surface_));
-    State state = at(Eigen::VectorXd::Constant(surface_.vertex_count(), scale));
-    for (int step = 0; step < most_steps && state.defect() > tolerance; ++step) {
-      std::optional<State> next = advanced(state, newton_direction(state));
-      if (!next) break;
-      state = std::move(*next);
+  // On the sphere, where Newton's method may lead elsewhere from far away, by way of smaller areas.
+  ConformalMetric solve() {
+    constexpr double loose = 0.1, tight = 1e-4;
+    State state;
+    state.u = Eigen::VectorXd::Constant(surface_.vertex_count(), 0.5 * std::log(1 / area_of(surface_)));
+    double area = 1;
+    for (const double share : k_ > 0 ? std::vector<double>{0.1, 0.5, 1} : std::vector<double>{1}) {
+      const double next = share * area_;
+      angles_ = angles_with_area(next);
+      const double growth = 0.5 * std::log(next / area), limit = -std::log(length_.maxCoeff());
+      state = at(state.u.array() + std::min(growth, limit - state.u.maxCoeff()));
+      descend(share < 1 ? loose : tight, state);
+      area = next;
     }
     return metric_of(state);
   }
@@ -127,8 +127,24 @@ class ConformalScale {
     // n: by how much the angles around each vertex exceed what they are to be.
     Eigen::VectorXd excess;
 
-    double defect() const { return excess.cwiseAbs().maxCoeff(); }
+    double defect() const { return excess.cwiseAbs().sum(); }
   };
+
+  // What the angles are to be if all deficits are scaled so that the area is another one.
+  Eigen::VectorXd angles_with_area(double area) const {
+    const double factor = (4 * pi - k_ * area) / (4 * pi - k_ * area_);
+    return wanted_.unaryExpr(
+        [&](double angle) { return angle > 0 ? 2 * pi - factor * (2 * pi - angle) : angle; });
+  }
+
+  void descend(double tolerance, State& state) const {
+    constexpr int most_steps = 40;
+    for (int step = 0; step < most_steps && state.defect() > tolerance; ++step) {
+      std::optional<State> next = advanced(state, newton_direction(state));
+      if (!next) return;
+      state = std::move(*next);
+    }
+  }
 
   // The Laplacian, and on its diagonal what the curvature adds for the constants, made positive.
   SparseMatrix preconditioning_matrix(const ConformalProblem& problem) const {
@@ -256,7 +272,10 @@ class ConformalScale {
 
   const Surface& surface_;
   int k_;
-  const Eigen::VectorXd& angles_;
+  const Eigen::VectorXd& wanted_;
+
+  // Those that are searched for at present.
+  Eigen::VectorXd angles_;
   double area_;
 
   // T x 3: of the half-edges, in space.

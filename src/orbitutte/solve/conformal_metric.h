@@ -3,6 +3,9 @@
 // surface.
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include "orbitutte/geometry/space.h"
 #include "orbitutte/linear/dissection.h"
 #include "orbitutte/mesh/edge_weights.h"
@@ -10,6 +13,22 @@
 #include "orbitutte/options.h"
 
 namespace orbitutte {
+
+/// A geodesic triangle by its sides. Side i runs from corner i to corner i + 1.
+struct TriangleAngles {
+  /// At each corner.
+  std::array<double, 3> angle = {};
+
+  /// Of each side, what couples the scales of its ends: w, see conformal_metric.
+  std::array<double, 3> coupling = {};
+
+  /// Are the sides those of no triangle? Then the angle is pi opposite to the longest and zero at the other
+  /// corners, and the couplings are zero.
+  bool is_flat = false;
+};
+
+/// half_sn: sn of half of each side; k: the curvature.
+TriangleAngles triangle_angles(int k, const std::array<double, 3>& half_sn);
 
 /// What angles a surface is to have, and what its linear systems are made of.
 struct ConformalProblem {
@@ -34,14 +53,14 @@ struct ConformalMetric {
   /// T x 3: the length of each half-edge.
   Points lengths;
 
-  /// T x 3: the angle at each corner. Where lengths are those of no triangle, it is pi opposite to the
-  /// longest and zero at the other corners.
+  /// T x 3: the angle at each corner.
   Points angles;
 
-  /// T: is it such a triangle?
+  /// T: are its lengths those of no triangle (TriangleAngles)?
   std::vector<char> is_flat;
 
-  /// The largest difference between the sum of the angles around a vertex and what it is to be.
+  /// The differences between the sums of the angles around the vertices and what they are to be, added up:
+  /// what a walk around all of them may be off by.
   double defect = 0;
 };
 
@@ -54,7 +73,8 @@ struct ConformalMetric {
 ///     w ((v_i - v_j)^2 - k tn^2(d_ij/2) (v_i + v_j)^2),  w = tan((a_i + a_j - a_o)/2)/2,
 /// the cotangent Laplacian and what the curvature adds. Newton's method solves for u, step by step with
 /// preconditioned conjugate gradients. In the hyperbolic plane the form is that of a convex function. On the
-/// sphere it is negative for the constants, apart from which it is positive near the solution.
+/// sphere it is negative for the constants, apart from which it is positive near the solution; there the area
+/// grows in steps, all deficits of angles being scaled.
 ///
 /// The best metric that was found; its defect tells whether it is the one that was wanted. There need not be
 /// any for the given triangles.

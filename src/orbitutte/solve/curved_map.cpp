@@ -127,12 +127,21 @@ class ShapeSearch {
   HarmonicTile harmonic_beside(const HarmonicTile& from, double distance, const ShapeStart& start,
                                const LbfgsOptions& options) const {
     constexpr double nearby = 0.1;
-    if (from.moved + distance > nearby) return harmonic(start.cones, start.x, options);
+    if (!from.hessian->is_exact() || from.moved + distance > nearby)
+      return harmonic(start.cones, start.x, options);
     HarmonicTile tile = started(start.cones, start.x);
     tile.hessian = std::make_shared<TangentSystem>(from.hessian->moved_to(tile.minimum.positions));
     tile.moved = from.moved + distance;
     relax(options, tile);
     return tile;
+  }
+
+  // Is the energy there about as small as that of a conformal map?
+  bool is_good(const ShapeStart& start) const {
+    constexpr double largest_conformality = 1.5;
+    const HarmonicTile tile = started(start.cones, start.x);
+    const double energy = tile.system->energy.evaluate(tile.x()).energy;
+    return energy < largest_conformality * 2 * moduli_.area();
   }
 
   // By differences of first derivatives of the edges that feel the cones.
@@ -146,7 +155,7 @@ class ShapeSearch {
                        energy_.gradient(tile.x(), nearby(tile.cones, -step))) /
                       (-2 * h));
     }
-    model.responses = tile.hessian->precondition_all(mixed);
+    model.responses = tile.hessian->beside(tangent_problem(*tile.system), tile.x()).solve(mixed);
     for (int a = 0; a < moduli_.dimension(); ++a)
       for (int b = 0; b < moduli_.dimension(); ++b)
         model.energy.hessian(a, b) -=
@@ -277,8 +286,8 @@ class ShapeDescent {
         add_row(tile, length);
         return true;
       }
+      if (is_hidden(tile, promised)) break;
       radius_ = length / 3;
-      if (!(length > 1e-14)) break;
     }
     return false;
   }
@@ -296,9 +305,14 @@ class ShapeDescent {
 
   // Where rounding hides the change of the energy, by its slope.
   bool is_better(const HarmonicTile& from, const HarmonicTile& to, double promised) const {
-    constexpr double rounding = 1e-12, least_share = 0.05;
-    if (promised <= rounding * from.minimum.energy) return to.steepest() < from.steepest();
+    constexpr double least_share = 0.05;
+    if (is_hidden(from, promised)) return to.steepest() < 0.5 * from.steepest();
     return from.minimum.energy - to.minimum.energy > least_share * promised;
+  }
+
+  // Is a change of the energy hidden by rounding?
+  static bool is_hidden(const HarmonicTile& tile, double change) {
+    return change <= 1e-12 * tile.minimum.energy;
   }
 
   void adapt_radius(double share, double length) {
@@ -338,7 +352,7 @@ Points cones_when_met(const CutMesh& cut, const Points& positions) {
 
 // The surface with its discretely conformal metric, developed; nothing where its triangles have none.
 std::optional<ShapeStart> developed_start(const GluingProblem& problem, const Dissection& dissection) {
-  constexpr double largest_defect = 0.01;
+  constexpr double largest_defect = 0.5;
   const Space space = problem.target.space;
   const ConformalMetric metric =
       conformal_metric({problem.surface, space, angles_around_vertices(problem), problem.weights, dissection,
@@ -449,7 +463,7 @@ Minimum curved_map(const GluingProblem& problem, const LbfgsOptions& options, co
   within.tolerance *= 0.1;  // so that other cuts give the same lengths to ten times the tolerance
   if (const std::optional<ShapeStart> start = developed_start(problem, dissection)) {
     const ShapeSearch search(problem, problem.target, edges, dissection);
-    return ShapeDescent(search, within, stage).run(*start).minimum;
+    if (search.is_good(*start)) return ShapeDescent(search, within, stage).run(*start).minimum;
   }
   return AreaContinuation(problem, edges, dissection).run(within, stage);
 }

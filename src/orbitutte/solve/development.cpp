@@ -2,7 +2,9 @@
 #include "orbitutte/solve/development.h"
 
 #include <Eigen/Geometry>
-#include <deque>
+#include <algorithm>
+#include <queue>
+#include <utility>
 
 namespace orbitutte {
 namespace {
@@ -24,7 +26,8 @@ Vector3 placed(Space space, const Vector3& p, const Vector3& q, const PolarPlace
       space.at(p, std::cos(place.angle) * ahead + std::sin(place.angle) * left, place.distance));
 }
 
-// Goes over the triangles of a cut mesh from each to those beside it.
+// Goes over the triangles of a cut mesh from each to those beside it, always across the longest side: a walk
+// through small triangles knows directions less exactly.
 class Layout {
  public:
   Layout(const Surface& surface, const CutMesh& cut, Space space, const ConformalMetric& metric)
@@ -38,11 +41,12 @@ class Layout {
 
   Points run() {
     begin();
-    while (!next_.empty() || !flat_.empty()) {
-      std::deque<int>& some = next_.empty() ? flat_ : next_;
-      const int f = some.front();
-      some.pop_front();
-      for (int h = 3 * f; h < 3 * f + 3; ++h) cross(h);
+    while (!waiting_.empty()) {
+      const int h = waiting_.top().second;
+      waiting_.pop();
+      if (is_met_[h / 3]) continue;
+      put_apex(h);
+      leave(h / 3);
     }
     return std::move(positions_);
   }
@@ -53,16 +57,15 @@ class Layout {
     is_placed_[vertex] = 1;
   }
 
-  // The first triangle that is not flat.
+  // At the longest side.
   void begin() {
-    int f = 0;
-    while (f + 1 < cut_.F.rows() && metric_.is_flat[f]) ++f;
-    const Vector3 p = Space::origin(), q = space_.polar(metric_.lengths(f, 0), 0);
-    put(cut_.F(f, 0), p);
-    put(cut_.F(f, 1), q);
-    put_apex(3 * f);
-    is_met_[f] = 1;
-    next_.push_back(f);
+    Eigen::Index f = 0, k = 0;
+    metric_.lengths.maxCoeff(&f, &k);
+    const int h = static_cast<int>(3 * f + k);
+    put(halfedge_origin(cut_.F, h), Space::origin());
+    put(halfedge_target(cut_.F, h), space_.polar(metric_.lengths(f, k), 0));
+    put_apex(h);
+    leave(h / 3);
   }
 
   // The third corner of the triangle on the left of a half-edge whose ends lie in their places.
@@ -74,17 +77,21 @@ class Layout {
                      positions_.row(halfedge_target(cut_.F, h)), place));
   }
 
-  // To the triangle on the other side, if the cut does not run along the half-edge.
-  void cross(int h) {
-    const int g = surface_.connectivity.opposite[h];
-    if (g < 0 || is_met_[g / 3]) return;
-    if (halfedge_origin(cut_.F, g) != halfedge_target(cut_.F, h) ||
-        halfedge_target(cut_.F, g) != halfedge_origin(cut_.F, h))
-      return;
-    is_met_[g / 3] = 1;
-    put_apex(g);
-    (metric_.is_flat[g / 3] ? flat_ : next_).push_back(g / 3);
+  // The triangles across the sides of one that lies in its place wait, if the cut does not run in between.
+  void leave(int f) {
+    is_met_[f] = 1;
+    for (int h = 3 * f; h < 3 * f + 3; ++h) {
+      const int g = surface_.connectivity.opposite[h];
+      if (g < 0 || is_met_[g / 3] || halfedge_origin(cut_.F, g) != halfedge_target(cut_.F, h) ||
+          halfedge_target(cut_.F, g) != halfedge_origin(cut_.F, h))
+        continue;
+      const double length = metric_.lengths.data()[h];
+      waiting_.push({metric_.is_flat[g / 3] ? length - flat_last : length, g});
+    }
   }
+
+  // More than any length between triangles that are not flat.
+  static constexpr double flat_last = 1e6;
 
   const Surface& surface_;
   const CutMesh& cut_;
@@ -92,7 +99,9 @@ class Layout {
   const ConformalMetric& metric_;
   Points positions_;
   std::vector<char> is_placed_, is_met_;
-  std::deque<int> next_, flat_;
+
+  // Half-edges of triangles beside those that lie in their places, the longest first.
+  std::priority_queue<std::pair<double, int>> waiting_;
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "orbitutte/solve/tangent_system.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -52,40 +53,122 @@ std::vector<int> tangent_unknowns(const BoundaryConditions& boundary) {
   return count;
 }
 
+// A tangent vector at p, moved along the geodesic from p to q: v - k <v, q>/(1 + cs d) (p + q).
+Vector3 parallel(Space space, const Vector3& v, const Vector3& p, const Vector3& q) {
+  const int k = space.curvature();
+  const double cs = k * p.head<2>().dot(q.head<2>()) + p.z() * q.z();
+  return v - k * space.dot(v, q) / (1 + cs) * (p + q);
+}
+
+// The lower triangle of a matrix of 2 x 2 blocks, one for each vertex and each edge between two that have
+// unknowns.
+class BlockMatrix {
+ public:
+  BlockMatrix(const Unknowns& unknowns, const std::vector<GluedEdge>& edges)
+      : unknowns_(unknowns), matrix_(unknowns.total, unknowns.total) {
+    const std::vector<std::vector<long>> below = blocks_below(edges);
+    long* const start = matrix_.outerIndexPtr();
+    start[0] = 0;
+    for (long column = 0; column < unknowns.total; ++column)
+      start[column + 1] = start[column] + 2 * static_cast<long>(below[column / 2].size()) + 2 - column % 2;
+    matrix_.resizeNonZeros(start[unknowns.total]);
+    std::fill_n(matrix_.valuePtr(), matrix_.nonZeros(), 0.0);
+    for (long column = 0; column < unknowns.total; ++column) {
+      long* row = matrix_.innerIndexPtr() + start[column];
+      for (long own = column; own < column / 2 * 2 + 2; ++own) *row++ = own;
+      for (const long first : below[column / 2]) {
+        *row++ = first;
+        *row++ = first + 1;
+      }
+    }
+  }
+
+  // To the rows of one vertex and the columns of another. What lies above the diagonal is left out.
+  void add(int row_vertex, int column_vertex, const Block2& block) {
+    const long row = unknowns_.first[row_vertex], column = unknowns_.first[column_vertex];
+    if (column < 0 || row < column) return;
+    const long* const start = matrix_.outerIndexPtr() + column;
+    double* const value = matrix_.valuePtr();
+    if (row == column) {
+      value[start[0]] += block(0, 0);
+      value[start[0] + 1] += block(1, 0);
+      value[start[1]] += block(1, 1);
+      return;
+    }
+    long within = 2;
+    while (matrix_.innerIndexPtr()[start[0] + within] != row) within += 2;
+    for (int r = 0; r < 2; ++r) {
+      value[start[0] + within + r] += block(r, 0);
+      value[start[1] + within - 1 + r] += block(r, 1);
+    }
+  }
+
+  SparseMatrix release() { return std::move(matrix_); }
+
+ private:
+  // Of every block column: the first rows of the blocks below the diagonal, ascending.
+  std::vector<std::vector<long>> blocks_below(const std::vector<GluedEdge>& edges) const {
+    std::vector<std::vector<long>> below(unknowns_.order.size());
+    for (const auto& [i, j, t] : edges) {
+      const auto [column, row] = std::minmax(unknowns_.first[i], unknowns_.first[j]);
+      if (column >= 0 && column < row) below[column / 2].push_back(row);
+    }
+    for (std::vector<long>& rows : below) {
+      std::sort(rows.begin(), rows.end());
+      rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+    }
+    return below;
+  }
+
+  const Unknowns& unknowns_;
+  SparseMatrix matrix_;
+};
+
 }  // namespace
 
-TangentSystem::TangentSystem(Space space, std::shared_ptr<const Factored> factored, const Points& x)
-    : space_(space), frames_(static_cast<std::size_t>(x.rows())), factored_(std::move(factored)) {
+TangentSystem::TangentSystem(Space space, const Points& x)
+    : space_(space), x_(x), frames_(static_cast<std::size_t>(x.rows())) {
   parallel_ranges(static_cast<int>(x.rows()), [&](int begin, int end) {
     for (int v = begin; v < end; ++v) frames_[v] = space_.to_origin(x.row(v)).inverse_matrix().leftCols<2>();
   });
 }
 
 TangentSystem::TangentSystem(const TangentProblem& problem, const Points& x)
-    : TangentSystem(problem.boundary.space, nullptr, x) {
-  factored_ = std::make_shared<Factored>(factored(problem, x));
+    : TangentSystem(problem.boundary.space, x) {
+  Factored factored;
+  factored.unknowns = number_unknowns(problem.dissection.order, tangent_unknowns(problem.boundary));
+  factored.is_stiff = problem.w.size() > 0 && problem.w.maxCoeff() > stiff_weight;
+  form_ = assemble_form(problem, x, factored);
+  try {
+    if (factored.unknowns.total > 0) factored.factor = eliminate(*form_, problem.backend, 0).factor;
+  } catch (const NotPositiveDefinite&) {
+    factored.is_exact = false;
+    form_ = assemble_form(problem, x, factored);
+    factored.factor = eliminate_laplacian(*form_, factored.unknowns, problem.backend);
+  }
+  factored_ = std::make_shared<Factored>(std::move(factored));
 }
 
-TangentSystem TangentSystem::moved_to(const Points& x) const { return {space_, factored_, x}; }
-
-TangentSystem::Factored TangentSystem::factored(const TangentProblem& problem, const Points& x) const {
-  Factored result;
-  result.unknowns = number_unknowns(problem.dissection.order, tangent_unknowns(problem.boundary));
-  if (result.unknowns.total == 0) return result;
-  SparseMatrix A = assemble_form(problem, x, result.unknowns, Form::hessian);
-  try {
-    result.factor = eliminate(A, problem.backend, 0).factor;
-  } catch (const NotPositiveDefinite&) {
-    result.is_exact = false;
-    A = assemble_form(problem, x, result.unknowns, Form::laplacian);
-    result.factor = eliminate_laplacian(A, result.unknowns, problem.backend);
-  }
-  if (problem.w.maxCoeff() > stiff_weight) result.stiff = std::move(A);
+TangentSystem TangentSystem::moved_to(const Points& x) const {
+  TangentSystem result = *this;
+  result.x_ = x;
+  parallel_ranges(static_cast<int>(x.rows()), [&](int begin, int end) {
+    for (int v = begin; v < end; ++v)
+      for (int a = 0; a < 2; ++a)
+        result.frames_[v].col(a) = parallel(space_, frames_[v].col(a), x_.row(v), x.row(v));
+  });
   return result;
 }
 
-SparseMatrix TangentSystem::assemble_form(const TangentProblem& problem, const Points& x,
-                                          const Unknowns& unknowns, Form form) const {
+TangentSystem TangentSystem::beside(const TangentProblem& problem, const Points& x) const {
+  TangentSystem result = moved_to(x);
+  result.form_ = result.assemble_form(problem, x, *factored_);
+  return result;
+}
+
+std::shared_ptr<const SparseMatrix> TangentSystem::assemble_form(const TangentProblem& problem,
+                                                                 const Points& x,
+                                                                 const Factored& factored) const {
   const std::vector<GluedEdge>& edges = problem.glued.edges;
   const int k_of_space = problem.boundary.space.curvature();
   const auto lowered = [&](int v) {
@@ -102,7 +185,7 @@ SparseMatrix TangentSystem::assemble_form(const TangentProblem& problem, const P
         const Vector3 p = x.row(i), x_j = x.row(j), q = g * x_j, seen = g.inverse_matrix() * p;
         const auto d = curvature.distance(p, q);
         const NormalFactors factors =
-            form == Form::hessian ? normal_factors<k>(d.squared, d.over_sn) : NormalFactors();
+            factored.is_exact ? normal_factors<k>(d.squared, d.over_sn) : NormalFactors();
         const Row2 e_p = unit_in_frame(curvature.tangent(p, q - p), lowered(i)),
                    e_q = -unit_in_frame(curvature.tangent(x_j, seen - x_j), lowered(j));
         const EdgeHessian one = hessian_along(e_p, e_q, factors);
@@ -111,60 +194,58 @@ SparseMatrix TangentSystem::assemble_form(const TangentProblem& problem, const P
       }
     });
   });
-  std::vector<Eigen::Triplet<double, long>> entries;
-  entries.reserve(10 * edges.size());
-  const auto add = [&](int row_vertex, int column_vertex, const Block2& block) {
-    const long row = unknowns.first[row_vertex], column = unknowns.first[column_vertex];
-    if (row < 0 || column < 0) return;
-    for (int r = 0; r < 2; ++r)
-      for (int c = 0; c < 2; ++c)
-        if (row + r >= column + c) entries.emplace_back(row + r, column + c, block(r, c));
-  };
+  BlockMatrix matrix(factored.unknowns, edges);
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const auto& [i, j, t] = edges[e];
-    add(i, i, hessians[e].ii);
-    add(j, j, hessians[e].jj);
-    add(i, j, hessians[e].ij);
-    add(j, i, hessians[e].ij.transpose());
+    matrix.add(i, i, hessians[e].ii);
+    matrix.add(j, j, hessians[e].jj);
+    matrix.add(i, j, hessians[e].ij);
+    matrix.add(j, i, hessians[e].ij.transpose());
   }
-  SparseMatrix lower(unknowns.total, unknowns.total);
-  lower.setFromTriplets(entries.begin(), entries.end());
-  return lower;
+  return std::make_shared<SparseMatrix>(matrix.release());
 }
 
-SinglePoints TangentSystem::solve(const SinglePoints& b) const {
+SinglePoints TangentSystem::packed(const std::vector<Points>& gradients, std::size_t first) const {
+  const Unknowns& unknowns = factored_->unknowns;
+  SinglePoints b = SinglePoints::Zero(unknowns.total, 3);
+  for (std::size_t c = 0; c < std::min<std::size_t>(3, gradients.size() - first); ++c)
+    for (const int v : unknowns.order)
+      b.block<2, 1>(unknowns.first[v], static_cast<Eigen::Index>(c)) =
+          (frames_[v].transpose() * gradients[first + c].row(v).transpose()).cast<float>();
+  return b;
+}
+
+Points TangentSystem::unpacked(const SinglePoints& y, Eigen::Index column) const {
+  const Unknowns& unknowns = factored_->unknowns;
+  Points result = Points::Zero(static_cast<Eigen::Index>(frames_.size()), 3);
+  for (const int v : unknowns.order)
+    result.row(v) = (frames_[v] * y.block<2, 1>(unknowns.first[v], column).cast<double>()).transpose();
+  return result;
+}
+
+SinglePoints TangentSystem::solved(const SinglePoints& b) const {
   SinglePoints y = b;
   factored_->factor.forward(y);
   factored_->factor.backward(y);
   return y;
 }
 
-Points TangentSystem::precondition(const Points& gradient) const {
-  return precondition_all({gradient}).front();
+SinglePoints TangentSystem::refined(const SinglePoints& b, const SinglePoints& y) const {
+  const Points image = form_->selfadjointView<Eigen::Lower>() * Points(y.cast<double>());
+  return y + solved((b.cast<double>() - image).cast<float>());
 }
 
-std::vector<Points> TangentSystem::precondition_all(const std::vector<Points>& gradients) const {
-  const Unknowns& unknowns = factored_->unknowns;
-  std::vector<Points> results(gradients.size());
+Points TangentSystem::precondition(const Points& gradient) const {
+  const SinglePoints b = packed({gradient}, 0), y = solved(b);
+  return unpacked(factored_->is_stiff ? refined(b, y) : y, 0);
+}
+
+std::vector<Points> TangentSystem::solve(const std::vector<Points>& gradients) const {
+  std::vector<Points> results;
   for (std::size_t first = 0; first < gradients.size(); first += 3) {
-    const std::size_t count = std::min<std::size_t>(3, gradients.size() - first);
-    SinglePoints b = SinglePoints::Zero(unknowns.total, 3);
-    for (const int v : unknowns.order)
-      for (std::size_t c = 0; c < count; ++c)
-        b.block<2, 1>(unknowns.first[v], static_cast<long>(c)) =
-            (frames_[v].transpose() * gradients[first + c].row(v).transpose()).cast<float>();
-    SinglePoints y = solve(b);
-    if (factored_->stiff.nonZeros() > 0) {
-      const Eigen::MatrixXd image =
-          factored_->stiff.selfadjointView<Eigen::Lower>() * Eigen::MatrixXd(y.cast<double>());
-      y += solve((b.cast<double>() - image).cast<float>());
-    }
-    for (std::size_t c = 0; c < count; ++c) {
-      Points& result = results[first + c] = Points::Zero(gradients[first + c].rows(), 3);
-      for (const int v : unknowns.order)
-        result.row(v) =
-            (frames_[v] * y.block<2, 1>(unknowns.first[v], static_cast<long>(c)).cast<double>()).transpose();
-    }
+    const SinglePoints b = packed(gradients, first), y = refined(b, solved(b));
+    for (std::size_t c = first; c < std::min(first + 3, gradients.size()); ++c)
+      results.push_back(unpacked(y, static_cast<Eigen::Index>(c - first)));
   }
   return results;
 }

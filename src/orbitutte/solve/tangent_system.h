@@ -41,43 +41,52 @@ class TangentSystem : public Preconditioner {
   /// in the whole space. Throws MeshError naming a vertex that no positive weight ties to the cones.
   TangentSystem(const TangentProblem& problem, const Points& x);
 
-  /// The same factor between the frames of other positions: a preconditioner for maps nearby, onto the same
-  /// tile or one of almost the same shape.
+  /// The same factor between frames at other positions, moved there along geodesics: a preconditioner for
+  /// maps nearby, onto the same tile or one of almost the same shape.
   TangentSystem moved_to(const Points& x) const;
 
-  /// The inverse Hessian times a covector at x, as DirichletEnergy has gradients: tangent vectors at x.
+  /// The Hessian at other positions, of a map nearby, with the factor as its preconditioner.
+  TangentSystem beside(const TangentProblem& problem, const Points& x) const;
+
+  /// The inverse Hessian times a covector at x, as DirichletEnergy has gradients: tangent vectors at x. As
+  /// far as the factor knows it.
   Points precondition(const Points& gradient) const override;
 
-  /// The same of several, three of which take little longer than one.
-  std::vector<Points> precondition_all(const std::vector<Points>& gradients) const;
+  /// The same of several, refined once by the Hessian itself. Three of them take little longer than one.
+  std::vector<Points> solve(const std::vector<Points>& gradients) const;
 
-  /// Is it the second derivative itself, of the map for which it was factorised?
+  /// Is it the second derivative that was factorised?
   bool is_exact() const { return factored_->is_exact; }
 
  private:
   using Frame = Eigen::Matrix<double, 3, 2>;
 
-  enum class Form { hessian, laplacian };
-
   // What does not depend on the frames.
   struct Factored {
     Unknowns unknowns;
     LeadingFactor factor = LeadingFactor(std::vector<int>());
-    // Only if some weights are large.
-    SparseMatrix stiff = SparseMatrix(0, 0);
-    bool is_exact = true;
+    bool is_exact = true, is_stiff = false;
   };
 
-  TangentSystem(Space space, std::shared_ptr<const Factored> factored, const Points& x);
+  TangentSystem(Space space, const Points& x);
 
-  Factored factored(const TangentProblem& problem, const Points& x) const;
-  SparseMatrix assemble_form(const TangentProblem& problem, const Points& x, const Unknowns& unknowns,
-                             Form form) const;
-  SinglePoints solve(const SinglePoints& b) const;
+  std::shared_ptr<const SparseMatrix> assemble_form(const TangentProblem& problem, const Points& x,
+                                                    const Factored& factored) const;
+
+  /// The coordinates of up to three covectors in the frames (unknowns x 3), and what tangent vectors have
+  /// these coordinates.
+  SinglePoints packed(const std::vector<Points>& gradients, std::size_t first) const;
+  Points unpacked(const SinglePoints& y, Eigen::Index column) const;
+  SinglePoints solved(const SinglePoints& b) const;
+  SinglePoints refined(const SinglePoints& b, const SinglePoints& y) const;
 
   Space space_;
+  Points x_;
   std::vector<Frame> frames_;
   std::shared_ptr<const Factored> factored_;
+
+  /// The lower triangle of the form at x, or, if the frames alone were moved, where it was factorised.
+  std::shared_ptr<const SparseMatrix> form_;
 };
 
 }  // namespace orbitutte
