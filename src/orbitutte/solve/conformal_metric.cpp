@@ -100,11 +100,11 @@ class ConformalScale {
 
   // On the sphere, where Newton's method may lead elsewhere from far away, by way of smaller areas.
   ConformalMetric solve() {
-    constexpr double loose = 0.1, tight = 1e-4;
+    constexpr double loose = 1, tight = 1e-4;
     State state;
     state.u = Eigen::VectorXd::Constant(surface_.vertex_count(), 0.5 * std::log(1 / area_of(surface_)));
     double area = 1;
-    for (const double share : k_ > 0 ? std::vector<double>{0.1, 0.5, 1} : std::vector<double>{1}) {
+    for (const double share : k_ > 0 ? std::vector<double>{0.3, 1} : std::vector<double>{1}) {
       const double next = share * area_;
       angles_ = angles_with_area(next);
       const double growth = 0.5 * std::log(next / area), limit = -std::log(length_.maxCoeff());
@@ -227,7 +227,7 @@ class ConformalScale {
   Eigen::VectorXd solved_apart_from_constants(const State& state, Eigen::VectorXd residual,
                                               const Eigen::VectorXd& h) const {
     constexpr int most_steps = 50;
-    constexpr double tolerance = 0.03;
+    constexpr double tolerance = 0.1;
     const auto projected = [&](const Eigen::VectorXd& r) {
       const Eigen::VectorXd z = preconditioned(r);
       return Eigen::VectorXd(z.array() - h.dot(z) / h.sum());

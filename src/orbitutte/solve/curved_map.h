@@ -19,8 +19,10 @@ namespace orbitutte {
 /// and trust-region steps in m take x along by -E_xx^-1 E_xm. S is indefinite far from the minimum, where
 /// minimising over both at once stalls.
 ///
-/// The first tile is a doubled polygon (Moduli). On the sphere, whose harmonic maps of large area are many,
-/// the area of the target grows in steps, all deficits of angles being scaled.
+/// The first tile and map are the surface with its discretely conformal metric (conformal_metric), developed;
+/// they are so near to the last that a few tiles share one factorisation. If there is no such metric, the
+/// first tile is a doubled polygon (Moduli); on the sphere, whose harmonic maps of large area are many, the
+/// area of the target then grows in steps, all deficits of angles being scaled.
 ///
 /// problem: its tile is any of the target's. Throws MeshError if doubles do not hold the tile, and Cancelled.
 Minimum curved_map(const GluingProblem& problem, const LbfgsOptions& options, const Stages& stage);

@@ -104,13 +104,21 @@ class Layout {
   std::priority_queue<std::pair<double, int>> waiting_;
 };
 
+// The point whose distances d from all copies of the marks have the least sum of cosh d.
+Vector3 middle_of_marks(Space space, const CutMesh& cut, const Points& positions) {
+  Vector3 sum = Vector3::Zero();
+  for (const int v : cut.boundary)
+    if (std::find(cut.marks.begin(), cut.marks.end(), cut.source_vertex[v]) != cut.marks.end())
+      sum += positions.row(v).transpose();
+  return space.retract(sum);
+}
+
 }  // namespace
 
 Points developed(const Surface& surface, const CutMesh& cut, Space space, const ConformalMetric& metric) {
   const Points positions = Layout(surface, cut, space, metric).run();
   if (space.is_closed()) return positions;
-  const Vector3 middle = space.retract(positions.colwise().mean().transpose());
-  return space.to_origin(middle).on_rows(positions);
+  return space.to_origin(middle_of_marks(space, cut, positions)).on_rows(positions);
 }
 
 }  // namespace orbitutte
