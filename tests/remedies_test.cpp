@@ -272,7 +272,9 @@ std::vector<Target> targets_with_free_tiles() {
 TEST(Limbs, OfFreeTilesAreCertifiedWithMoreDigits) {
   for (const Target& target : targets_with_free_tiles()) {
     SCOPED_TRACE(target.signature + " " + target.space.name());
-    const LimbCase c = with_cone_in_limb(static_cast<int>(target.marks.size()), 24);
+    // With longer limbs the search for a hyperbolic shape does not converge.
+    const int rings = target.space == Space::hyperbolic_plane() ? 42 : 48;
+    const LimbCase c = with_cone_in_limb(static_cast<int>(target.marks.size()), rings);
     const EmbedResult result = embed(c.mesh, target, c.cones);
     EXPECT_TRUE(result.certificate.bijective) << failed_checks(result.certificate);
     const std::vector<Offset>& offsets = result.embedding.offsets;
@@ -285,26 +287,34 @@ TEST(Limbs, OfFreeTilesAreCertifiedWithMoreDigits) {
   }
 }
 
-// The seam in the limb, the pairs of its smallest edges first.
-std::vector<std::pair<int, int>> pairs_in_limb(const Embedding& embedding) {
+// Pairs of the seam in the limb, and the lengths of its edges there, the smallest first.
+struct SeamInLimb {
+  std::vector<std::pair<int, int>> pairs;
+  std::vector<double> lengths;
+};
+
+SeamInLimb seam_in_limb(const Embedding& embedding) {
   const ExactPositions positions(embedding);
-  std::map<double, std::pair<int, int>> by_size;
+  std::map<double, std::pair<int, int>> by_length;
   for (const Seam& seam : embedding.seams)
     for (std::size_t k = 1; k + 1 < seam.left.size(); ++k)
       if (positions.has_offsets(seam.left[k]))
-        by_size[positions.chord(seam.left[k], seam.left[k + 1])] = {seam.left[k], seam.right[k]};
-  std::vector<std::pair<int, int>> pairs;
-  for (const auto& [size, pair] : by_size) pairs.push_back(pair);
-  return pairs;
+        by_length[positions.chord(seam.left[k], seam.left[k + 1])] = {seam.left[k], seam.right[k]};
+  SeamInLimb result;
+  for (const auto& [length, pair] : by_length) {
+    result.pairs.push_back(pair);
+    result.lengths.push_back(length);
+  }
+  return result;
 }
 
 TEST(Limbs, FaultsInTheSeamsOfFreeTilesAreSeen) {
   const Target target = parse_orbifold("2222");
-  const LimbCase c = with_cone_in_limb(4, 24);
+  const LimbCase c = with_cone_in_limb(4, 48);
   const EmbedResult result = embed(c.mesh, target, c.cones);
   ASSERT_TRUE(result.certificate.bijective) << failed_checks(result.certificate);
   const Surface surface = make_surface(c.mesh);
-  const std::vector<std::pair<int, int>> pairs = pairs_in_limb(result.embedding);
+  const auto [pairs, lengths] = seam_in_limb(result.embedding);
   ASSERT_GT(pairs.size(), 4u);
   const auto is_certified = [&](const Embedding& embedding) { return certify(surface, embedding).bijective; };
   const auto exchanged = [&](int a, int b) {
@@ -318,7 +328,7 @@ TEST(Limbs, FaultsInTheSeamsOfFreeTilesAreSeen) {
   for (std::size_t k = 1; k < pairs.size(); ++k)
     EXPECT_FALSE(is_certified(exchanged(pairs[k - 1].second, pairs[k].second))) << k;
   // A mark that is moved by a part of the smallest edges turns the group away from the positions.
-  const double smallest = ExactPositions(result.embedding).chord(pairs[0].first, pairs[1].first);
+  const double smallest = lengths.front();
   ASSERT_LT(smallest, 1e-6);
   const auto with_mark_moved = [&](int mark, double step) {
     Embedding embedding = result.embedding;
@@ -326,7 +336,7 @@ TEST(Limbs, FaultsInTheSeamsOfFreeTilesAreSeen) {
       embedding.offsets.push_back({copy, Vector3(step, step, 0)});
     return embedding;
   };
-  EXPECT_TRUE(is_certified(with_mark_moved(3, 1e-6 * smallest)));
+  EXPECT_EQ(failed_checks(certify(surface, with_mark_moved(3, 1e-10 * smallest))), "");
   EXPECT_FALSE(is_certified(with_mark_moved(3, 0.1 * smallest)));
 }
 
