@@ -126,9 +126,7 @@ class ShapeSearch {
   // The same from a tile whose shape is so far away: nearby its factor serves once more.
   HarmonicTile harmonic_beside(const HarmonicTile& from, double distance, const ShapeStart& start,
                                const LbfgsOptions& options) const {
-    constexpr double nearby = 0.1;
-    if (!from.hessian->is_exact() || from.moved + distance > nearby)
-      return harmonic(start.cones, start.x, options);
+    if (!serves_again(from, distance)) return harmonic(start.cones, start.x, options);
     HarmonicTile tile = started(start.cones, start.x);
     tile.hessian = std::make_shared<TangentSystem>(from.hessian->moved_to(tile.minimum.positions));
     tile.moved = from.moved + distance;
@@ -171,6 +169,15 @@ class ShapeSearch {
   TangentProblem tangent_problem(const TileSystem& system) const {
     return {system.glued, problem_.weights.w, system.boundary, dissection_,
             problem_.laplacian.options.backend};
+  }
+
+  // Does a tile's factor precondition that of another one so far away? Where the map took many iterations, it
+  // had moved far from where the factor was made.
+  static bool serves_again(const HarmonicTile& tile, double distance) {
+    constexpr double nearby = 0.1;
+    constexpr int few_iterations = 4;
+    return tile.hessian->is_exact() && tile.moved + distance <= nearby &&
+           tile.minimum.iterations <= few_iterations;
   }
 
   // The tile of these cones, with positions from which its map can be relaxed.

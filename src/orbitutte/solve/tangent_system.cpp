@@ -26,7 +26,7 @@ struct NormalFactors {
 
 template <int k>
 NormalFactors normal_factors(double squared_distance, double over_sn) {
-  const double d = std::sqrt(squared_distance);
+  const double d = std::sqrt(std::max(squared_distance, 0.0));  // rounding makes some of the least negative
   return {over_sn * (k > 0 ? std::cos(d) : k < 0 ? std::cosh(d) : 1), over_sn};
 }
 
