@@ -288,14 +288,22 @@ std::string remedy(const EmbedArguments& arguments, const EmbedResult& result) {
   return fmt::format("What may help: {}.", fmt::join(ways, "; "));
 }
 
+// Where a map to the space lies.
+const char* place_of(Space space) {
+  if (space.curvature() == 0) return "in the plane";
+  return space.curvature() > 0 ? "on the sphere" : "in the hyperbolic plane";
+}
+
 // What failed, one line for each check, and what may help.
 void explain(const EmbedArguments& arguments, const EmbedResult& result) {
   const std::size_t turned = result.certificate.nonpositive_faces.size();
   if (turned > 0) {
-    tell("orbitutte: not certified: {} of {} faces are not positive on the sphere, the first face {}\n",
-         turned, result.embedding.faces().count(), result.certificate.nonpositive_faces.front());
+    tell("orbitutte: not certified: {} of {} faces are not positive {}, the first face {}\n", turned,
+         result.embedding.faces().count(), place_of(result.embedding.space()),
+         result.certificate.nonpositive_faces.front());
   } else {
-    tell("orbitutte: not certified, although every face is positive on the sphere\n");
+    tell("orbitutte: not certified, although every face is positive {}\n",
+         place_of(result.embedding.space()));
   }
   for (const Check& check : result.certificate.checks)
     if (!check.passed) tell("  {}: {}\n", check.name, check.detail);
