@@ -55,10 +55,12 @@ void write_scale_picture(const std::string& path, const Surface& surface, const 
 std::vector<PagePicture> page_pictures(const Surface& surface, const Embedding& embedding,
                                        const Report& report) {
   std::vector<PagePicture> pictures;
-  for (const auto& [panel, caption] : {std::pair(Panel::source, "The mesh, its marked vertices and seams"),
-                                       std::pair(Panel::sphere, "Its tile on the sphere, and the copies"),
-                                       std::pair(Panel::checkerboard, "A checkerboard through the map"),
-                                       std::pair(Panel::area, "Area distortion")}) {
+  const std::vector<std::pair<Panel, std::string>> wanted = {
+      {Panel::source, "The mesh, its marked vertices and seams"},
+      {Panel::sphere, tile_caption(embedding)},
+      {Panel::checkerboard, "A checkerboard through the map"},
+      {Panel::area, "Area distortion"}};
+  for (const auto& [panel, caption] : wanted) {
     RenderOptions options;
     options.panel = panel;
     options.width = options.height = 800;

@@ -77,4 +77,7 @@ std::string render_svg(const RenderSubject& subject, const RenderOptions& option
 /// all. Throws as above, ArgumentError for another ending, and FileError.
 void write_picture(const std::string& path, const RenderSubject& subject, const RenderOptions& options = {});
 
+/// What the panel `sphere` shows of an embedding, in words.
+std::string tile_caption(const Embedding& embedding);
+
 }  // namespace orbitutte

@@ -8,6 +8,7 @@
 #include "orbitutte/export/html_text.h"
 #include "orbitutte/orbifold/symmetry_group.h"
 #include "orbitutte/render/panels.h"
+#include "orbitutte/render/render.h"
 
 namespace orbitutte {
 namespace {
@@ -15,17 +16,6 @@ namespace {
 std::string group_text(const Embedding& embedding, const Report& report) {
   if (!tiles_its_space(embedding.target)) return "no group";
   return report.group_order > 0 ? fmt::format("group of order {}", report.group_order) : "infinite group";
-}
-
-std::string tile_caption(const Embedding& embedding) {
-  if (embedding.seams.empty()) return "Its image on the sphere";
-  const int k = embedding.space().curvature();
-  const char* where = k > 0 ? "on the sphere" : k == 0 ? "in the plane" : "in Poincaré's disk";
-  const bool are_all = embedding.target.group_order > 0;
-  const char* copies = !tiles_its_space(embedding.target) ? ""
-                       : are_all                          ? ", and the copies"
-                                                          : ", and copies";
-  return fmt::format("Its tile {}{}", where, copies);
 }
 
 // What the source mesh is drawn with.
@@ -70,6 +60,17 @@ void draw_captioned(Canvas& canvas, const Box& box, PictureParts& parts, const C
 }
 
 }  // namespace
+
+std::string tile_caption(const Embedding& embedding) {
+  if (embedding.seams.empty()) return "Its image on the sphere";
+  const int k = embedding.space().curvature();
+  const char* where = k > 0 ? "on the sphere" : k == 0 ? "in the plane" : "in Poincaré's disk";
+  const bool are_all = embedding.target.group_order > 0;
+  const char* copies = !tiles_its_space(embedding.target) ? ""
+                       : are_all                          ? ", and the copies"
+                                                          : ", and copies";
+  return fmt::format("Its tile {}{}", where, copies);
+}
 
 void draw_sheet(Canvas& canvas, const Box& box, PictureParts& parts) {
   const double gap = 1.5 * canvas.em();
