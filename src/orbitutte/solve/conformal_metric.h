@@ -65,8 +65,8 @@ struct ConformalMetric {
 };
 
 /// Discrete conformal equivalence in curved spaces (A. Bobenko, U. Pinkall, B. Springborn, "Discrete
-/// conformal maps and ideal polyhedra", Geometry and Topology 19 (2015), section 6): every vertex has a scale
-/// u, and the edge of length l between i and j becomes a geodesic with the chord
+/// conformal maps and ideal polyhedra", Geometry and Topology 19 (2015)): every vertex has a scale u, and the
+/// edge of length l between i and j becomes a geodesic with the chord
 ///     2 sn(d_ij/2) = exp((u_i + u_j)/2) l_ij.
 /// The sums of the angles have a symmetric derivative by u: with the angles a_i, a_j at the ends of a side
 /// and a_o opposite to it, each triangle adds to its quadratic form, for each of its sides,
