@@ -125,7 +125,7 @@ Matrix3Of<Real> PreciseGroup<Real>::found(const Isometry& isometry) const {
   const PreciseElement<Real>&a = known_[first], &b = known_[second];
   require_near((a.rough * b.rough).matrix(), matrix,
                element_tolerance * size + rounding_of_product(a.rough.matrix(), b.rough.matrix()));
-  const Matrix3Of<Real> result = a.precise * b.precise;
+  Matrix3Of<Real> result = a.precise * b.precise;
   know({isometry, result});
   return result;
 }

@@ -18,7 +18,7 @@ namespace {
 // without corners, which would take it, the rest is shared out among them.
 template <typename Real>
 std::vector<Real> exact_angles(Space space, bool is_closed, const std::vector<ConeCopies>& marks) {
-  const Real two_pi = boost::math::constants::two_pi<Real>();
+  const Real& two_pi = boost::math::constants::two_pi<Real>();
   std::vector<Real> angles;
   std::vector<std::size_t> inexact;
   bool has_corners = false;

@@ -116,7 +116,7 @@ Vector3 middle_of_marks(Space space, const CutMesh& cut, const Points& positions
 }  // namespace
 
 Points developed(const Surface& surface, const CutMesh& cut, Space space, const ConformalMetric& metric) {
-  const Points positions = Layout(surface, cut, space, metric).run();
+  Points positions = Layout(surface, cut, space, metric).run();
   if (space.is_closed()) return positions;
   return space.to_origin(middle_of_marks(space, cut, positions)).on_rows(positions);
 }

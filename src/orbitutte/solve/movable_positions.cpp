@@ -16,7 +16,8 @@ Vector3Of<Real> to_precise(const Vector3& p) {
 // The marks are where input vertices are held.
 template <typename Real>
 PreciseGroup<Real> group_of(const Gluing& gluing, const Target& target) {
-  const auto& [cut, boundary, elements] = gluing;
+  const CutMesh& cut = gluing.cut;
+  const BoundaryConditions& boundary = gluing.boundary;
   const auto position = [&](int v) {
     const int source = cut.source_vertex[v];
     return to_precise<Real>(boundary.transform(v) * Vector3(boundary.held.row(source)));

@@ -103,7 +103,11 @@ class BlockMatrix {
     }
   }
 
-  SparseMatrix release() { return std::move(matrix_); }
+  SparseMatrix release() {
+    SparseMatrix result;
+    result.swap(matrix_);
+    return result;
+  }
 
  private:
   // Of every block column: the first rows of the blocks below the diagonal, ascending.
