@@ -222,6 +222,7 @@ TEST(Render, SeamsStandOutOfTheSphereAllAlongTheirArcs) {
   // An arc of a quarter of a great circle, as next to cones that the map shrinks to.
   embedding.positions.conservativeResize(2, 3);
   embedding.positions << 1, 0, 0, 0, 1, 0;
+  embedding.triangles.resize(0, 3);
   embedding.seams.resize(1);
   embedding.seams[0].left = embedding.seams[0].right = {0, 1};
   embedding.cones.clear();
