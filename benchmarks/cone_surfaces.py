@@ -61,7 +61,7 @@ def meshes(folder):
     yield 'figure', sample
     for name in REAL:
         if (MESHES / name).exists():
-            yield name.split('.')[0].split('_')[0], MESHES / name
+            yield name.split('.')[0], MESHES / name
         else:
             print(f'left out: {name} (no {MESHES.name} folder beside the repository)', file=sys.stderr)
 

@@ -41,12 +41,13 @@ void draw_sphere_panel(Canvas& canvas, const Box& box, PictureParts& parts) {
   const Camera camera = sphere_camera(embedding, sphere_view(parts), size_of(box), figure_fill);
   canvas.image({box.x, box.y}, sphere.draw(camera, sphere_ornaments(embedding, sphere.copies(), camera)));
   const DrawnSpace drawn = drawn_space(embedding);
+  const double radius = ball_radius(embedding, camera.pixel) / camera.pixel;
   for (std::size_t c = 0; c < embedding.cones.size(); ++c)
     for (const int v : embedding.cones[c].copies) {
       const Vector3 at = camera.project(drawn.at(embedding.positions.row(v)));
       if (at[2] < 0) continue;  // on the far side
       draw_label(canvas, {.at = {box.x + at[0], box.y + at[1]},
-                          .radius = ball_radius(embedding, camera.pixel) / camera.pixel,
+                          .radius = radius,
                           .order = order_to_show(embedding, c),
                           .colour = cone_colour(static_cast<int>(c))});
     }

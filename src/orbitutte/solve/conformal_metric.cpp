@@ -67,8 +67,10 @@ double area_of(const Surface& surface) {
 // The share of each vertex in that area.
 Eigen::VectorXd area_shares(const Surface& surface) {
   Eigen::VectorXd share = Eigen::VectorXd::Zero(surface.vertex_count());
-  for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f)
-    for (int i = 0; i < 3; ++i) share[surface.triangles(f, i)] += surface.area(f);
+  for (int f = 0; f < surface.triangle_count(); ++f) {
+    const double area = surface.area(f);
+    for (int i = 0; i < 3; ++i) share[surface.triangles(f, i)] += area;
+  }
   return share / share.sum();
 }
 
