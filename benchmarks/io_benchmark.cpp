@@ -17,6 +17,7 @@
 
 #include "orbitutte/io/file.h"
 #include "orbitutte/io/mesh_io.h"
+#include "orbitutte/orbifold/signature.h"
 #include "orbitutte/report/embedding_file.h"
 #include "orbitutte/report/report.h"
 #include "orbitutte/samples/sample.h"
@@ -92,7 +93,10 @@ class Table {
 
 // An embedding as large as that of the mesh. Its contents do not affect the time to write it.
 Embedding like_an_embedding(const Mesh& mesh) {
-  Embedding embedding = {"432", 24, mesh.V.rowwise().normalized(), mesh.F, {}, {}, {}};
+  Embedding embedding;
+  embedding.target = parse_orbifold("432");
+  embedding.positions = mesh.V.rowwise().normalized();
+  embedding.triangles = mesh.F;
   embedding.source_vertex.resize(mesh.V.rows());
   std::iota(embedding.source_vertex.begin(), embedding.source_vertex.end(), 0);
   return embedding;

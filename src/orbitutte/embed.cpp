@@ -69,19 +69,19 @@ struct PlacedMap {
   std::vector<Remedy> remedies = {with_faces_repaired, with_limbs_resolved, with_more_digits};
 };
 
-// The first remedy that makes it a bijection is taken.
-void mend(const GluingProblem& problem, const PlacedMap& placed, EmbedResult& result) {
-  for (const Remedy& remedy : placed.remedies) {
-    const std::optional<SpreadMap> map = remedy(problem, placed.placed);
-    if (!map) continue;
-    EmbedResult mended = result;
-    take(problem, *map, mended);
-    if (!mended.certificate.bijective) continue;
-    result = std::move(mended);
-    result.minimum.positions = map->placed.minimum.positions;
-    result.minimum.energy = energy_of(problem, map->placed);
-    return;
-  }
+// Takes what the remedy finds if it is a bijection.
+bool helps(const Remedy& remedy, const GluingProblem& problem, const Placement& placed, EmbedResult& result) {
+  const std::optional<SpreadMap> map = remedy(problem, placed);
+  if (!map) return false;
+  EmbedResult mended;
+  take(problem, *map, mended);
+  if (!mended.certificate.bijective) return false;
+  result.embedding = std::move(mended.embedding);
+  result.moved_vertices = std::move(mended.moved_vertices);
+  result.certificate = std::move(mended.certificate);
+  result.minimum.positions = map->placed.minimum.positions;
+  result.minimum.energy = energy_of(problem, map->placed);
+  return true;
 }
 
 // What else is known of the map in the result.
@@ -119,6 +119,19 @@ std::vector<std::string> warnings_of(const EmbedRequest& request, const GluingPr
   return warnings;
 }
 
+// The first remedy that makes the map a bijection is taken. Faces that must become arcs are beyond all
+// remedies; to look for them takes longer than to try the first.
+void mend(const EmbedRequest& request, const GluingProblem& problem, const PlacedMap& map,
+          EmbedResult& result) {
+  const auto is_mended = [&](const Remedy& remedy) { return helps(remedy, problem, map.placed, result); };
+  if (is_mended(map.remedies.front())) return;
+  std::vector<int> collapsing = faces_that_must_collapse(request, problem, map.placed);
+  if (is_hopeless(collapsing, ears_of(problem, map.placed)))
+    result.collapsing_faces = std::move(collapsing);
+  else
+    std::any_of(map.remedies.begin() + 1, map.remedies.end(), is_mended);
+}
+
 // From the map that was placed to the result: certified, mended where it is no bijection, and measured.
 void finish(const EmbedRequest& request, const GluingProblem& problem, const PlacedMap& map, Stages& stage,
             EmbedResult& result) {
@@ -133,11 +146,7 @@ void finish(const EmbedRequest& request, const GluingProblem& problem, const Pla
     if (!needs_mending()) judge(request, result);
   });
   if (needs_mending()) {
-    std::vector<int> collapsing = faces_that_must_collapse(request, problem, placed);
-    if (is_hopeless(collapsing, ears_of(problem, placed)))
-      result.collapsing_faces = std::move(collapsing);
-    else
-      stage("mend", [&] { mend(problem, map, result); });
+    stage("mend", [&] { mend(request, problem, map, result); });
     stage("certify", [&] {
       if (result.certificate.checks.empty()) take(problem, spread_map(problem, placed), result);
       judge(request, result);

@@ -21,8 +21,6 @@ struct Site {
   Site(const GluingProblem& the_problem, const Placement& the_placed)
       : problem(the_problem),
         placed(the_placed),
-        energy(glued_along(problem, placed.boundary), problem.weights, placed.boundary),
-        elements(energy.transforms()),
         ears(ears_of(problem, placed)),
         stars(problem.cut, placed.boundary, ears, elements),
         may_move(placed.boundary.basis_of.size()) {
@@ -31,9 +29,19 @@ struct Site {
     for (const Ear& ear : ears) may_move[ear.tip] = 0;
   }
 
+  // Those along edges with weights. They are gathered when they are first asked for, since a few thin faces
+  // can be repaired without.
+  std::vector<Neighbour> neighbours(int v) {
+    if (!energy) {
+      energy.emplace(glued_along(problem, placed.boundary), problem.weights, placed.boundary);
+      for (const Isometry& transform : energy->transforms()) elements.index(transform);
+    }
+    return energy->neighbours(v, elements);
+  }
+
   const GluingProblem& problem;
   const Placement& placed;
-  DirichletEnergy energy;
+  std::optional<DirichletEnergy> energy;
   Elements elements;
   std::vector<Ear> ears;
   Stars stars;
@@ -41,13 +49,19 @@ struct Site {
   Gluing gluing = {problem.cut, placed.boundary, elements};
 };
 
-// The length of the shortest edge of a vertex, be it the input's or of the triangulation with the weights.
-double shortest_edge(Site& site, const MovablePositions& positions, int v) {
+// The length of the shortest edge of the input at a vertex.
+double shortest_in_star(const Site& site, const MovablePositions& positions, int v) {
   double shortest = std::numeric_limits<double>::infinity();
   for (const StarTriangle& at : site.stars.around(v))
     shortest = std::min({shortest, positions.difference(v, at.a, at.element_a).norm(),
                          positions.difference(v, at.b, at.element_b).norm()});
-  for (const Neighbour& at : site.energy.neighbours(v, site.elements))
+  return shortest;
+}
+
+// The same, be the edge the input's or of the triangulation with the weights.
+double shortest_edge(Site& site, const MovablePositions& positions, int v) {
+  double shortest = shortest_in_star(site, positions, v);
+  for (const Neighbour& at : site.neighbours(v))
     shortest = std::min(shortest, positions.difference(v, at.vertex, at.element).norm());
   return shortest;
 }
@@ -64,8 +78,7 @@ std::vector<int> vertices_of_limbs(Site& site, const MovablePositions& positions
 bool settle_limbs(Site& site, const std::vector<int>& limbs, MovablePositions& positions) {
   std::vector<Neighbourhood> neighbourhoods;
   for (const int v : limbs)
-    if (site.placed.boundary.basis_of[v] != held_in_place)
-      neighbourhoods.push_back({v, site.energy.neighbours(v, site.elements)});
+    if (site.placed.boundary.basis_of[v] != held_in_place) neighbourhoods.push_back({v, site.neighbours(v)});
   if (neighbourhoods.empty()) return true;
   return LocalMinimum(site.gluing, positions, std::move(neighbourhoods)).settle(positions);
 }
@@ -137,8 +150,8 @@ std::vector<int> turned_faces(Site& site, const MovablePositions& positions) {
   return faces;
 }
 
-bool any_in_limbs(Site& site, const MovablePositions& positions, const std::vector<int>& faces) {
-  const auto is_in_limb = [&](int v) { return shortest_edge(site, positions, v) < small; };
+bool any_in_limbs(const Site& site, const MovablePositions& positions, const std::vector<int>& faces) {
+  const auto is_in_limb = [&](int v) { return shortest_in_star(site, positions, v) < small; };
   return std::any_of(faces.begin(), faces.end(), [&](int f) {
     const auto corners = site.problem.surface.triangles.row(f);
     return std::any_of(corners.begin(), corners.end(), is_in_limb);

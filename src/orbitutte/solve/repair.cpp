@@ -17,8 +17,9 @@ namespace {
 
 constexpr int most_sweeps = 60, sweeps_per_ring = 6, smoothing_sweeps = 8, halvings = 6, most_rounds = 60;
 constexpr int most_rings = 7;
-constexpr double clamp = 0.01;     // in place of weights that are not positive
-constexpr double enough = 0.3;     // of the largest margin that a star allows
+constexpr double clamp = 0.01;  // in place of weights that are not positive
+constexpr double enough = 0.3;  // of the largest margin that a star allows
+constexpr double no_bound = std::numeric_limits<double>::infinity();
 constexpr double flattest = 1e-6;  // a source triangle's least height, relative to its base
 
 enum class PatchWeights { cotan, mean_value };
@@ -36,6 +37,9 @@ struct StarShape {
     double height, base;           // in the source
     bool is_flat;                  // there
     std::array<double, 3> source;  // squared lengths of (v, a), (v, b), (a, b)
+    // In the source: half the cotangents of the angles opposite to (v, a) and (v, b); and that opposite to
+    // (a, b), times the squared length of the image of (a, b), which the star's vertex does not move.
+    double weight_a, weight_b, fixed_energy;
   };
   std::vector<Triangle> triangles;
 };
@@ -166,10 +170,19 @@ class Repair {
                    least = flattest * std::max(triangle.base, va.norm());
       triangle.is_flat = !(height > least);
       triangle.height = std::max(height, least);
+      set_weights(triangle);
       shape.radius = std::max({shape.radius, a.norm(), b.norm()});
     }
     set_axes(v, p, star, shape);
     return shape;
+  }
+
+  static void set_weights(StarShape::Triangle& triangle) {
+    const auto& [A2, B2, C2] = triangle.source;
+    const double scale = 1 / (8 * std::max(0.5 * triangle.height * triangle.base, 1e-300));
+    triangle.weight_a = scale * (B2 + C2 - A2);
+    triangle.weight_b = scale * (A2 + C2 - B2);
+    triangle.fixed_energy = scale * (A2 + B2 - C2) * (triangle.b - triangle.a).squaredNorm();
   }
 
   // The direction to the neighbour with the lowest number that does not coincide with the vertex: a choice
@@ -260,44 +273,52 @@ class Repair {
     if (!(twice_area > 0)) return std::numeric_limits<double>::infinity();
     // s1/s2 + s2/s1 from the squared lengths of both triangles (U. Pinkall, K. Polthier 1993): the
     // Dirichlet energy of the linear map over the area of its image.
-    const double a2 = (triangle.a - step).squaredNorm(), b2 = (triangle.b - step).squaredNorm(),
-                 c2 = (triangle.b - triangle.a).squaredNorm();
-    const auto& [A2, B2, C2] = triangle.source;
-    const double area = 0.5 * triangle.height * triangle.base;  // of the source
-    // sum over edges of cot(opposite angle in the source) * squared length of the image
-    const double energy =
-        ((B2 + C2 - A2) * a2 + (A2 + C2 - B2) * b2 + (A2 + B2 - C2) * c2) / (8 * std::max(area, 1e-300));
+    const double energy = triangle.weight_a * (triangle.a - step).squaredNorm() +
+                          triangle.weight_b * (triangle.b - step).squaredNorm() + triangle.fixed_energy;
     const double sum = std::max(energy / (0.5 * twice_area), 2.0);
     return 0.5 * (sum + std::sqrt(std::max(sum * sum - 4, 0.0)));
   }
 
   // The sum over the star, without triangles that are flat in the source, which must be positive all the
-  // same.
-  static double distortion(const StarShape& shape, const Vector3& step) {
+  // same. A sum that reaches the bound is not finished.
+  static double distortion(const StarShape& shape, const Vector3& step, double bound) {
     double sum = 0;
     for (const StarShape::Triangle& triangle : shape.triangles) {
       const double ratio = ratio_of_singular_values(triangle, step);
       if (!triangle.is_flat || !std::isfinite(ratio)) sum += ratio;
+      if (sum >= bound) break;
     }
     return sum;
+  }
+
+  // Eight, each with its opposite: the first two lie on one line, which may be a mirror.
+  static const std::array<Eigen::Vector2d, 8>& directions() {
+    static const auto all = [] {
+      std::array<Eigen::Vector2d, 8> result;
+      for (int d = 0; d < 8; ++d) {
+        const double angle = std::numbers::pi * (d / 2 * 0.25 + d % 2);
+        result[d] = {std::cos(angle), std::sin(angle)};
+      }
+      return result;
+    }();
+    return all;
   }
 
   bool smooth(int v) {
     if (!site_.may_move[v]) return false;
     const std::vector<StarTriangle> star = site_.stars.around(v);
     const StarShape shape = shape_of(v, star);
-    const double at_first = distortion(shape, Vector3::Zero());
+    const double at_first = distortion(shape, Vector3::Zero(), no_bound);
     if (!std::isfinite(at_first)) return false;
     Eigen::Vector2d best(0, 0);
     double least = at_first, length = 0.25 * shape.radius;
     const double shortest = 0x1p-6 * shortest_edge(shape);
-    const int directions = shape.on_mirror ? 2 : 8;
+    const std::size_t count = shape.on_mirror ? 2 : 8;
     for (int k = 0, round = 0; k < halvings && length > shortest && round < most_rounds; ++round) {
       const Eigen::Vector2d from = best;
-      for (int d = 0; d < directions; ++d) {
-        const double angle = 2 * std::numbers::pi * d / directions;
-        const Eigen::Vector2d tried = from + length * Eigen::Vector2d(std::cos(angle), std::sin(angle));
-        if (const double there = distortion(shape, shape.axes * tried); there < least) {
+      for (std::size_t d = 0; d < count; ++d) {
+        const Eigen::Vector2d tried = from + length * directions()[d];
+        if (const double there = distortion(shape, shape.axes * tried, least); there < least) {
           least = there;
           best = tried;
         }
