@@ -359,8 +359,9 @@ void add_compare(CLI::App& app, int& code) {
 void add_sample(CLI::App& app, int& code) {
   Command<SampleArguments> command(app, "sample", "Make a mesh to try things on");
   command
-      .output("-o,--output", command->output, {"-o", "the mesh", "", {".obj", ".off", ".ply", ".stl"}},
-              "Write the mesh here: .obj, .off, .ply or .stl")
+      .output("-o,--output", command->output,
+              {"-o", "the mesh", "", {".obj", ".off", ".ply", ".stl", ".vtk", ".gii"}},
+              "Write the mesh here: .obj, .off, .ply, .stl, .vtk or .gii")
       ->required();
   command
       .option("--shape", command->shape,

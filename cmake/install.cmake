@@ -142,7 +142,7 @@ function(orbitutte_link_flags flags)
 endfunction()
 list(TRANSFORM definitions PREPEND -D)
 list(JOIN definitions " " ORBITUTTE_PC_DEFINITIONS)
-set(ORBITUTTE_PC_REQUIRES "fmt libcrypto tbb")
+set(ORBITUTTE_PC_REQUIRES "fmt libcrypto tbb expat zlib")
 # liblapack and libblas by these names may be any of Debian's implementations, while FindLAPACK names one of them.
 set(lapack -llapack -lblas)
 find_library(ORBITUTTE_LAPACK_LIBRARY lapack)

@@ -35,8 +35,10 @@ TEST_P(FuzzCorpus, IsReadAndComesBackOrIsRefusedInOneSentence) {
 
 INSTANTIATE_TEST_SUITE_P(Formats, FuzzCorpus,
                          testing::Values(std::pair{"obj", MeshFormat::obj}, std::pair{"off", MeshFormat::off},
-                                         std::pair{"ply", MeshFormat::ply},
-                                         std::pair{"stl", MeshFormat::stl}),
+                                         std::pair{"ply", MeshFormat::ply}, std::pair{"stl", MeshFormat::stl},
+                                         std::pair{"gifti", MeshFormat::gifti},
+                                         std::pair{"freesurfer", MeshFormat::freesurfer},
+                                         std::pair{"vtk", MeshFormat::vtk}),
                          [](const auto& test) { return test.param.first; });
 
 }  // namespace

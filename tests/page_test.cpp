@@ -13,6 +13,7 @@
 
 #include "base64_text.h"
 #include "orbitutte/export/html_text.h"
+#include "orbitutte/io/base64.h"
 #include "orbitutte/export/palette.h"
 #include "orbitutte/io/bytes.h"
 #include "orbitutte/mesh/triangulation.h"

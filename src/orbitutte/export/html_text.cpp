@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "orbitutte/export/html_text.h"
 
-#include <openssl/evp.h>
-
-#include <algorithm>
-
 namespace orbitutte {
 
 std::string escape_html(std::string_view text) {
@@ -32,21 +28,6 @@ std::string escape_html(std::string_view text) {
     }
   }
   return escaped;
-}
-
-std::string base64(std::string_view bytes) {
-  // A multiple of three bytes, so that only the last piece is padded.
-  constexpr std::size_t piece = 3 << 20;
-  std::string text(4 * ((bytes.size() + 2) / 3) + 1, '\0');  // the encoder ends with a zero byte
-  std::size_t written = 0;
-  for (std::size_t from = 0; from < bytes.size(); from += piece) {
-    const std::size_t length = std::min(piece, bytes.size() - from);
-    written += static_cast<std::size_t>(EVP_EncodeBlock(
-        reinterpret_cast<unsigned char*>(text.data() + written),
-        reinterpret_cast<const unsigned char*>(bytes.data() + from), static_cast<int>(length)));
-  }
-  text.resize(written);
-  return text;
 }
 
 std::string grouped_digits(long long count) {

@@ -11,9 +11,6 @@ namespace orbitutte {
 /// attributes.
 std::string escape_html(std::string_view text);
 
-/// Base64 (RFC 4648, padded) of bytes.
-std::string base64(std::string_view bytes);
-
 /// A count with commas between groups of three digits.
 std::string grouped_digits(long long count);
 

@@ -8,6 +8,7 @@
 
 #include "orbitutte/export/export_files.h"
 #include "orbitutte/export/html_text.h"
+#include "orbitutte/io/base64.h"
 #include "orbitutte/io/bytes.h"
 
 namespace orbitutte {

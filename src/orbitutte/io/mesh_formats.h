@@ -14,18 +14,28 @@ PolygonMesh read_obj(std::string_view text);
 PolygonMesh read_off(std::string_view text);
 PolygonMesh read_ply(std::string_view bytes);
 PolygonMesh read_stl(std::string_view bytes);
+PolygonMesh read_gifti(std::string_view bytes);
+PolygonMesh read_freesurfer(std::string_view bytes);
+PolygonMesh read_vtk(std::string_view bytes);
 
 std::string write_obj(const Mesh& mesh);
 std::string write_off(const Mesh& mesh);
 std::string write_ply(const Mesh& mesh);
 /// Throws MeshError if a face names a vertex that does not exist.
 std::string write_stl(const Mesh& mesh);
+std::string write_gifti(const Mesh& mesh);
+std::string write_freesurfer(const Mesh& mesh);
+std::string write_vtk(const Mesh& mesh);
 
-// The same of meshes some of whose faces have more than three corners; STL has triangles only.
+// The same of meshes some of whose faces have more than three corners; STL, GIfTI and FreeSurfer have
+// triangles only.
 std::string write_obj_polygons(const PolygonMesh& mesh);
 std::string write_off_polygons(const PolygonMesh& mesh);
 std::string write_ply_polygons(const PolygonMesh& mesh);
 std::string write_stl_polygons(const PolygonMesh& mesh);
+std::string write_gifti_polygons(const PolygonMesh& mesh);
+std::string write_freesurfer_polygons(const PolygonMesh& mesh);
+std::string write_vtk_polygons(const PolygonMesh& mesh);
 
 /// An empty text with room for a line of each vertex and face. Room that is not needed is never touched, so
 /// it takes no memory.

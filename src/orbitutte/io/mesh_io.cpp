@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <iterator>
 
+#include "orbitutte/io/compression.h"
 #include "orbitutte/io/file.h"
 #include "orbitutte/io/mesh_formats.h"
 #include "orbitutte/mesh/triangulation.h"
@@ -17,16 +18,24 @@ namespace {
 
 struct FormatRow {
   MeshFormat format;
-  std::string_view ending;
+  // The first is the usual one; separated by blanks.
+  std::string_view endings;
   PolygonMesh (*read)(std::string_view);
   std::string (*write)(const Mesh&);
   std::string (*write_polygons)(const PolygonMesh&);
 };
 
-constexpr FormatRow formats[] = {{MeshFormat::obj, ".obj", read_obj, write_obj, write_obj_polygons},
-                                 {MeshFormat::off, ".off", read_off, write_off, write_off_polygons},
-                                 {MeshFormat::ply, ".ply", read_ply, write_ply, write_ply_polygons},
-                                 {MeshFormat::stl, ".stl", read_stl, write_stl, write_stl_polygons}};
+constexpr FormatRow formats[] = {
+    {MeshFormat::obj, ".obj", read_obj, write_obj, write_obj_polygons},
+    {MeshFormat::off, ".off", read_off, write_off, write_off_polygons},
+    {MeshFormat::ply, ".ply", read_ply, write_ply, write_ply_polygons},
+    {MeshFormat::stl, ".stl", read_stl, write_stl, write_stl_polygons},
+    {MeshFormat::gifti, ".gii", read_gifti, write_gifti, write_gifti_polygons},
+    {MeshFormat::vtk, ".vtk", read_vtk, write_vtk, write_vtk_polygons},
+    {MeshFormat::freesurfer, ".pial .white .inflated .sphere .orig .smoothwm .reg .nofix", read_freesurfer,
+     write_freesurfer, write_freesurfer_polygons}};
+
+constexpr std::string_view compressed_ending = ".gz";
 
 const FormatRow& row(MeshFormat format) {
   return *std::find_if(std::begin(formats), std::end(formats),
@@ -47,18 +56,49 @@ std::string lower_case(std::string text) {
   return text;
 }
 
+bool has_word(std::string_view words, std::string_view word) {
+  while (!words.empty()) {
+    const std::size_t end = std::min(words.find(' '), words.size());
+    if (words.substr(0, end) == word) return true;
+    words.remove_prefix(std::min(end + 1, words.size()));
+  }
+  return false;
+}
+
+std::string lower_case_ending(const std::filesystem::path& path) {
+  return lower_case(path.extension().string());
+}
+
+// Without `.gz`.
+std::filesystem::path uncompressed(std::filesystem::path path) {
+  return lower_case_ending(path) == compressed_ending ? path.replace_extension() : path;
+}
+
+// "a, b, c" of all endings.
+std::string known_endings() {
+  std::string endings;
+  for (const FormatRow& known : formats) fmt::format_to(std::back_inserter(endings), "{} ", known.endings);
+  endings.pop_back();
+  for (std::size_t at = 0; (at = endings.find(' ', at)) != std::string::npos; at += 2)
+    endings.replace(at, 1, ", ");
+  return endings;
+}
+
+void write_bytes(const std::string& path, const std::string& bytes) {
+  write_file(path, is_compressed(path) ? compress_to_gzip(bytes) : bytes);
+}
+
 }  // namespace
 
 MeshFormat mesh_format(const std::string& path) {
-  const std::string ending = lower_case(std::filesystem::path(path).extension().string());
-  for (const FormatRow& known : formats) {
-    if (ending == known.ending) return known.format;
-  }
-  std::string endings;
+  const std::string ending = lower_case_ending(uncompressed(path));
   for (const FormatRow& known : formats)
-    endings += fmt::format("{}{}", endings.empty() ? "" : ", ", known.ending);
-  throw ArgumentError(fmt::format("{}: the ending names no known mesh format; use one of {}", path, endings));
+    if (!ending.empty() && has_word(known.endings, ending)) return known.format;
+  throw ArgumentError(fmt::format(
+      "{}: the ending names no known mesh format; use one of {}, each also with .gz", path, known_endings()));
 }
+
+bool is_compressed(const std::string& path) { return lower_case_ending(path) == compressed_ending; }
 
 PolygonMesh parse_mesh(std::string_view bytes, MeshFormat format) {
   if (bytes.empty()) throw MeshError("the file is empty; export it again");
@@ -72,8 +112,9 @@ PolygonMesh parse_mesh(std::string_view bytes, MeshFormat format) {
 
 PolygonMesh read_mesh(const std::string& path) {
   const MeshFormat format = mesh_format(path);
-  const std::string bytes = read_file(path);
+  std::string bytes = read_file(path);
   try {
+    if (is_compressed(path)) bytes = decompress(bytes);
     return parse_mesh(bytes, format);
   } catch (const MeshError& error) {
     throw MeshError(fmt::format("{}: {}", path, error.what()));
@@ -88,11 +129,11 @@ std::string serialize_mesh(const PolygonMesh& mesh, MeshFormat format) {
 }
 
 void write_mesh(const std::string& path, const Mesh& mesh) {
-  write_file(path, serialize_mesh(mesh, mesh_format(path)));
+  write_bytes(path, serialize_mesh(mesh, mesh_format(path)));
 }
 
 void write_mesh(const std::string& path, const PolygonMesh& mesh) {
-  write_file(path, serialize_mesh(mesh, mesh_format(path)));
+  write_bytes(path, serialize_mesh(mesh, mesh_format(path)));
 }
 
 }  // namespace orbitutte

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Mesh files: OBJ, OFF, PLY and STL. The order of vertices and faces in the file is the order in the result.
+// Mesh files: OBJ, OFF, PLY, STL, GIfTI, FreeSurfer and VTK. The order of vertices and faces in the file is
+// the order in the result.
 #pragma once
 
 #include <string>
@@ -9,10 +10,15 @@
 
 namespace orbitutte {
 
-enum class MeshFormat { obj, off, ply, stl };
+enum class MeshFormat { obj, off, ply, stl, gifti, freesurfer, vtk };
 
-/// The format that a path's ending names (any case). Throws ArgumentError naming the endings known.
+/// The format that a path's ending names (any case), or the one before `.gz`: .obj, .off, .ply, .stl, .gii
+/// (GIfTI), .vtk; FreeSurfer's .pial, .white, .inflated, .sphere, .orig, .smoothwm, .reg and .nofix. Throws
+/// ArgumentError naming the endings known.
 MeshFormat mesh_format(const std::string& path);
+
+/// Does the path end in `.gz` (any case)?
+bool is_compressed(const std::string& path);
 
 /// The polygons in the text or bytes of a mesh file.
 ///
@@ -27,6 +33,11 @@ MeshFormat mesh_format(const std::string& path);
 /// - STL: ASCII with any number of solids, and binary; corners with the same three coordinates are one
 ///   vertex, numbered in order of first use. Facets with two corners at the same point are left out, with a
 ///   warning. So are bytes after the last facet, unless they may be facets.
+/// - GIfTI: the arrays of points and of triangles, of any number type, byte order, index order and encoding
+///   but external files. A transform that the file states is not applied, with a warning.
+/// - FreeSurfer: surfaces of triangles. What follows the faces is ignored.
+/// - VTK: legacy files of polygonal data, text and binary: polygons and strips of triangles; vertices, lines
+///   and data are ignored.
 ///
 /// Colours are numbers of 0 .. 1 or 0 .. 255: the latter if they are integers of a PLY or one of them is
 /// above 1. If some vertices have no colour, the mesh has none. If a colour makes no sense, the mesh has
@@ -37,20 +48,21 @@ MeshFormat mesh_format(const std::string& path);
 /// byte if the data are empty, cut short or make no sense.
 PolygonMesh parse_mesh(std::string_view bytes, MeshFormat format);
 
-/// Reads a file in the format that the path's ending names, as parse_mesh does. Error messages begin with
-/// the path. Throws FileError if the file cannot be read; ArgumentError and MeshError.
+/// Reads a file in the format that the path's ending names, as parse_mesh does; one that ends in `.gz` is
+/// decompressed first. Error messages begin with the path. Throws FileError if the file cannot be read;
+/// ArgumentError and MeshError.
 PolygonMesh read_mesh(const std::string& path);
 
-/// The text or bytes of a mesh file. Positions read back as the same doubles (STL: rounded to single
-/// precision). Throws MeshError if the format is STL and a face names a vertex that does not exist.
+/// The text or bytes of a mesh file. Positions read back as the same doubles (STL, GIfTI, FreeSurfer: rounded
+/// to single precision). Throws MeshError if the format is STL and a face names a vertex that does not exist.
 std::string serialize_mesh(const Mesh& mesh, MeshFormat format);
 
-/// The same with faces of any number of corners. Throws MeshError if the format is STL and a face is not a
-/// triangle.
+/// The same with faces of any number of corners. Throws MeshError if the format has triangles only (STL,
+/// GIfTI, FreeSurfer) and a face is none.
 std::string serialize_mesh(const PolygonMesh& mesh, MeshFormat format);
 
-/// Writes a file in the format that the path's ending names, as serialize_mesh does. The file appears whole
-/// or not at all. Throws FileError, ArgumentError and MeshError.
+/// Writes a file in the format that the path's ending names, as serialize_mesh does, compressed if that is
+/// followed by `.gz`. The file appears whole or not at all. Throws FileError, ArgumentError and MeshError.
 void write_mesh(const std::string& path, const Mesh& mesh);
 void write_mesh(const std::string& path, const PolygonMesh& mesh);
 

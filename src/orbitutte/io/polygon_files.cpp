@@ -48,4 +48,10 @@ std::string write_ply_polygons(const PolygonMesh& mesh) {
 
 std::string write_stl_polygons(const PolygonMesh& mesh) { return write_stl(to_triangle_mesh(mesh)); }
 
+std::string write_gifti_polygons(const PolygonMesh& mesh) { return write_gifti(to_triangle_mesh(mesh)); }
+
+std::string write_freesurfer_polygons(const PolygonMesh& mesh) {
+  return write_freesurfer(to_triangle_mesh(mesh));
+}
+
 }  // namespace orbitutte

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "orbitutte/export/html_text.h"
+#include "orbitutte/io/base64.h"
 #include "orbitutte/export/palette.h"
 #include "orbitutte/export/tiling.h"
 #include "orbitutte/io/bytes.h"
