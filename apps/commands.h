@@ -97,6 +97,16 @@ struct CompareArguments {
 };
 int compare_command(const CompareArguments& arguments);
 
+struct RepairArguments {
+  std::string mesh, output, report;
+  std::vector<std::string> without;
+  double weld = 0;
+  /// Negative: all holes but the longest.
+  int fill_holes = -1;
+  bool drop_flat = false, json = false;
+};
+int repair_command(const RepairArguments& arguments);
+
 struct SampleArguments {
   std::string output, shape = name_of(SampleShape::figure);
   int faces = 20000;

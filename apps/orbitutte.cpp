@@ -12,6 +12,7 @@
 #include "command_line.h"
 #include "commands.h"
 #include "orbitutte/errors.h"
+#include "orbitutte/inspect/mesh_repair.h"
 #include "standard_streams.h"
 #include "usage.h"
 
@@ -356,6 +357,33 @@ void add_compare(CLI::App& app, int& code) {
   command.runs(compare_command, code);
 }
 
+void add_repair(CLI::App& app, int& code) {
+  Command<RepairArguments> command(
+      app, "repair", "Weld, clean, cut apart and close a mesh, so that it can be embedded; says what it did");
+  read_mesh_of(command);
+  command
+      .output("-o,--output", command->output,
+              {"-o", "the mesh", "", {".obj", ".off", ".ply", ".stl", ".vtk", ".gii"}},
+              "Write the repaired mesh here: .obj, .off, .ply, .stl, .vtk or .gii")
+      ->required();
+  command.output("--report", command->report, {"--report", "the report", "", {".json"}},
+                 "Write what was done here, and for each vertex that of the input (-1 for new ones): .json");
+  command
+      .option("--weld", command->weld,
+              "Vertices at most so far apart become one; 0 welds those at the same point")
+      ->capture_default_str();
+  command.option("--fill-holes", command->fill_holes,
+                 "Fill all holes of at most so many edges; if this is not given, all but the longest");
+  command.flag("--drop-flat", command->drop_flat, "Drop triangles without area, too, which opens holes");
+  command
+      .option("--without", command->without,
+              fmt::format("Leave out these steps: {}",
+                          fmt::join(orbitutte::choices_of<orbitutte::RepairStep>(), ", ")))
+      ->expected(1, -1);
+  command.flag("--json", command->json, "Print the report to standard output");
+  command.runs(repair_command, code);
+}
+
 void add_sample(CLI::App& app, int& code) {
   Command<SampleArguments> command(app, "sample", "Make a mesh to try things on");
   command
@@ -399,6 +427,7 @@ void add_commands(CLI::App& app, int& code) {
   add_render(app, code);
   add_report(app, code);
   add_compare(app, code);
+  add_repair(app, code);
   add_sample(app, code);
 }
 

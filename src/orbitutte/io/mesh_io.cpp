@@ -110,15 +110,18 @@ PolygonMesh parse_mesh(std::string_view bytes, MeshFormat format) {
   }
 }
 
-PolygonMesh read_mesh(const std::string& path) {
+PolygonMesh parse_mesh_file(const std::string& path, std::string_view bytes) {
   const MeshFormat format = mesh_format(path);
-  std::string bytes = read_file(path);
   try {
-    if (is_compressed(path)) bytes = decompress(bytes);
-    return parse_mesh(bytes, format);
+    return is_compressed(path) ? parse_mesh(decompress(bytes), format) : parse_mesh(bytes, format);
   } catch (const MeshError& error) {
     throw MeshError(fmt::format("{}: {}", path, error.what()));
   }
+}
+
+PolygonMesh read_mesh(const std::string& path) {
+  mesh_format(path);  // refuses what has no known ending before it is read
+  return parse_mesh_file(path, read_file(path));
 }
 
 std::string serialize_mesh(const Mesh& mesh, MeshFormat format) { return row(format).write(mesh); }

@@ -48,6 +48,10 @@ bool is_compressed(const std::string& path);
 /// byte if the data are empty, cut short or make no sense.
 PolygonMesh parse_mesh(std::string_view bytes, MeshFormat format);
 
+/// The polygons in the bytes of the file at this path, whose ending names the format, and of which `.gz` says
+/// that they are compressed. Error messages begin with the path. Throws ArgumentError and MeshError.
+PolygonMesh parse_mesh_file(const std::string& path, std::string_view bytes);
+
 /// Reads a file in the format that the path's ending names, as parse_mesh does; one that ends in `.gz` is
 /// decompressed first. Error messages begin with the path. Throws FileError if the file cannot be read;
 /// ArgumentError and MeshError.
