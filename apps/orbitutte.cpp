@@ -114,7 +114,7 @@ class Command {
 
 template <typename Arguments>
 void read_mesh_of(Command<Arguments>& command) {
-  command.input("mesh", command->mesh, "the mesh", "The mesh: OBJ, OFF, PLY or STL")->required();
+  command.input("mesh", command->mesh, "the mesh", "The mesh: OBJ, OFF, PLY, STL, VTK, GIfTI or FreeSurfer, plain or with .gz")->required();
 }
 
 // The two files that `embed` writes.

@@ -21,7 +21,7 @@ distortion(embedding[, V, F]) -> dict   area and angle distortion again
 distortion_floor(V, F, signature, cones) -> dict    the distortion that the coarseness of the mesh costs
 tile(embedding) -> (V, F, copy)         |G| copies, welded into one closed mesh
 sample_mesh(shape, faces) -> (V, F)     a mesh to try things with
-read_mesh(path) -> (V, F)               OBJ, OFF, PLY and STL
+read_mesh(path) -> (V, F)               OBJ, OFF, PLY, STL, VTK, GIfTI, FreeSurfer; .gz
 write_mesh(path, V, F)
 build() -> dict                         version, commit, linear algebra
 keep_freed_memory(), use_huge_pages()   for programs that embed many large meshes

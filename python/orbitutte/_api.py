@@ -347,7 +347,7 @@ def use_huge_pages() -> None:
 
 
 def read_mesh(path: str | os.PathLike) -> tuple[npt.NDArray[np.float64], _arrays.Faces]:
-    """Read an OBJ, OFF, PLY or STL file.
+    """Read an OBJ, OFF, PLY, STL, VTK, GIfTI or FreeSurfer file, plain or compressed (`.gz`).
 
     Returns
     -------

@@ -90,8 +90,9 @@ class MeshRepair {
       }
     }
     faces_ = std::move(kept);
-    record(count, fmt::format("{} {} {} dropped, the first was face {}", count, count == 1 ? "face" : "faces",
-                              what, first));
+    record(count, count == 1
+                      ? fmt::format("1 face {} was dropped: face {}", what, first)
+                      : fmt::format("{} faces {} were dropped, the first was face {}", count, what, first));
   }
 
   void drop_bad_faces() {
