@@ -5,7 +5,10 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <map>
 #include <numbers>
+#include <utility>
 
 #include "orbitutte/geometry/precise_isometry.h"
 #include "orbitutte/orbifold/seam_group.h"
@@ -153,10 +156,10 @@ class TileWalk {
     tile_.sides.push_back(std::move(side));
   }
 
-  // The product of the rotations in between, which large coordinates take off the isometries by rounding.
+  // The product of the rotations in between. It has more digits than doubles, and is rounded once: to correct
+  // it in doubles would lose the third power of its entries.
   Isometry gluing(int s, int partner) const {
-    return target_.space.nearest_isometry(
-        product_between(met_, cut_.sides[s].begin, cut_.sides[partner].begin));
+    return target_.space.isometry(product_between(met_, cut_.sides[s].begin, cut_.sides[partner].begin));
   }
 
   // The reflection in the mirror at a place of the boundary: in the line from the corner before to the next
@@ -175,7 +178,7 @@ class TileWalk {
     const Matrix3Of<Precise> behind = precise_product(met_, from, place);
     const Matrix3Of<Precise> reflection =
         precise_inverse(target_.space, behind) * precise_reflection(target_.space, line) * behind;
-    return target_.space.nearest_isometry(reflection.cast<double>());
+    return target_.space.isometry(reflection.cast<double>());
   }
 
   // In the plane, from the mirror before to that of side s: around the corner between them, and behind the
@@ -284,6 +287,27 @@ Vector3 nearest_modulo(const Vector3& p, Vector3 u, Vector3 v) {
 
 Tile tile_through(const Target& target, const CutMesh& cut, const Points& positions) {
   return TileWalk(target, cut, positions).tile();
+}
+
+Points spread_on_free_tile(const Target& target, const CutMesh& cut, const Points& positions) {
+  const std::vector<MetCone> met = met_cones(target, cut, positions);
+  const auto count_met = [&](int place) {
+    return std::count_if(met.begin(), met.end(), [&](const MetCone& cone) { return cone.place <= place; });
+  };
+  std::map<std::pair<std::ptrdiff_t, std::ptrdiff_t>, Matrix3Of<Precise>> elements;  // by how many were met
+  std::vector<int> place(cut.source_vertex.size(), 0);
+  Points result(cut.vertex_count(), 3);
+  result.topRows(positions.rows()) = positions;
+  for (int b = 0; b < static_cast<int>(cut.boundary.size()); ++b) {
+    const int v = cut.boundary[b], source = cut.source_vertex[v];
+    place[v] = b;
+    if (v == source) continue;
+    const auto [at, is_new] = elements.try_emplace({count_met(place[source]), count_met(b)});
+    if (is_new) at->second = precise_inverse(target.space, precise_product(met, place[source], b));
+    const Vector3Of<Precise> there = positions.row(source).transpose().cast<Precise>();
+    result.row(v) = Vector3Of<Precise>(at->second * there).cast<double>();
+  }
+  return result;
 }
 
 std::vector<double> closing_defects(const Target& target, const CutMesh& cut, const Points& positions) {

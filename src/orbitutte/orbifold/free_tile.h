@@ -24,6 +24,11 @@ namespace orbitutte {
 /// closing_defects tells, in the plane, whether they make a tile, and Moduli in other spaces.
 Tile tile_through(const Target& target, const CutMesh& cut, const Points& positions);
 
+/// Positions of all cut vertices (n_cut x 3) from those of the input vertices (n x 3) on the tile through
+/// them. In the hyperbolic plane a copy may be far nearer to (0, 0, 1) than the isometry that makes it is to
+/// the identity: products have more digits than doubles, and each copy is rounded once.
+Points spread_on_free_tile(const Target& target, const CutMesh& cut, const Points& positions);
+
 /// What keeps the positions of the marks from making a tile in the plane: linear in them, and zero if they
 /// do. On a sphere, the two coordinates of the translation that is the product of all rotations, which has to
 /// be the identity; on a disk, for each mark on the boundary, its distance from the mirror that leads there.

@@ -250,7 +250,8 @@ bool Moduli::encloses_area(const Points& marks) const {
   double off = -area();
   for (std::size_t c = 1; c + 1 < corners.size(); ++c)
     off += space_.area(corners[0], corners[c], corners[c + 1]);
-  if (space_.is_closed()) off = std::remainder(off, 4 * pi);
+  // A mirror may be longer than the chord, which runs the other way around.
+  if (space_.is_closed()) off = std::remainder(off, order_.is_disk() ? 2 * pi : 4 * pi);
   return std::abs(off) < 1e-3;
 }
 

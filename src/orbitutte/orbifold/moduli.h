@@ -85,8 +85,9 @@ class Moduli {
   /// closed() of the marks moved by a step along geodesics.
   std::optional<Points> retract(const Points& marks, const Eigen::VectorXd& step) const;
 
-  /// Is the signed area of the surface what it has to be, on the sphere up to multiples of its own area? If
-  /// it is not, the rotations close, but belong to another kind of surface. Always in the plane.
+  /// Is the signed area of the surface what it has to be, on the sphere up to multiples of its own area, or
+  /// of half of it for disks? If it is not, the rotations close, but belong to another kind of surface.
+  /// Always in the plane.
   bool encloses_area(const Points& marks) const;
 
   /// Marks of a closed surface. A sphere is two copies of a polygon with an inscribed circle around (0, 0,

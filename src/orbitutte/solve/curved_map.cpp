@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
@@ -99,7 +100,10 @@ struct HarmonicTile {
   double moved = 0;
   Minimum minimum;
 
-  // Of the shapes (Moduli::basis), and the derivative of the energy along it.
+  // Steps of the marks (2k, one a column) along which the shape is not looked for.
+  Eigen::MatrixXd held;
+
+  // Of the shapes (Moduli::basis), those that are held left out, and the derivative of the energy along it.
   Eigen::MatrixXd basis;
   Eigen::VectorXd slope;
 
@@ -146,12 +150,29 @@ class ShapeSearch {
   // The same from a tile whose shape is so far away: nearby its factor serves once more.
   HarmonicTile harmonic_beside(const HarmonicTile& from, double distance, const ShapeStart& start,
                                const LbfgsOptions& options) const {
-    if (!serves_again(from, distance)) return harmonic(start.cones, start.x, options);
     HarmonicTile tile = started(start.cones, start.x);
-    tile.hessian = std::make_shared<TangentSystem>(from.hessian->moved_to(tile.minimum.positions));
-    tile.moved = from.moved + distance;
+    tile.held = from.held;
+    if (serves_again(from, distance)) {
+      tile.hessian = std::make_shared<TangentSystem>(from.hessian->moved_to(tile.x()));
+      tile.moved = from.moved + distance;
+    } else {
+      tile.hessian = std::make_shared<TangentSystem>(tangent_problem(*tile.system), tile.x());
+    }
     relax(options, tile);
     return tile;
+  }
+
+  // With the directions held in which great cones leave the energy almost flat, the least eigenvectors of its
+  // second derivative: as many as there are turns in excess. Maps that run around such a cone fewer times
+  // than they should are as conformal everywhere else.
+  void hold_flat_directions(HarmonicTile& tile) const {
+    int flat = 0;
+    for (const Mark& mark : moduli_.marks())
+      flat += (mark.kind == ConeKind::corner ? 1 : 2) * turns_in_excess(mark);
+    if (flat == 0) return;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(model(tile).energy.hessian);
+    tile.held = tile.basis * eigen.eigenvectors().leftCols(std::min<Eigen::Index>(flat, tile.basis.cols()));
+    find_slope(tile);
   }
 
   // Is the energy there about as small as that of a conformal map?
@@ -167,8 +188,8 @@ class ShapeSearch {
     ShapeModel model = {{tile.slope, curvature.energy + bending(tile)}, {}};
     model.responses = tile.hessian->beside(tangent_problem(*tile.system), tile.x()).solve(curvature.gradient);
     for (Points& response : model.responses) response *= -1;
-    for (int a = 0; a < moduli_.dimension(); ++a)
-      for (int b = 0; b < moduli_.dimension(); ++b)
+    for (Eigen::Index a = 0; a < tile.basis.cols(); ++a)
+      for (Eigen::Index b = 0; b < tile.basis.cols(); ++b)
         model.energy.hessian(a, b) += 0.5 * (paired(curvature.gradient[a], model.responses[b]) +
                                              paired(curvature.gradient[b], model.responses[a]));
     return model;
@@ -205,7 +226,16 @@ class ShapeSearch {
 
   void relax(const LbfgsOptions& options, HarmonicTile& tile) const {
     tile.minimum = minimize(tile.system->energy, *tile.hessian, tile.minimum.positions, options);
+    find_slope(tile);
+  }
+
+  void find_slope(HarmonicTile& tile) const {
     tile.basis = moduli_.basis(tile.cones);
+    if (tile.held.cols() > 0) {
+      const Eigen::HouseholderQR<Eigen::MatrixXd> factors(tile.basis.transpose() * tile.held);
+      const Eigen::MatrixXd Q = factors.householderQ();
+      tile.basis = tile.basis * Q.rightCols(tile.basis.cols() - tile.held.cols());
+    }
     tile.slope = tile.basis.transpose() * energy_.cone_gradient(tile.x(), tile.cones);
   }
 
@@ -231,6 +261,7 @@ class ShapeDescent {
 
   HarmonicTile run(const ShapeStart& start) {
     HarmonicTile tile = search_.harmonic(start.cones, start.x, within(loosest));
+    search_.hold_flat_directions(tile);
     add_row(tile, 0);
     for (int step = 0; step < most_steps && tile.steepest() > slope_tolerance(); ++step)
       if (!advance(tile)) break;

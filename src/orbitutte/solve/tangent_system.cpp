@@ -134,6 +134,21 @@ class BlockMatrix {
   SparseMatrix matrix_;
 };
 
+// A factor of the form, or, where rounding leaves it no longer positive, of the form with a small share of
+// its diagonal added: enough for a preconditioner. In limbs whose edges are shorter than doubles tell apart,
+// frames of neighbours do not agree.
+LeadingFactor eliminate_strengthened(SparseMatrix form, const Unknowns& unknowns, Backend backend) {
+  for (const double share : {1e-13, 1e-11, 1e-9}) {
+    try {
+      return eliminate(form, backend, 0).factor;
+    } catch (const NotPositiveDefinite&) {
+      for (long column = 0; column < form.cols(); ++column)
+        form.valuePtr()[form.outerIndexPtr()[column]] *= 1 + share;
+    }
+  }
+  return eliminate_laplacian(form, unknowns, backend);
+}
+
 }  // namespace
 
 TangentSystem::TangentSystem(Space space, const Points& x)
@@ -154,7 +169,7 @@ TangentSystem::TangentSystem(const TangentProblem& problem, const Points& x)
   } catch (const NotPositiveDefinite&) {
     factored.is_exact = false;
     form_ = assemble_form(problem, x, factored);
-    factored.factor = eliminate_laplacian(*form_, factored.unknowns, problem.backend);
+    factored.factor = eliminate_strengthened(*form_, factored.unknowns, problem.backend);
   }
   factored_ = std::make_shared<Factored>(std::move(factored));
 }
@@ -200,7 +215,8 @@ std::shared_ptr<const SparseMatrix> TangentSystem::assemble_form(const TangentPr
             factored.is_exact ? normal_factors<k>(d.squared, d.over_sn) : NormalFactors();
         const Row2 e_p = unit_in_frame(curvature.tangent(p, q - p), lowered(i)),
                    e_q = -unit_in_frame(curvature.tangent(x_j, seen - x_j), lowered(j));
-        const EdgeHessian one = hessian_along({e_p, e_q, turned_left(e_p), sense[t] * turned_left(e_q)}, factors);
+        const EdgeHessian one =
+            hessian_along({e_p, e_q, turned_left(e_p), sense[t] * turned_left(e_q)}, factors);
         const double w = 2 * problem.w[e];
         hessians[e] = {w * one.ii, w * one.jj, w * one.ij};
       }
