@@ -41,11 +41,13 @@ Target with_area(const Target& target, double area) {
   return result;
 }
 
-// The areas of the targets on the way: the last is the target's own.
+// The areas of the targets on the way: the last is the target's own. Of a disk with cones a polygon with an
+// inscribed circle may be made only if it is almost flat.
 std::vector<double> areas_on_the_way(const Target& target) {
-  constexpr double first = 3, step = 2;
+  const bool is_disk = target.topology == Topology::disk;
+  const double small = is_disk ? 0.5 : 5, first = is_disk ? 0.5 : 3, step = is_disk ? 0.7 : 2;
   const double area = free_tile_area(target);
-  if (!target.space.is_closed() || area <= 5) return {area};
+  if (!target.space.is_closed() || area <= small) return {area};
   const int steps = static_cast<int>(std::ceil((area - first) / step));
   std::vector<double> areas;
   for (int k = 0; k <= steps; ++k) areas.push_back(first + (area - first) * k / steps);

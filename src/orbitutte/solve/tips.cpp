@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -58,7 +59,7 @@ class Tip {
       const std::optional<TipPatch> patch = patch_of(inside);
       if (!patch) continue;
       const std::size_t before = positions_.moves();
-      if (place(*patch) && are_positive(inside)) return moved(inside);
+      if (place(*patch) && are_positive(patch->inside)) return moved(patch->inside);
       positions_.take_back(before);
     }
     return {};
@@ -91,21 +92,61 @@ class Tip {
     return result;
   }
 
-  // Nothing if what surrounds them is not one simple loop.
-  std::optional<TipPatch> patch_of(const std::set<int>& inside) const {
+  // The edges of faces with one corner inside that lie across from it, by their beginnings; and the vertices
+  // where two begin, or that are surrounded by what is inside.
+  struct Surround {
     std::map<int, int> next;
+    std::set<int> pinched;
+  };
+  Surround surround_of(const std::set<int>& inside) const {
+    Surround around;
     for (const int v : inside)
       for (const StarTriangle& triangle : site_.stars.around(v))
         if (!inside.contains(triangle.a) && !inside.contains(triangle.b) &&
-            !next.emplace(triangle.a, triangle.b).second)
-          return std::nullopt;
-    TipPatch patch = {inside, {}};
-    if (next.empty()) return std::nullopt;
-    for (int v = next.begin()->first; patch.ring.size() < next.size(); v = next[v]) {
-      if (!next.contains(v)) return std::nullopt;
-      patch.ring.push_back(v);
+            !around.next.emplace(triangle.a, triangle.b).second)
+          around.pinched.insert(triangle.a);
+    for (const int v : inside)
+      for (const StarTriangle& triangle : site_.stars.around(v))
+        if (!inside.contains(triangle.a) && !around.next.contains(triangle.a))
+          around.pinched.insert(triangle.a);
+    return around;
+  }
+
+  // The loops that they make.
+  static std::vector<std::vector<int>> loops_of(std::map<int, int> next) {
+    std::vector<std::vector<int>> loops;
+    while (!next.empty()) {
+      std::vector<int>& loop = loops.emplace_back();
+      for (int v = next.begin()->first;;) {
+        const auto at = next.find(v);
+        if (at == next.end()) break;
+        loop.push_back(v);
+        v = at->second;
+        next.erase(at);
+        if (v == loop.front()) break;
+      }
     }
-    return next[patch.ring.back()] == patch.ring.front() ? std::optional(patch) : std::nullopt;
+    return loops;
+  }
+
+  // With what is enclosed filled in, until one simple loop surrounds it; nothing if that does not come about.
+  std::optional<TipPatch> patch_of(std::set<int> inside) const {
+    constexpr int most_fillings = 30;
+    for (int filling = 0; filling < most_fillings; ++filling) {
+      const Surround around = surround_of(inside);
+      if (around.next.empty() || !may_all_move(inside)) return std::nullopt;
+      if (!around.pinched.empty()) {
+        inside.insert(around.pinched.begin(), around.pinched.end());
+        continue;
+      }
+      std::vector<std::vector<int>> loops = loops_of(around.next);
+      std::swap(loops.front(),
+                *std::max_element(loops.begin(), loops.end(),
+                                  [](const auto& l, const auto& m) { return l.size() < m.size(); }));
+      if (loops.size() == 1) return TipPatch{std::move(inside), std::move(loops.front())};
+      for (std::size_t k = 1; k < loops.size(); ++k) inside.insert(loops[k].begin(), loops[k].end());
+    }
+    return std::nullopt;
   }
 
   // The element through which a neighbour is seen; the ring's vertices see each other, too.
@@ -183,11 +224,10 @@ class Tip {
     return weights;
   }
 
-  // Tutte's embedding in the plane of roots: of all vertices inside, the ring and the cone being held.
+  // Tutte's embedding in the plane of roots: of all vertices inside, the ring being held.
   std::map<int, RootNumber> embedded(const TipPatch& patch, std::map<int, RootNumber> held) const {
     std::map<int, int> row;
-    for (const int v : patch.inside)
-      if (v != cone_) row.emplace(v, static_cast<int>(row.size()));
+    for (const int v : patch.inside) row.emplace(v, static_cast<int>(row.size()));
     std::vector<Eigen::Triplet<double>> entries;
     Eigen::MatrixXd right = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(row.size()), 2);
     for (const auto& [v, r] : row)
@@ -207,17 +247,37 @@ class Tip {
     return held;
   }
 
+  // The cone has come to lie somewhere inside, and all of its limb beside it. The disk is moved so that it
+  // lies at zero, step by step: by less than its distance from the ring, the less the farther away, which
+  // keeps all in its order. False if it does not come there.
+  bool recentre(const TipPatch& patch, std::map<int, RootNumber>& roots) const {
+    constexpr int most_moves = 20;
+    constexpr double part = 0.7;
+    for (int k = 0; k < most_moves; ++k) {
+      const RootNumber centre = roots[cone_];
+      if (centre == 0.0) return true;
+      double room = std::numeric_limits<double>::infinity();
+      for (const int v : patch.ring) room = std::min(room, std::abs(roots[v] - centre));
+      const RootNumber step = centre * std::min(1.0, part * room / std::abs(centre));
+      for (const int v : patch.inside)
+        roots[v] -= step * std::max(0.0, 1 - std::abs(roots[v] - centre) / room);
+      if (step == centre) roots[cone_] = 0;
+    }
+    return roots[cone_] == 0.0;
+  }
+
   // Moves the vertices inside; false if that cannot be told.
   bool place(const TipPatch& patch) {
     std::optional<std::map<int, SeenFromTip>> ring = seen_ring(patch);
     if (!ring) return false;
     double farthest = 0;
     for (const auto& [v, at] : *ring) farthest = std::max(farthest, distance_from_tip(v, at.frame));
-    std::map<int, RootNumber> roots = {{cone_, 0}};
+    std::map<int, RootNumber> roots;
     for (const auto& [v, at] : *ring)
       roots[v] =
           std::polar(std::pow(distance_from_tip(v, at.frame) / farthest, 1 / share_), at.angle / share_);
     roots = embedded(patch, std::move(roots));
+    if (!recentre(patch, roots)) return false;
     std::vector<int> reached = patch.ring;
     for (std::size_t k = 0; k < reached.size(); ++k) {
       const int v = reached[k];
