@@ -49,20 +49,29 @@ class Tip {
         from_centre_(space_.to_origin(centre_)) {}
 
   // Is a face beside the cone or beside a neighbour of it not positive?
-  bool is_turned() const { return !are_positive(with_neighbours({cone_})); }
+  bool is_turned() const { return count_turned(with_neighbours({cone_})) > 0; }
 
+  // All faces positive, or, if no patch does that, the fewest not: thin ones are left for others to repair.
   std::vector<int> run() {
+    std::optional<TipPatch> best;
+    int fewest = std::numeric_limits<int>::max();
     std::set<int> inside = {cone_};
-    for (int rings = 0; rings < most_rings_around_tip; ++rings) {
+    for (int rings = 0; rings < most_rings_around_tip && fewest > 0; ++rings) {
       inside = with_neighbours(inside);
       if (!may_all_move(inside)) break;
       const std::optional<TipPatch> patch = patch_of(inside);
       if (!patch) continue;
+      const int turned_before = count_turned(patch->inside);
       const std::size_t before = positions_.moves();
-      if (place(*patch) && are_positive(patch->inside)) return moved(patch->inside);
+      const int turned = place(*patch) ? count_turned(patch->inside) : turned_before;
       positions_.take_back(before);
+      if (turned >= std::min(fewest, turned_before)) continue;
+      fewest = turned;
+      best = patch;
     }
-    return {};
+    if (!best) return {};
+    place(*best);
+    return moved(best->inside);
   }
 
  private:
@@ -79,11 +88,12 @@ class Tip {
                        [&](int v) { return v == cone_ || site_.gluing.boundary.basis_of[v] == in_space; });
   }
 
-  bool are_positive(const std::set<int>& inside) const {
+  int count_turned(const std::set<int>& inside) const {
+    std::set<int> turned;
     for (const int v : inside)
       for (const StarTriangle& triangle : site_.stars.around(v))
-        if (!positions_.is_positive(triangle.face)) return false;
-    return true;
+        if (!positions_.is_positive(triangle.face)) turned.insert(triangle.face);
+    return static_cast<int>(turned.size());
   }
 
   std::vector<int> moved(const std::set<int>& inside) const {

@@ -15,7 +15,7 @@ namespace orbitutte {
 /// = x^(1/a) of positions x around the cone, the neighbourhood is a disk in the plane: the ring around it is
 /// held there, the cone is held at zero, and what lies between is Tutte's embedding.
 ///
-/// The vertices that moved, ascending; none, and all where they were, if no number of rings will do.
+/// The vertices that moved, ascending; none if no number of rings makes more faces positive than are.
 std::vector<int> unroll_tip(const RepairSite& site, const ConeCopies& cone, MovablePositions& positions);
 
 /// The same at all cones of more than pi with faces that are not positive beside them or beside their
