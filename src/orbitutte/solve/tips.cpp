@@ -19,7 +19,7 @@ namespace {
 using std::numbers::pi;
 using RootNumber = std::complex<double>;
 
-constexpr int most_rings_around_tip = 24;
+constexpr int most_rings_around_tip = 40;
 constexpr double least_tip_weight = 0.01;  // in place of weights that are not positive
 
 // Where a vertex is seen from the cone: its image under `frame`, and the angle there, which goes on around
