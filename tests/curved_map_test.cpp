@@ -39,7 +39,7 @@ struct CutSurface {
         cut(cut_along_tree(surface, cones, static_cast<int>(cones.size()), {seed})),
         moduli(moduli_of(target, cut)),
         words(edge_words(surface, weights.triangulation.get(), cut)),
-        energy(moduli, words, weights, cones_as_met(cut)) {}
+        energy(moduli, words, words.weights(weights.w), cones_as_met(cut)) {}
 
   static std::vector<Mark> marks_of(const std::vector<double>& angles) {
     std::vector<Mark> marks;
@@ -69,7 +69,7 @@ struct CutSurface {
     return energy.with_cones(x, polygon());
   }
 
-  Points polygon() const { return moduli.doubled_polygon(); }
+  Points polygon() const { return moduli.inscribed_polygon(); }
 
   Surface surface;
   std::vector<int> cones;
@@ -121,6 +121,32 @@ TEST_P(EveryCutSurface, TheEnergysDerivativeByTheConesIsThatOfDifferences) {
     const Eigen::VectorXd step = h * Eigen::VectorXd::Unit(gradient.size(), q);
     const double difference = (s.energy.energy(x, moved(step)) - s.energy.energy(x, moved(-step))) / (2 * h);
     EXPECT_NEAR(gradient[q], difference, 1e-6 * gradient.norm()) << q;
+  }
+}
+
+// Also for steps in two directions at once.
+TEST_P(EveryCutSurface, TheEnergysSecondDerivativesByTheConesAreThoseOfDifferences) {
+  const CutSurface s = cut_surface();
+  const Points x = s.scattered(), cones = s.polygon();
+  const Eigen::MatrixXd directions = Eigen::MatrixXd::Random(2 * s.moduli.mark_count(), 3);
+  const ModuliEnergy::Curvature second = s.energy.curvature(x, cones, directions);
+  const auto moved = [&](const Eigen::VectorXd& step) {
+    Points result;
+    move_points(s.target.space, cones, s.moduli.tangents(cones, directions * step), 1, result);
+    return result;
+  };
+  constexpr double h = 1e-5, wide = 2e-4;
+  const double here = s.energy.energy(x, cones);
+  for (Eigen::Index q = 0; q < 3; ++q) {
+    const Eigen::VectorXd step = Eigen::VectorXd::Unit(3, q),
+                          both = step + Eigen::VectorXd::Unit(3, (q + 1) % 3);
+    const Points change =
+        (s.energy.gradient(x, moved(h * step)) - s.energy.gradient(x, moved(-h * step))) / (2 * h);
+    EXPECT_LT((second.gradient[q] - change).norm(), 1e-6 * change.norm()) << q;
+    const double bend =
+        (s.energy.energy(x, moved(wide * both)) - 2 * here + s.energy.energy(x, moved(-wide * both))) /
+        (wide * wide);
+    EXPECT_NEAR(both.dot(second.energy * both), bend, 1e-5 * second.energy.norm()) << q;
   }
 }
 

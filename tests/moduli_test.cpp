@@ -24,18 +24,44 @@ std::vector<double> some_angles(int k) {
   return {pi, 0.9 * pi, 1.1 * pi, pi / 2, 2 * pi / 3};
 }
 
-class EveryModuli : public testing::TestWithParam<int> {
+// A sphere with these cones, or a disk with four corners, one of them concave but on the sphere, and two
+// cones.
+enum class Kind { sphere, disk };
+
+std::vector<Mark> some_marks(int k, Kind kind) {
+  std::vector<Mark> marks;
+  if (kind == Kind::sphere) {
+    for (const double angle : some_angles(k)) marks.push_back({angle, ConeKind::rotation});
+    return marks;
+  }
+  const auto add = [&](double angle, ConeKind of_mark) { marks.push_back({angle * pi, of_mark}); };
+  add(k > 0 ? 0.98 : k == 0 ? 0.6 : 0.4, ConeKind::corner);
+  add(k > 0 ? 1.1 : k == 0 ? 1.3 : 0.8, ConeKind::rotation);
+  add(k > 0 ? 0.95 : k == 0 ? 1.2 : 1.3, ConeKind::corner);
+  add(k > 0 ? 0.97 : k == 0 ? 0.7 : 0.5, ConeKind::corner);
+  add(k > 0 ? 0.96 : k == 0 ? 0.8 : 0.3, ConeKind::corner);
+  add(k > 0 ? 1.3 : k == 0 ? 1.4 : 1.1, ConeKind::rotation);
+  return marks;
+}
+
+struct ModuliCase {
+  int k;
+  Kind kind;
+};
+
+class EveryModuli : public testing::TestWithParam<ModuliCase> {
  protected:
-  int k() const { return GetParam(); }
+  int k() const { return GetParam().k; }
+  bool is_disk() const { return GetParam().kind == Kind::disk; }
   Space space() const { return space_of(k()); }
-  Moduli moduli() const { return Moduli(space(), some_angles(k())); }
+  Moduli moduli() const { return Moduli(space(), some_marks(k(), GetParam().kind)); }
 
   // Marks of a closed surface that has no symmetry.
   Points closed_marks(std::uint32_t seed = 1) const {
     const Moduli all = moduli();
-    Points marks = all.doubled_polygon();
+    Points marks = all.inscribed_polygon();
     std::mt19937 random(seed);
-    std::uniform_real_distribution<double> uniform(-0.2, 0.2);
+    std::uniform_real_distribution<double> uniform(-0.1, 0.1);
     Eigen::VectorXd step(2 * all.mark_count());
     for (double& entry : step) entry = uniform(random);
     const Eigen::MatrixXd basis = all.basis(marks);
@@ -53,11 +79,21 @@ class EveryModuli : public testing::TestWithParam<int> {
     }
     return result;
   }
+
+  Eigen::MatrixXd all_directions() const {
+    return Eigen::MatrixXd::Identity(2 * moduli().mark_count(), 2 * moduli().mark_count());
+  }
 };
 
-INSTANTIATE_TEST_SUITE_P(Geometry, EveryModuli, testing::Values(1, 0, -1), [](const auto& info) {
-  return info.param > 0 ? "sphere" : info.param == 0 ? "plane" : "hyperboloid";
-});
+INSTANTIATE_TEST_SUITE_P(Geometry, EveryModuli,
+                         testing::Values(ModuliCase{1, Kind::sphere}, ModuliCase{0, Kind::sphere},
+                                         ModuliCase{-1, Kind::sphere}, ModuliCase{1, Kind::disk},
+                                         ModuliCase{0, Kind::disk}, ModuliCase{-1, Kind::disk}),
+                         [](const auto& info) {
+                           const int k = info.param.k;
+                           const std::string space = k > 0 ? "sphere" : k == 0 ? "plane" : "hyperboloid";
+                           return (info.param.kind == Kind::disk ? "disk_" : "closed_") + space;
+                         });
 
 Isometry whole_product(const std::vector<Isometry>& rotations) {
   Isometry result;
@@ -74,14 +110,67 @@ Element some_word(const std::vector<Element>& R) {
 TEST_P(EveryModuli, RatesOfWordsAreTheirDerivatives) {
   const Moduli all = moduli();
   const Points marks = closed_marks();
-  const VaryingIsometry word = some_word(all.varying_rotations(marks));
+  const VaryingIsometry word = some_word(all.varying(marks).generators());
   constexpr double h = 1e-5;
-  for (Eigen::Index q = 0; q < word.rate.cols(); ++q) {
-    const Eigen::VectorXd step = h * Eigen::VectorXd::Unit(word.rate.cols(), q);
-    const Matrix3 difference = some_word(all.rotations(moved(marks, step))).matrix() -
-                               some_word(all.rotations(moved(marks, -step))).matrix();
-    const Matrix3 rate = infinitesimal_isometry(space(), word.rate.col(q)) * word.value.matrix();
-    EXPECT_LT((difference / (2 * h) - rate).cwiseAbs().maxCoeff(), 1e-7) << q;
+  for (Eigen::Index q = 0; q < word.motion.parameters(); ++q) {
+    const Eigen::VectorXd step = h * Eigen::VectorXd::Unit(word.motion.parameters(), q);
+    const Matrix3 difference = some_word(all.generators(moved(marks, step))).matrix() -
+                               some_word(all.generators(moved(marks, -step))).matrix();
+    const Matrix3 rate = infinitesimal_isometry(space(), word.motion.first.col(q)) * word.value.matrix();
+    EXPECT_LT((difference / (2 * h) - rate).cwiseAbs().maxCoeff(), 1e-8 * (10 + rate.norm())) << q;
+  }
+}
+
+// Of exp(u(t)) g: g'' = (u_ab + (u_a u_b + u_b u_a)/2) g.
+TEST_P(EveryModuli, SecondDerivativesOfWordsAreThoseOfTheirRates) {
+  const Moduli all = moduli();
+  const Points marks = closed_marks();
+  const VaryingMotion motion =
+      some_word(all.varying(marks, all_directions(), Order::second).generators()).motion;
+  const auto derivative = [&](const Points& at, Eigen::Index q) -> Matrix3 {
+    const VaryingIsometry word = some_word(all.varying(at).generators());
+    return infinitesimal_isometry(space(), word.motion.first.col(q)) * word.value.matrix();
+  };
+  const Isometry word = some_word(all.generators(marks));
+  constexpr double h = 1e-5;
+  const Eigen::Index count = motion.parameters();
+  for (Eigen::Index a = 0; a < count; ++a) {
+    const Eigen::VectorXd step = h * Eigen::VectorXd::Unit(count, a);
+    // Frames at marks that have moved are turned about them: only the moving mark's own count.
+    for (const Eigen::Index b : {a, (a + 2) % count}) {
+      const Matrix3 A = infinitesimal_isometry(space(), motion.first.col(a)),
+                    B = infinitesimal_isometry(space(), motion.first.col(b)),
+                    second = infinitesimal_isometry(space(), motion.second.col(count * a + b)) +
+                             0.5 * (A * B + B * A);
+      const Matrix3 difference =
+          b == a
+              ? Matrix3((some_word(all.generators(moved(marks, step * 10))).matrix() - 2 * word.matrix() +
+                         some_word(all.generators(moved(marks, -step * 10))).matrix()) /
+                        (100 * h * h))
+              : Matrix3((derivative(moved(marks, step), b) - derivative(moved(marks, -step), b)) / (2 * h));
+      const double size = 1 + (second * word.matrix()).cwiseAbs().maxCoeff();
+      EXPECT_LT((difference - second * word.matrix()).cwiseAbs().maxCoeff(), 1e-5 * size) << a << " " << b;
+    }
+  }
+}
+
+TEST_P(EveryModuli, TheClosingsSecondDerivativeIsThatOfDifferences) {
+  const Moduli all = moduli();
+  const Points marks = closed_marks();
+  const Eigen::VectorXd multipliers = Eigen::VectorXd::LinSpaced(all.closing(marks).size(), 0.5, 2);
+  const Eigen::MatrixXd second =
+      all.varying(marks, all_directions(), Order::second).closing_curvature(multipliers);
+  constexpr double h = 1e-4;
+  const auto at = [&](const Eigen::VectorXd& step) {
+    return multipliers.dot(all.closing(moved(marks, step)));
+  };
+  for (const std::uint32_t seed : {1u, 2u, 3u}) {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> normal;
+    Eigen::VectorXd step(second.cols());
+    for (double& entry : step) entry = normal(random);
+    const double difference = (at(h * step) - 2 * at(0 * step) + at(-h * step)) / (h * h);
+    EXPECT_NEAR(step.dot(second * step), difference, 3e-5 * (1 + second.cwiseAbs().sum())) << seed;
   }
 }
 
@@ -128,19 +217,48 @@ TEST_P(EveryModuli, StepsAlongTheBasisNeedNoCorrectionAtFirstOrder) {
 }
 
 TEST_P(EveryModuli, ClosedMarksMultiplyToTheIdentityAndEncloseTheirArea) {
+  if (is_disk()) return;
   for (const std::uint32_t seed : {1u, 2u, 3u}) {
     const Points marks = closed_marks(seed);
-    EXPECT_LT(whole_product(moduli().rotations(marks)).difference(Isometry()), 1e-11);
+    EXPECT_LT(whole_product(moduli().generators(marks)).difference(Isometry()), 1e-11);
     EXPECT_TRUE(moduli().encloses_area(marks));
     for (Eigen::Index i = 0; i < marks.rows(); ++i) EXPECT_LT(space().defect(marks.row(i)), 1e-13);
   }
 }
 
+// Where mirrors meet, the product of both reflections is the rotation by twice the angle between them.
+TEST_P(EveryModuli, MirrorsMeetInTheAnglesOfCorners) {
+  if (!is_disk()) return;
+  const Moduli all = moduli();
+  for (const std::uint32_t seed : {1u, 2u, 3u}) {
+    const Points marks = closed_marks(seed);
+    EXPECT_TRUE(all.encloses_area(marks));
+    const std::vector<Isometry> g = all.generators(marks);
+    EXPECT_TRUE(g[3].reverses_orientation());
+    EXPECT_LT((g[3] * g[4]).difference(space().rotation(marks.row(4), 2 * all.marks()[4].angle)), 1e-9);
+    const Isometry behind = g[5];  // a cone between the last corner and the first
+    const Isometry last = behind.inverse() * g[4] * behind;
+    EXPECT_LT((last * g[0]).difference(space().rotation(marks.row(0), 2 * all.marks()[0].angle)), 1e-9);
+    for (Eigen::Index i = 0; i < marks.rows(); ++i) EXPECT_LT(space().defect(marks.row(i)), 1e-13);
+  }
+}
+
+// A disk whose marks are all corners is half of a sphere.
+TEST(Moduli, ARightAngledPentagonIsTheDiskOfItsOwnDouble) {
+  const Moduli disk(Space::hyperbolic_plane(), std::vector<Mark>(5, {pi / 2, ConeKind::corner})),
+      sphere(Space::hyperbolic_plane(), std::vector<double>(5, pi));
+  EXPECT_EQ(disk.dimension(), 2);
+  EXPECT_NEAR(2 * disk.area(), sphere.area(), 1e-12);
+  EXPECT_LT((disk.inscribed_polygon() - sphere.inscribed_polygon()).norm(), 1e-12);
+  EXPECT_LT(disk.closing(disk.inscribed_polygon()).norm(), 1e-12);
+}
+
 // The doubled polygon is its own mirror image: the later copies of marks are reflections of the first ones.
 TEST_P(EveryModuli, TheDoubledPolygonClosesWithHalfTheAngles) {
+  if (is_disk()) return;
   const std::vector<double> angles = some_angles(k());
-  const Points marks = moduli().doubled_polygon();
-  EXPECT_LT(whole_product(moduli().rotations(marks)).difference(Isometry()), 1e-12);
+  const Points marks = moduli().inscribed_polygon();
+  EXPECT_LT(whole_product(moduli().generators(marks)).difference(Isometry()), 1e-12);
   const int count = static_cast<int>(angles.size());
   for (int i = 0; i < count; ++i)
     EXPECT_NEAR(space().angle(marks.row(i), marks.row((i + 1) % count), marks.row((i + count - 1) % count)),
@@ -150,20 +268,20 @@ TEST_P(EveryModuli, TheDoubledPolygonClosesWithHalfTheAngles) {
 
 TEST_P(EveryModuli, MarksFarOffAreNotClosedByAnotherSurface) {
   const Moduli all = moduli();
-  const Points marks = all.doubled_polygon();
+  const Points marks = all.inscribed_polygon();
   for (const double size : {0.5, 1.0, 2.0, 4.0})
     for (int q = 0; q < all.dimension(); ++q) {
       const std::optional<Points> there = all.retract(marks, size * all.basis(marks).col(q));
       if (!there) continue;
       EXPECT_TRUE(all.encloses_area(*there));
-      EXPECT_LT(whole_product(all.rotations(*there)).difference(Isometry()), 1e-9);
+      EXPECT_LT(all.closing(*there).norm(), 1e-9);
     }
 }
 
 // --------------------------------------------------------------------------------------------- known cases
 
 double side(const Moduli& moduli, int i) {
-  const Points marks = moduli.doubled_polygon();
+  const Points marks = moduli.inscribed_polygon();
   return moduli.space().distance(marks.row(i), marks.row((i + 1) % moduli.mark_count()));
 }
 
@@ -190,7 +308,7 @@ TEST(Moduli, ThreeHalfTurnsLieAtRightAnglesAndHaveNoFreedom) {
   const Moduli moduli(Space::sphere(), std::vector<double>(3, pi));
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(side(moduli, i), pi / 2, 1e-12);
   EXPECT_EQ(moduli.dimension(), 0);
-  EXPECT_EQ(moduli.basis(moduli.doubled_polygon()).cols(), 0);
+  EXPECT_EQ(moduli.basis(moduli.inscribed_polygon()).cols(), 0);
 }
 
 // A corner whose quarter angle is least may lie more than a quarter of a circle around from the others.
@@ -218,7 +336,7 @@ TEST(Moduli, CurvedSurfacesOfLittleAreaMeetTheFlatOne) {
       EXPECT_LT(off, 2 * area);
       EXPECT_LT(off, last);
       last = off;
-      const Points marks = curved.doubled_polygon();
+      const Points marks = curved.inscribed_polygon();
       Eigen::VectorXd step = Eigen::VectorXd::LinSpaced(curved.dimension(), 0.3, 1);
       step *= 0.1 * side(curved, 0);
       EXPECT_TRUE(curved.retract(marks, curved.basis(marks) * step)) << "area " << area;
@@ -233,7 +351,7 @@ TEST(Moduli, APentagramIsNoSurfaceOfTheseAngles) {
   const double to_tip = std::acosh(1 / (std::tan(2 * pi / 5) * std::tan(angle / 4)));
   Points tips(5, 3);
   for (int i = 0; i < 5; ++i) tips.row(i) = moduli.space().polar(to_tip, i * 4 * pi / 5);
-  EXPECT_LT(whole_product(moduli.rotations(tips)).difference(Isometry()), 1e-10);
+  EXPECT_LT(whole_product(moduli.generators(tips)).difference(Isometry()), 1e-10);
   EXPECT_FALSE(moduli.encloses_area(tips));
   EXPECT_FALSE(moduli.closed(tips));
 }
@@ -248,6 +366,16 @@ TEST(Moduli, RefusesAnglesOfNoSurface) {
   EXPECT_THROW(Moduli(hyperbolic, {pi, pi, pi}), ArgumentError) << "spherical";
   EXPECT_THROW(Moduli(sphere, {0.5 * pi, 1.9 * pi, 1.7 * pi}), ArgumentError) << "Troyanov's bound";
   EXPECT_NO_THROW(Moduli(sphere, {0.5 * pi, 1.4 * pi, 1.05 * pi}));
+  const auto polygon = [](std::vector<double> angles) {
+    std::vector<Mark> marks;
+    for (const double angle : angles) marks.push_back({angle * pi, ConeKind::corner});
+    return marks;
+  };
+  EXPECT_THROW(Moduli(sphere, polygon({0.5, 0.5})), ArgumentError);
+  EXPECT_THROW(Moduli(sphere, polygon({0.5, 0.5, 1.2})), ArgumentError) << "concave";
+  EXPECT_THROW(Moduli(hyperbolic, polygon({0.5, 0.5, 0.5})), ArgumentError) << "spherical";
+  EXPECT_NO_THROW(Moduli(sphere, polygon({0.5, 0.5, 0.5})));
+  EXPECT_NO_THROW(Moduli(hyperbolic, polygon({0.3, 0.2, 0.2, 1.2})));
 }
 
 }  // namespace

@@ -287,6 +287,23 @@ TEST(Limbs, OfFreeTilesAreCertifiedWithMoreDigits) {
   }
 }
 
+// On the way to a tip with a cone of more than pi, what reverses orientations comes to prevail over what
+// keeps them.
+TEST(Limbs, WithGreatConesAtTheirTipsAreUnrolled) {
+  const Mesh mesh = with_limb(test::icosphere(2), 6, 16);
+  const auto cones = [](const std::vector<double>& angles) {
+    std::vector<Mark> marks;
+    for (const double angle : angles) marks.push_back({angle * M_PI, ConeKind::rotation});
+    return cone_target(Topology::sphere, marks);
+  };
+  for (const Target& target :
+       {cones({1.6, 0.8, 0.8, 0.8}), cones({1.6, 1.5, 1.4, 1.5}), cones({1.6, 0.5, 0.5, 0.5})}) {
+    const EmbedResult result = embed(mesh, target, {6, 1, 3, 2});
+    EXPECT_TRUE(result.certificate.bijective) << target.space.name() << failed_checks(result.certificate);
+    EXPECT_FALSE(result.moved_vertices.empty()) << target.space.name();
+  }
+}
+
 // Pairs of the seam in the limb, and the lengths of its edges there, the smallest first.
 struct SeamInLimb {
   std::vector<std::pair<int, int>> pairs;

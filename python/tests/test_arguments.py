@@ -94,7 +94,7 @@ def test_bad_meshes_are_refused_in_a_sentence(case, figure):
 
 
 @pytest.mark.parametrize("arguments, options, kind, pattern", [
-    (("*7,3,2", "auto"), {}, orbitutte.ArgumentError, "hyperbolic"),
+    (("2,3x", "auto"), {}, orbitutte.ArgumentError, "hyperbolic"),
     (("*432", "auto"), {}, orbitutte.MeshError, "disk"),
     ((432, "auto"), {}, TypeError, "signature"),
     (("432", [1, 2]), {}, orbitutte.MeshError, "needs 3"),

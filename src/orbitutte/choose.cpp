@@ -280,9 +280,8 @@ std::vector<Choice> choices_to_try(const Surface& surface, const std::vector<Con
       result.push_back({aim, cones, {}, {}, false, {}});
     };
     if (target.marks.size() > 1) {
-      const bool lie_inside = target.topology == Topology::sphere;
-      const Candidates places = {lie_inside ? extremities : std::vector<int>(),
-                                 lie_inside ? std::vector<int>() : extremities};
+      const auto outer = extremities.begin() + target.inner_marks;
+      const Candidates places = {{extremities.begin(), outer}, {outer, extremities.end()}};
       if (const auto cones = first_cones(target, options.cones, places)) add(target, *cones);
       continue;
     }

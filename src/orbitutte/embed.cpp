@@ -66,7 +66,8 @@ using Remedy = std::function<std::optional<SpreadMap>(const GluingProblem&, cons
 // A map that was placed, and what is tried, in this order, if it is no bijection in doubles.
 struct PlacedMap {
   const Placement& placed;
-  std::vector<Remedy> remedies = {with_faces_repaired, with_limbs_resolved, with_more_digits};
+  std::vector<Remedy> remedies = {with_faces_repaired, with_tips_unrolled, with_limbs_resolved,
+                                  with_more_digits};
 };
 
 // Takes what the remedy finds if it is a bijection.

@@ -8,8 +8,7 @@
 
 #include "orbitutte/inspect/coincidence.h"
 #include "orbitutte/inspect/weak_places.h"
-#include "orbitutte/orbifold/cone_target.h"
-#include "orbitutte/orbifold/moduli.h"
+#include "orbitutte/orbifold/free_tile.h"
 #include "orbitutte/parallel.h"
 #include "orbitutte/warnings.h"
 #include "orbitutte/weights/cone_weights.h"
@@ -51,17 +50,9 @@ void require_no_edge(const Connectivity& connectivity, const Pairs& opposite, co
   }
 }
 
-// Of the curved tiles whose shape is free, those of spheres alone are found, with angles that have any.
+// Curved tiles whose shape is free are found for angles that have any.
 void require_tile(const Target& target) {
-  if (!target.has_free_tile || target.space == Space::plane()) return;
-  if (target.topology != Topology::sphere)
-    throw ArgumentError(
-        fmt::format("{}, and maps of disks to {} surfaces with corners of any angles are not "
-                    "supported",
-                    off_the_plane(target), target.space.name()));
-  std::vector<double> angles;
-  for (const Mark& mark : target.marks) angles.push_back(mark.angle);
-  Moduli(target.space, angles);  // throws if there are none
+  if (target.has_free_tile && target.space != Space::plane()) require_shapes(target);
 }
 
 // The boundary of a disk, edge by edge.

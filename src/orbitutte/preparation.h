@@ -71,8 +71,7 @@ PreparedSurface prepare(const Surface& surface, const EmbedOptions& options);
 
 /// Throws MeshError if the surface does not have the topology that the target needs, if the number of marked
 /// vertices is not the number of the target's marks, or if an edge joins two vertices that must lie at
-/// opposite points. Throws ArgumentError if no surface has the angles of a free tile, and for curved disks
-/// with free tiles.
+/// opposite points. Throws ArgumentError if no surface has the angles of a free tile.
 void require_fit(const EmbedRequest& request);
 
 /// Throws MeshError unless the surface has the topology that the target needs. The message about a hole

@@ -18,11 +18,12 @@ struct FitOptions {
   std::optional<double> area = 0;
 
   /// Shares of the angle that a vertex has where it is no cone (2 pi inside, pi on the boundary). If the
-  /// greatest is not given, it is 2 for flat targets and 0.99 for others, whose angles stay below 2 pi.
+  /// greatest is not given, it is 1.95 for flat targets, since gluings do not tell a cone of 4 pi from an
+  /// ordinary point, and 0.99 for others, whose angles stay below 2 pi.
   double least_angle = 0.05;
   std::optional<double> greatest_angle = {};
 
-  double greatest() const { return greatest_angle.value_or(area && *area == 0 ? 2 : 0.99); }
+  double greatest() const { return greatest_angle.value_or(area && *area == 0 ? 1.95 : 0.99); }
 };
 
 /// The angles of cones, in their order, and what they are expected to cost.

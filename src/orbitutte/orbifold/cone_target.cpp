@@ -82,6 +82,11 @@ double free_tile_area(const Target& target) {
   return target.space.curvature() * total_curvature(target.topology, target.marks);
 }
 
+int turns_in_excess(const Mark& mark) {
+  constexpr double slack = 1e-9;
+  return static_cast<int>(std::ceil(mark.angle / flat_angle(mark) - slack)) - 1;
+}
+
 std::string off_the_plane(const Target& target) {
   const double curvature = total_curvature(target.topology, target.marks);
   double sum = 0;

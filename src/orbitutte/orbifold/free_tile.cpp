@@ -5,7 +5,10 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <map>
 #include <numbers>
+#include <utility>
 
 #include "orbitutte/geometry/precise_isometry.h"
 #include "orbitutte/orbifold/seam_group.h"
@@ -37,6 +40,16 @@ std::vector<MetCone> met_cones(const Target& target, const CutMesh& cut, const P
         met.push_back({place, rotation_about(target.space, positions.row(v), target.marks[k])});
   }
   return met;
+}
+
+// The corners of a disk, or where its boundary begins, in the same order.
+std::vector<int> places_of_corners(const Target& target, const CutMesh& cut) {
+  std::vector<int> places;
+  for (int place = 0; place < static_cast<int>(cut.boundary.size()); ++place)
+    if (std::find(cut.marks.begin() + target.inner_marks, cut.marks.end(), cut.boundary[place]) !=
+        cut.marks.end())
+      places.push_back(place);
+  return places;
 }
 
 // The product of the rotations about the cones that are met after `after`, up to `last`.
@@ -90,7 +103,11 @@ struct MirrorLine {
 class TileWalk {
  public:
   TileWalk(const Target& target, const CutMesh& cut, const Points& positions)
-      : target_(target), cut_(cut), positions_(positions), met_(met_cones(target, cut, positions)) {
+      : target_(target),
+        cut_(cut),
+        positions_(positions),
+        met_(met_cones(target, cut, positions)),
+        corner_places_(places_of_corners(target, cut)) {
     for (int s = 0; s < static_cast<int>(cut.sides.size()); ++s) add_side(s);
     measure_chords();
   }
@@ -126,10 +143,12 @@ class TileWalk {
     side.mark = mark_at(target_, cut_, vertex);
     side.slides = !has_chosen_position(cut_, vertex);
     side.partner = partner;
-    if (partner == s) {
+    if (partner == s && side.space == Space::plane()) {
       advance_mirror(s);
       side.direction = mirror_.direction();
       side.transform = side.space.reflection(Space::line(mirror_.point, mirror_.point + side.direction));
+    } else if (partner == s) {
+      side.transform = mirror_through_corners(cut_.sides[s].begin);
     } else {
       side.direction = Vector3::UnitX();
       side.transform = partner > s ? gluing(s, partner) : tile_.sides[partner].transform.inverse();
@@ -137,14 +156,33 @@ class TileWalk {
     tile_.sides.push_back(std::move(side));
   }
 
-  // The product of the rotations in between, which large coordinates take off the isometries by rounding.
+  // The product of the rotations in between. It has more digits than doubles, and is rounded once: to correct
+  // it in doubles would lose the third power of its entries.
   Isometry gluing(int s, int partner) const {
-    return target_.space.nearest_isometry(
-        product_between(met_, cut_.sides[s].begin, cut_.sides[partner].begin));
+    return target_.space.isometry(product_between(met_, cut_.sides[s].begin, cut_.sides[partner].begin));
   }
 
-  // From the mirror before to that of side s: around the corner between them, and behind the cuts that end
-  // there.
+  // The reflection in the mirror at a place of the boundary: in the line from the corner before to the next
+  // one, which is seen from there through the cones that are met in between, as the place itself is.
+  Isometry mirror_through_corners(int place) const {
+    const auto after = std::upper_bound(corner_places_.begin(), corner_places_.end(), place);
+    const int from = *std::prev(after);
+    const bool is_last = after == corner_places_.end();
+    const int to = is_last ? corner_places_.front() : *after;
+    const auto seen = [&](int at, int until) -> Vector3Of<Precise> {
+      const Vector3 p = positions_.row(cut_.boundary[at]);
+      return precise_product(met_, from, until) * precise_retract<Precise>(target_.space, p.cast<Precise>());
+    };
+    const Vector3Of<Precise> line =
+        seen(from, from).cross(seen(to, is_last ? static_cast<int>(cut_.boundary.size()) : to));
+    const Matrix3Of<Precise> behind = precise_product(met_, from, place);
+    const Matrix3Of<Precise> reflection =
+        precise_inverse(target_.space, behind) * precise_reflection(target_.space, line) * behind;
+    return target_.space.isometry(reflection.cast<double>());
+  }
+
+  // In the plane, from the mirror before to that of side s: around the corner between them, and behind the
+  // cuts that end there.
   void advance_mirror(int s) {
     const int first = after_mirror_;  // whose corner the boundary has not met before
     const Vector3 p = corner(first);
@@ -160,13 +198,13 @@ class TileWalk {
   }
 
   // Lengths of all sides, and their directions: those of their chords. Sides that are glued to others are no
-  // geodesics; mirrors are, and a shape may be turned by half a turn from how the walk has it.
+  // geodesics; mirrors are, and a shape in the plane may be turned by half a turn from how the walk has it.
   void measure_chords() {
     for (int s = 0; s < static_cast<int>(tile_.sides.size()); ++s) {
       TileSide& side = tile_.sides[s];
       const Vector3 end = tile_.sides[(s + 1) % tile_.sides.size()].start;
       side.length = side.space.distance(side.start, end);
-      if (side.partner == s) {
+      if (side.partner == s && side.space == Space::plane()) {
         if (side.space.dot(side.direction, end - side.start) < 0) side.direction = -side.direction;
         continue;
       }
@@ -180,7 +218,10 @@ class TileWalk {
   const CutMesh& cut_;
   const Points& positions_;
   std::vector<MetCone> met_;
+  std::vector<int> corner_places_;
   Tile tile_;
+
+  // In the plane.
   MirrorLine mirror_;
   int after_mirror_ = 0;  // the side after the last mirror
   std::vector<double> defects_;
@@ -248,11 +289,33 @@ Tile tile_through(const Target& target, const CutMesh& cut, const Points& positi
   return TileWalk(target, cut, positions).tile();
 }
 
+Points spread_on_free_tile(const Target& target, const CutMesh& cut, const Points& positions) {
+  const std::vector<MetCone> met = met_cones(target, cut, positions);
+  const auto count_met = [&](int place) {
+    return std::count_if(met.begin(), met.end(), [&](const MetCone& cone) { return cone.place <= place; });
+  };
+  std::map<std::pair<std::ptrdiff_t, std::ptrdiff_t>, Matrix3Of<Precise>> elements;  // by how many were met
+  std::vector<int> place(cut.source_vertex.size(), 0);
+  Points result(cut.vertex_count(), 3);
+  result.topRows(positions.rows()) = positions;
+  for (int b = 0; b < static_cast<int>(cut.boundary.size()); ++b) {
+    const int v = cut.boundary[b], source = cut.source_vertex[v];
+    place[v] = b;
+    if (v == source) continue;
+    const auto [at, is_new] = elements.try_emplace({count_met(place[source]), count_met(b)});
+    if (is_new) at->second = precise_inverse(target.space, precise_product(met, place[source], b));
+    const Vector3Of<Precise> there = positions.row(source).transpose().cast<Precise>();
+    result.row(v) = Vector3Of<Precise>(at->second * there).cast<double>();
+  }
+  return result;
+}
+
 std::vector<double> closing_defects(const Target& target, const CutMesh& cut, const Points& positions) {
   return TileWalk(target, cut, positions).closing_defects();
 }
 
 Vector3 closing_position(const Target& target, const CutMesh& cut, const Points& positions) {
+  if (target.topology != Topology::sphere) return positions.row(cut.marks.front());
   const std::vector<MetCone> met = met_cones(target, cut, positions);
   const Matrix3Of<Precise> others =
       precise_product(met, met.front().place, static_cast<int>(cut.boundary.size()));
@@ -291,9 +354,18 @@ std::vector<int> cones_as_met(const CutMesh& cut) {
 }
 
 Moduli moduli_of(const Target& target, const CutMesh& cut) {
-  std::vector<double> angles;
-  for (const int mark : cut.arrangement) angles.push_back(target.marks[mark].angle);
-  return {target.space, std::move(angles)};
+  std::vector<Mark> marks;
+  for (const int mark : cut.arrangement)
+    marks.push_back(mark < static_cast<int>(target.marks.size()) ? target.marks[mark]
+                                                                 : Mark{pi, ConeKind::corner});
+  return {target.space, std::move(marks)};
+}
+
+void require_shapes(const Target& target) {
+  std::vector<Mark> marks(target.marks.begin() + target.inner_marks, target.marks.end());
+  if (marks.empty() && target.topology == Topology::disk) marks.push_back({pi, ConeKind::corner});
+  marks.insert(marks.end(), target.marks.begin(), target.marks.begin() + target.inner_marks);
+  Moduli(target.space, std::move(marks));
 }
 
 Vector3 point_towards_x(const Target& target, const CutMesh& cut, const Points& positions) {
@@ -309,7 +381,7 @@ Tile any_tile(const Target& target, const CutMesh& cut) {
   if (target.space == Space::plane())
     return tile_through(target, cut, positions_of_marks(cut, tile_shapes(target, cut).basis.col(0)));
   Points positions = all_at_origin(cut);
-  const Points polygon = moduli_of(target, cut).doubled_polygon();
+  const Points polygon = moduli_of(target, cut).inscribed_polygon();
   const std::vector<int> cones = cones_as_met(cut);
   for (std::size_t k = 0; k < cones.size(); ++k)
     positions.row(cones[k]) = polygon.row(static_cast<Eigen::Index>(k));

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-// W. M. Goldman, "The symplectic nature of fundamental groups of surfaces", Advances in Mathematics 54
-// (1984): how products of isometries change with their factors.
 #include "orbitutte/orbifold/moduli.h"
 
 #include <fmt/format.h>
@@ -13,6 +11,9 @@
 #include <limits>
 #include <numbers>
 
+#include "orbitutte/orbifold/cone_target.h"
+#include "orbitutte/orbifold/inscribed_polygon.h"
+
 namespace orbitutte {
 namespace {
 
@@ -20,24 +21,6 @@ using std::numbers::pi;
 
 // Curved surfaces of less area are flat up to rounding.
 constexpr double least_area = 1e-9;
-
-// The inverse of infinitesimal_isometry, of the part of a matrix that is one: w.
-Vector3 infinitesimal_part(Space space, const Matrix3& M) {
-  const int k = space.curvature();
-  const double halves = 1 + k * k;  // entries that show x and y: two if the space is curved
-  return {(k * M(2, 1) - M(1, 2)) / halves, (M(0, 2) - k * M(2, 0)) / halves, (M(1, 0) - M(0, 1)) / 2};
-}
-
-// The infinitesimal isometry that moves p by the tangent vector v and does not turn about p: n x J v, with n
-// = (k x, k y, z) and J = diag(1, 1, k).
-Vector3 moving(Space space, const Vector3& p, const Vector3& v) {
-  const int k = space.curvature();
-  const Vector3 n(k * p.x(), k * p.y(), p.z()), raised(v.x(), v.y(), k * v.z());
-  return n.cross(raised);
-}
-
-// The first entries of an infinitesimal isometry, which say all of it: in the plane it is a translation.
-int closing_rows(Space space) { return space.curvature() == 0 ? 2 : 3; }
 
 Isometry product_of(const std::vector<Isometry>& rotations) {
   Isometry result;
@@ -55,176 +38,142 @@ double largest_partial_product(const std::vector<Isometry>& rotations) {
   return largest;
 }
 
-void require_surfaces(Space space, const std::vector<double>& angles) {
-  if (angles.size() < 3)
-    throw ArgumentError(fmt::format("a cone surface needs three cones or more, not {}", angles.size()));
-  for (const double angle : angles)
-    if (!(angle > 0) || !(angle < 2 * pi))
-      throw ArgumentError(fmt::format(
-          "the cone angle {:.6g} pi is not supported; it must lie between 0 and 2 pi", angle / pi));
-  if (space.curvature() == 0) return;
-  const double area = cone_area(space, angles);
-  if (!(area >= least_area))
-    throw ArgumentError(
-        fmt::format("no {} surface has these cone angles: its area would be {:.6g}", space.name(), area));
-  const double least = *std::min_element(angles.begin(), angles.end());
-  if (space.curvature() > 0 && !(area < 2 * least))
-    throw ArgumentError(fmt::format(
-        "no spherical surface has these cone angles: its area would be {:.6g} pi, and has to be less than "
-        "{:.6g} pi, twice the least angle (Troyanov's bound); make the least angle larger or others smaller",
-        area / pi, 2 * least / pi));
+// The angles of the sphere that the surface, or two copies of it, glued along their boundaries, make. A
+// corner of pi is no mark there.
+std::vector<double> angles_on_sphere(const MarkOrder& order) {
+  std::vector<double> angles;
+  for (const Mark& mark : order.marks()) {
+    if (mark.kind != ConeKind::corner) {
+      angles.push_back(mark.angle);
+      if (order.is_disk()) angles.push_back(mark.angle);
+    } else if (mark.angle != pi) {
+      angles.push_back(2 * mark.angle);
+    }
+  }
+  return angles;
 }
 
-// The polygon with an inscribed circle of radius r. From its centre, the angle between corner i and where the
-// circle touches a side there is phi_i, with sin phi_i = cos beta_i/cs(r) and beta_i a quarter of the mark's
-// angle; the sum of all phi_i is pi. All follow from phi of the least mark, which alone may be obtuse:
-// sin phi_i = sin phi cos beta_i/cos beta. `excess` is phi + beta - pi/2: positive on the sphere, negative in
-// the hyperbolic plane.
-class InscribedPolygon {
- public:
-  InscribedPolygon(Space space, const std::vector<double>& angles) : space_(space) {
-    for (const double angle : angles) beta_.push_back(angle / 4);
-    least_ = static_cast<int>(std::min_element(beta_.begin(), beta_.end()) - beta_.begin());
-    find_excess();
+void require_angles(Space space, const std::vector<Mark>& marks) {
+  for (const Mark& mark : marks) {
+    const bool is_corner = mark.kind == ConeKind::corner;
+    const double largest = (is_corner ? 1 : 2) * (space.is_closed() ? 1 : 2) * pi;
+    if (!(mark.angle > 0) || !(mark.angle < largest || (is_corner && mark.angle == pi)))
+      throw ArgumentError(
+          fmt::format("the angle {:.6g} pi of a {} is not supported in the {} space; it must "
+                      "lie between 0 and {:.6g} pi",
+                      mark.angle / pi, is_corner ? "corner" : "cone", space.name(), largest / pi));
   }
+}
 
-  // Counterclockwise.
-  Points corners() const {
-    const std::vector<double> phi = central_angles(excess_);
-    Points result(static_cast<Eigen::Index>(beta_.size()), 3);
-    double direction = 0;
-    for (std::size_t i = 0; i < beta_.size(); ++i) {
-      if (i > 0) direction += phi[i - 1] + phi[i];
-      // sn(D) = sn(r)/sin(beta), cs(D) = cot(phi) cot(beta)
-      const double sn = inscribed_sn() / std::sin(beta_[i]), cs = 1 / (std::tan(phi[i]) * std::tan(beta_[i]));
-      const Vector3 corner(sn * std::cos(direction), sn * std::sin(direction), cs);
-      result.row(static_cast<Eigen::Index>(i)) =
-          space_.curvature() < 0 ? space_.lift(corner.x(), corner.y()) : space_.retract(corner);
-    }
-    return result;
-  }
+void require_surfaces(Space space, const MarkOrder& order, double area) {
+  const bool is_disk = order.is_disk();
+  const std::vector<double> angles = angles_on_sphere(order);
+  if (angles.size() < 3)
+    throw ArgumentError(
+        is_disk
+            ? fmt::format("a curved disk needs three corners or more, a cone counting as two of them, not {}",
+                          angles.size())
+            : fmt::format("a cone surface needs three cones or more, not {}", angles.size()));
+  require_angles(space, order.marks());
+  if (space.curvature() == 0) return;
+  if (!(area >= least_area))
+    throw ArgumentError(
+        fmt::format("no {} surface has these angles: its area would be {:.6g}", space.name(), area));
+  const int sheets = is_disk ? 2 : 1;
+  const double least = *std::min_element(angles.begin(), angles.end()) / sheets;
+  if (space.curvature() > 0 && !(area < 2 * least))
+    throw ArgumentError(fmt::format(
+        "no spherical surface has these angles: its area would be {:.6g} pi, and has to be less than {:.6g} "
+        "pi, twice the least angle{} (Troyanov's bound); make the least angle larger or others smaller",
+        area / pi, 2 * least / pi, is_disk ? ", cones counting by half" : ""));
+}
 
- private:
-  double least_phi(double excess) const { return pi / 2 - beta_[least_] + excess; }
-
-  std::vector<double> central_angles(double excess) const {
-    const double scale = std::sin(least_phi(excess)) / std::cos(beta_[least_]);
-    std::vector<double> phi;
-    for (const double beta : beta_) phi.push_back(std::asin(std::min(scale * std::cos(beta), 1.0)));
-    phi[least_] = least_phi(excess);
-    return phi;
-  }
-
-  // At the excess 0 the angles add up to pi less k area/4. At the other end they fall to 0 in the hyperbolic
-  // plane; on the sphere they exceed pi within Troyanov's bound.
-  void find_excess() {
-    const int k = space_.curvature();
-    if (k == 0) return;
-    double low = k > 0 ? 0 : beta_[least_] - pi / 2, high = k > 0 ? 2 * beta_[least_] : 0;
-    for (double middle = (low + high) / 2; low < middle && middle < high; middle = (low + high) / 2) {
-      double sum = 0;
-      for (const double phi : central_angles(middle)) sum += phi;
-      (sum < pi ? low : high) = middle;
-    }
-    excess_ = high;
-  }
-
-  // sn(r)^2 = k (1 - cs(r)^2) = k sin(excess) cos(phi - beta)/sin(phi)^2; in the plane the size is free.
-  double inscribed_sn() const {
-    if (space_.curvature() == 0) return 1;
-    const double phi = least_phi(excess_);
-    return std::sqrt(std::max(space_.curvature() * std::sin(excess_) * std::cos(phi - beta_[least_]), 0.0)) /
-           std::sin(phi);
-  }
-
-  Space space_;
-  std::vector<double> beta_;
-  int least_ = 0;
-  double excess_ = 0;
-};
+// The marks of a sphere with these angles.
+std::vector<Mark> cones_of_angles(const std::vector<double>& angles) {
+  std::vector<Mark> marks;
+  for (const double angle : angles) marks.push_back({angle, ConeKind::rotation});
+  return marks;
+}
 
 }  // namespace
 
-Matrix3 infinitesimal_isometry(Space space, const Vector3& w) {
-  const int k = space.curvature();
-  Matrix3 result;
-  result << 0, -w.z(), w.y(), w.z(), 0, -w.x(), -k * w.y(), k * w.x(), 0;
+Moduli::Moduli(Space space, const std::vector<double>& angles) : Moduli(space, cones_of_angles(angles)) {}
+
+Moduli::Moduli(Space space, std::vector<Mark> marks) : space_(space), order_(std::move(marks)) {
+  if (mark_count() == 0) throw ArgumentError("a cone surface needs three cones or more, not 0");
+  require_surfaces(space_, order_, area());
+}
+
+int Moduli::dimension() const {
+  const int conditions = order_.is_disk() ? static_cast<int>(order_.corners().size()) : 3;
+  return 2 * mark_count() - 3 - conditions;
+}
+
+double Moduli::area() const {
+  const Topology topology = order_.is_disk() ? Topology::disk : Topology::sphere;
+  return space_.curvature() * total_curvature(topology, marks());
+}
+
+std::vector<Isometry> Moduli::rotations(const Points& at) const {
+  std::vector<Isometry> result(mark_count());
+  for (int i = 0; i < mark_count(); ++i)
+    if (!order_.is_corner(i)) result[i] = space_.rotation(at.row(i), marks()[i].angle);
   return result;
 }
 
-double cone_area(Space space, const std::vector<double>& angles) {
-  double curvature = 4 * pi;
-  for (const double angle : angles) curvature -= 2 * pi - angle;
-  return space.curvature() * curvature;
+std::pair<Vector3, Vector3> Moduli::corners_beside(int corner, const std::vector<Isometry>& rotations,
+                                                   const Points& marks) const {
+  const int next = order_.corner_after(corner), last = order_.corner_before(corner);
+  return {order_.product_up_to_corner(corner, rotations, Isometry()) * Vector3(marks.row(next)),
+          order_.product_up_to_corner(last, rotations, Isometry()).inverse() * Vector3(marks.row(last))};
 }
 
-Moduli::Moduli(Space space, std::vector<double> angles) : space_(space), angles_(std::move(angles)) {
-  require_surfaces(space_, angles_);
-}
-
-double Moduli::area() const { return cone_area(space_, angles_); }
-
-Eigen::Matrix<double, 3, 2> Moduli::frame(const Vector3& p) const {
-  return space_.to_origin(p).inverse_matrix().leftCols<2>();
-}
-
-std::vector<Isometry> Moduli::rotations(const Points& marks) const {
-  std::vector<Isometry> result;
-  result.reserve(mark_count());
-  for (int i = 0; i < mark_count(); ++i) result.push_back(space_.rotation(marks.row(i), angles_[i]));
+std::vector<Isometry> Moduli::generators(const Points& marks) const {
+  const std::vector<Isometry> about = rotations(marks);
+  std::vector<Isometry> result = about;
+  for (const int corner : order_.corners())
+    result[corner] =
+        space_.reflection(Space::line(marks.row(corner), corners_beside(corner, about, marks).first));
   return result;
 }
 
-// If w moves p, R moves with it: dR R^-1 = w - R w.
-std::vector<VaryingIsometry> Moduli::varying_rotations(const Points& marks) const {
-  std::vector<VaryingIsometry> result;
-  for (int i = 0; i < mark_count(); ++i) {
-    const Vector3 p = marks.row(i);
-    const Isometry rotation = space_.rotation(p, angles_[i]);
-    const Eigen::Matrix<double, 3, 2> directions = frame(p);
-    Eigen::Matrix3Xd rate = Eigen::Matrix3Xd::Zero(3, 2 * mark_count());
-    for (int a = 0; a < 2; ++a) {
-      const Vector3 w = moving(space_, p, directions.col(a));
-      rate.col(2 * i + a) = w - rotation * w;
-    }
-    result.push_back({rotation, rate});
+VaryingMarks Moduli::varying(const Points& marks) const {
+  return varying(marks, Eigen::MatrixXd::Identity(2 * mark_count(), 2 * mark_count()), Order::first);
+}
+
+Eigen::VectorXd Moduli::closing(const Points& at) const {
+  const std::vector<Isometry> about = rotations(at);
+  if (!order_.is_disk())
+    return infinitesimal_part(space_, product_of(about).matrix()).head(closing_rows(space_));
+  std::vector<double> off;
+  for (const int corner : order_.corners()) {
+    const auto [next, last] = corners_beside(corner, about, at);
+    off.push_back(std::remainder(space_.angle(at.row(corner), next, last) - marks()[corner].angle, pi));
   }
-  return result;
+  return Eigen::Map<const Eigen::VectorXd>(off.data(), static_cast<Eigen::Index>(off.size()));
 }
 
-Eigen::VectorXd Moduli::closing(const Points& marks) const {
-  return infinitesimal_part(space_, product_of(rotations(marks)).matrix()).head(closing_rows(space_));
-}
-
-Eigen::MatrixXd Moduli::closing_jacobian(const Points& marks) const {
-  VaryingIsometry whole = {Isometry(), Eigen::Matrix3Xd::Zero(3, 2 * mark_count())};
-  for (const VaryingIsometry& rotation : varying_rotations(marks)) whole = whole * rotation;
-  Eigen::MatrixXd result(closing_rows(space_), 2 * mark_count());
-  for (Eigen::Index q = 0; q < result.cols(); ++q) {
-    const Matrix3 change = infinitesimal_isometry(space_, whole.rate.col(q)) * whole.value.matrix();
-    result.col(q) = infinitesimal_part(space_, change).head(closing_rows(space_));
-  }
-  return result;
-}
+Eigen::MatrixXd Moduli::closing_jacobian(const Points& marks) const { return varying(marks).closing_rates(); }
 
 Points Moduli::tangents(const Points& marks, const Eigen::VectorXd& step) const {
   Points result(mark_count(), 3);
   for (int i = 0; i < mark_count(); ++i)
-    result.row(i) = (frame(marks.row(i)) * step.segment<2>(2 * i)).transpose();
+    result.row(i) = (tangent_frame(space_, marks.row(i)) * step.segment<2>(2 * i)).transpose();
   return result;
 }
 
 Eigen::VectorXd Moduli::coordinates(const Points& marks, const Points& tangents) const {
   Eigen::VectorXd result(2 * mark_count());
   for (int i = 0; i < mark_count(); ++i) {
-    const Eigen::Matrix<double, 3, 2> directions = frame(marks.row(i));
+    const Eigen::Matrix<double, 3, 2> directions = tangent_frame(space_, marks.row(i));
     for (int a = 0; a < 2; ++a)
       result[2 * i + a] = space_.dot(directions.col(a), tangents.row(i).transpose());
   }
   return result;
 }
 
-// The last right singular vectors of [closing_jacobian; isometries; scaling], whose rank is 6.
+// The last right singular vectors of [closing_jacobian; isometries; scaling], whose rank is what 2k exceeds
+// the dimension by.
 Eigen::MatrixXd Moduli::basis(const Points& marks) const {
   const Eigen::MatrixXd closing = closing_jacobian(marks);
   const bool has_similarities = space_.curvature() == 0;
@@ -261,11 +210,17 @@ std::optional<Points> Moduli::closed(const Points& marks) const {
     const Points direction = tangents(current, move);
     move_points(space_, Points(current), direction, 1, current);
   }
-  const std::vector<Isometry> at_best = rotations(best);
-  const double scale = std::pow(largest_partial_product(at_best), 2);
-  const bool closes = product_of(at_best).difference(Isometry()) < 1e-12 * scale;
-  if (!closes || !encloses_area(best)) return std::nullopt;
+  if (!closes(best) || !encloses_area(best)) return std::nullopt;
   return best;
+}
+
+// Up to rounding, which grows with the coordinates.
+bool Moduli::closes(const Points& marks) const {
+  const std::vector<Isometry> about = rotations(marks);
+  const double scale = std::pow(std::max(largest_partial_product(about), marks.cwiseAbs().maxCoeff()), 2);
+  const double off =
+      order_.is_disk() ? closing(marks).cwiseAbs().maxCoeff() : product_of(about).difference(Isometry());
+  return off < 1e-12 * scale;
 }
 
 std::optional<Points> Moduli::retract(const Points& marks, const Eigen::VectorXd& step) const {
@@ -280,27 +235,37 @@ std::optional<Points> Moduli::retract(const Points& marks, const Eigen::VectorXd
   return closed(moved);
 }
 
-// Of the polygon that a cut along the path p_1 .. p_k makes of the surface: p_1 .. p_k, and then, for j = k -
-// 1
-// .. 2, the later copies (R_(j+1) ... R_k)^-1 p_j. It is met counterclockwise.
+// Of the polygon that the surface becomes if every cone is joined by a cut of its own to the first mark, or
+// to the corner before it: at the cone its boundary turns back to what the cone's rotation makes of that.
 bool Moduli::encloses_area(const Points& marks) const {
   if (space_.curvature() == 0) return true;
-  std::vector<Vector3> corners;
-  corners.reserve(mark_count());
-  for (int i = 0; i < mark_count(); ++i) corners.emplace_back(marks.row(i));
-  const std::vector<Isometry> rotation = rotations(marks);
-  Isometry gluing;
-  for (int j = mark_count() - 2; j > 0; --j) {
-    gluing = rotation[j + 1] * gluing;
-    corners.push_back(gluing.inverse() * Vector3(marks.row(j)));
+  const std::vector<Isometry> about = rotations(marks);
+  std::vector<Vector3> corners = {marks.row(0)};
+  Vector3 root = corners.front();
+  for (int i = 1; i < mark_count(); ++i) {
+    corners.emplace_back(marks.row(i));
+    root = order_.is_corner(i) ? corners.back() : Vector3(about[i].inverse() * root);
+    if (!order_.is_corner(i)) corners.push_back(root);
   }
   double off = -area();
   for (std::size_t c = 1; c + 1 < corners.size(); ++c)
     off += space_.area(corners[0], corners[c], corners[c + 1]);
-  if (space_.is_closed()) off = std::remainder(off, 4 * pi);
+  // A mirror may be longer than the chord, which runs the other way around.
+  if (space_.is_closed()) off = std::remainder(off, order_.is_disk() ? 2 * pi : 4 * pi);
   return std::abs(off) < 1e-3;
 }
 
-Points Moduli::doubled_polygon() const { return InscribedPolygon(space_, angles_).corners(); }
+Points Moduli::inscribed_polygon() const {
+  std::vector<double> angles;
+  std::vector<Eigen::Index> places;
+  for (const auto& [angle, kind] : marks()) {
+    const bool is_slit = order_.is_disk() && kind != ConeKind::corner;
+    if (is_slit) angles.push_back(pi / 2);
+    places.push_back(static_cast<Eigen::Index>(angles.size()));
+    angles.push_back(order_.is_disk() ? angle : angle / 2);
+    if (is_slit) angles.push_back(pi / 2);
+  }
+  return orbitutte::inscribed_polygon(space_, angles)(places, Eigen::all);
+}
 
 }  // namespace orbitutte

@@ -1,74 +1,75 @@
 // SPDX-License-Identifier: MIT
 // The shapes that a cone surface with given angles may have: where its marks lie in the space that it is
-// developed in. With k marks they are 2k - 6 numbers.
+// developed in. A sphere with k marks has 2k - 6 numbers to choose.
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
-#include "orbitutte/geometry/space.h"
+#include "orbitutte/orbifold/varying_marks.h"
 
 namespace orbitutte {
 
-/// An isometry g that depends on parameters m_1 .. m_q. An infinitesimal isometry is a vector w of R^3, which
-/// stands for x -> J (w x x) with J = diag(1, 1, k): a rotation about w where that is a point of the space.
-/// Isometries g that keep orientations act on such vectors as on points: g exp(w) g^-1 = exp(g w).
-struct VaryingIsometry {
-  Isometry value;
-
-  /// 3 x q: dg/dm_j g^-1.
-  Eigen::Matrix3Xd rate;
-
-  VaryingIsometry operator*(const VaryingIsometry& first) const {
-    return {value * first.value, rate + value.matrix() * first.rate};
-  }
-
-  VaryingIsometry inverse() const { return {value.inverse(), -value.inverse_matrix() * rate}; }
-};
-
-/// The matrix of x -> J (w x x).
-Matrix3 infinitesimal_isometry(Space space, const Vector3& w);
-
-/// Cone surfaces of the sphere's topology with marks of given angles. The marks are numbered as the boundary
-/// of the cut surface meets them first, counterclockwise, and p_1 .. p_k (k x 3) are their images there. With
-/// the rotations R_i about p_i by the angle of mark i, the gluing of the boundary's sides are products R_a
-/// ... R_b of the rotations in between (free_tile.h), and the surface closes:
+/// Surfaces with marks of given angles: spheres with cones, and disks with corners on their boundary and
+/// cones inside. The marks are numbered as the boundary of the cut surface meets them first,
+/// counterclockwise, and p_1 .. p_k (k x 3) are their images there. The gluings of the boundary's sides are
+/// words in the generators g_1 .. g_k (free_tile.h, edge_words.h):
+/// - of a cone, the rotation R_i about p_i by its angle;
+/// - of a corner, the reflection in the mirror that begins there. The mirror leads to the next corner p_j,
+///   which is seen from here through the cones that are met in between, at R_(i + 1) ... R_(j - 1) p_j.
+///
+/// A sphere closes if the product of all rotations is the identity:
 ///     R_1 ... R_k = 1.
+/// A disk, which begins at a corner, closes if its mirrors meet in the angles of its corners. A disk without
+/// corners begins at any point of its boundary, a corner of pi.
 /// Marks move in the tangent planes at p_1 .. p_k, two coordinates each in an orthonormal frame: a step is a
 /// vector of 2k numbers.
 class Moduli {
  public:
-  /// Throws ArgumentError unless the space has such surfaces: three angles or more, each above 0 and below 2
-  /// pi; an area (cone_area) of at least 1e-9 if the space is curved; and, on the sphere, angles within M.
-  /// Troyanov's bound ("Prescribing curvature on compact surfaces with conical singularities", 1991): their
-  /// sum may exceed (2k - 4) pi by less than twice the least of them.
-  Moduli(Space space, std::vector<double> angles);
+  /// A sphere with cones of these angles. Throws ArgumentError unless the space has such surfaces: three
+  /// angles or more, each positive; an area (area()) of at least 1e-9 if the space is curved; and, on the
+  /// sphere, angles below 2 pi and within Troyanov's bound (M. Troyanov, "Prescribing curvature on compact
+  /// surfaces with conical singularities", 1991): their sum may exceed (2k - 4) pi by less than twice the
+  /// least of them.
+  Moduli(Space space, const std::vector<double>& angles);
+
+  /// A disk if the first mark is a corner, otherwise a sphere. Of a disk the same is asked as of the sphere
+  /// that is two copies of it, glued along their boundaries.
+  Moduli(Space space, std::vector<Mark> marks);
 
   Space space() const { return space_; }
-  int mark_count() const { return static_cast<int>(angles_.size()); }
-  const std::vector<double>& angles() const { return angles_; }
+  int mark_count() const { return order_.count(); }
+  const std::vector<Mark>& marks() const { return order_.marks(); }
 
-  /// 2k - 6.
-  int dimension() const { return 2 * mark_count() - 6; }
+  /// 2k - 6 for a sphere; for a disk with m corners 2k - m - 3.
+  int dimension() const;
 
   /// By Gauss and Bonnet; 0 in the plane, where it is free.
   double area() const;
 
-  /// R_1 .. R_k.
-  std::vector<Isometry> rotations(const Points& marks) const;
+  /// g_1 .. g_k.
+  std::vector<Isometry> generators(const Points& marks) const;
 
-  /// The same, depending on the steps of the marks: q = 2k.
-  std::vector<VaryingIsometry> varying_rotations(const Points& marks) const;
+  /// The marks, moved by steps along some directions (2k x q); positions as `marks` above.
+  VaryingMarks varying(const Points& marks, const Eigen::MatrixXd& directions, Order order) const {
+    return {space_, order_, marks, directions, order};
+  }
 
-  /// The product R_1 ... R_k at first order, as an infinitesimal isometry: zero if the surface closes, or if
-  /// the product is a half turn. In the plane two numbers, since the product is a translation.
+  /// The same, moved by any steps, to first order: q = 2k.
+  VaryingMarks varying(const Points& marks) const;
+
+  /// What is zero if the surface closes. Of a sphere, the product R_1 ... R_k at first order, as an
+  /// infinitesimal isometry, which is zero also if the product is a half turn: three numbers, in the plane
+  /// two, since there it is a translation. Of a disk, for each corner, the angle between its mirrors less
+  /// its own, modulo pi.
   Eigen::VectorXd closing(const Points& marks) const;
 
-  /// Its derivative by the steps of the marks: 3 x 2k, in the plane 2 x 2k.
+  /// Its derivative by the steps of the marks: a row for each number of closing, 2k columns.
   Eigen::MatrixXd closing_jacobian(const Points& marks) const;
 
-  /// Of marks that close: an orthonormal basis (2k x (2k - 6)) of the steps that keep the surface closed, and
-  /// that no isometry (in the plane: similarity) makes.
+  /// Of marks that close: an orthonormal basis (2k x dimension) of the steps that keep the surface closed,
+  /// and that no isometry (in the plane: similarity) makes.
   Eigen::MatrixXd basis(const Points& marks) const;
 
   /// The step as tangent vectors of R^3 at the marks: k x 3.
@@ -84,24 +85,28 @@ class Moduli {
   /// closed() of the marks moved by a step along geodesics.
   std::optional<Points> retract(const Points& marks, const Eigen::VectorXd& step) const;
 
-  /// Is the signed area of the surface what it has to be, on the sphere up to multiples of its own area? If
-  /// it is not, the rotations close, but belong to another kind of surface. Always in the plane.
+  /// Is the signed area of the surface what it has to be, on the sphere up to multiples of its own area, or
+  /// of half of it for disks? If it is not, the rotations close, but belong to another kind of surface.
+  /// Always in the plane.
   bool encloses_area(const Points& marks) const;
 
-  /// A polygon with an inscribed circle around (0, 0, 1), doubled: its corners are the marks,
-  /// counterclockwise, its angles half of theirs.
-  Points doubled_polygon() const;
+  /// Marks of a closed surface. A sphere is two copies of a polygon with an inscribed circle around (0, 0,
+  /// 1), whose corners are the marks, counterclockwise, its angles half of theirs. A disk is such a polygon
+  /// itself, with the corners of the disk among its own, and with every cone at a corner whose sides, at
+  /// right angles to those beyond, are glued to each other.
+  Points inscribed_polygon() const;
 
  private:
-  /// Orthonormal tangent vectors at p (3 x 2).
-  Eigen::Matrix<double, 3, 2> frame(const Vector3& p) const;
+  /// The identity in place of corners.
+  std::vector<Isometry> rotations(const Points& marks) const;
+
+  /// Both corners beside a corner, as they are seen from there: the next and the last.
+  std::pair<Vector3, Vector3> corners_beside(int corner, const std::vector<Isometry>& rotations,
+                                             const Points& marks) const;
+  bool closes(const Points& marks) const;
 
   Space space_;
-  std::vector<double> angles_;
+  MarkOrder order_;
 };
-
-/// k (4 pi - sum of (2 pi - angle)): by Gauss and Bonnet the area of a sphere of the space's curvature k with
-/// cones of these angles, negative if it has none, and zero in the plane.
-double cone_area(Space space, const std::vector<double>& angles);
 
 }  // namespace orbitutte

@@ -178,14 +178,13 @@ std::string commas(const ConwaySymbol& symbol) {
   return list(symbol.rotations) + (symbol.star ? "*" : "") + list(symbol.corners) + (symbol.cross ? "x" : "");
 }
 
-// Hyperbolic orbifolds of the sphere's topology: any other three orders or more.
-bool is_hyperbolic_sphere(const ConwaySymbol& symbol) {
-  return !symbol.star && !symbol.cross && symbol.rotations.size() >= 3 && !trivial_order(symbol) &&
-         euler_characteristic(symbol).numerator < 0;
+// The hyperbolic orbifolds of spheres and disks: all other orders that are large or many enough.
+bool is_hyperbolic(const ConwaySymbol& symbol) {
+  return !symbol.cross && !trivial_order(symbol) && euler_characteristic(symbol).numerator < 0;
 }
 
 bool has_target(const ConwaySymbol& symbol) {
-  return find_family(symbol) != nullptr || is_hyperbolic_sphere(symbol);
+  return find_family(symbol) != nullptr || is_hyperbolic(symbol);
 }
 
 // Why a reading cannot be embedded; empty if it can.
@@ -201,9 +200,7 @@ std::string objection(const ConwaySymbol& symbol) {
     return "is a Euclidean orbifold for which there is no tile; of those there are 333, 442, 632, 2222, "
            "*333, "
            "*442, *632 and *2222";
-  return "is a hyperbolic orbifold with mirrors or crosses; of hyperbolic ones there are those of spheres, "
-         "of "
-         "three orders or more";
+  return "is a hyperbolic orbifold with a cross; of hyperbolic ones there are those of spheres and disks";
 }
 
 // The reading by the rule of the notation: one character per order, unless a half is a single number that can
@@ -242,8 +239,7 @@ Space space_of(const Fraction& chi) {
 
 std::string ConwaySymbol::text() const {
   if (rotations.empty() && corners.empty() && !star && !cross) return "1";
-  if (is_hyperbolic_sphere(*this))
-    return fmt::format("{}", fmt::join(rotations, ","));  // 2,2,2,2,2 or 2,2,222
+  if (is_hyperbolic(*this)) return commas(*this);  // 2,2,2,2,2 or 2,2,222
   return join(rotations) + (star ? "*" : "") + join(corners) + (cross ? "x" : "");
 }
 
@@ -256,7 +252,7 @@ Target parse_orbifold(const std::string& signature) {
   target.symbol = symbol;
   target.space = space_of(chi);
   const Family* const family = find_family(symbol);
-  target.topology = family ? family->topology : Topology::sphere;
+  target.topology = family ? family->topology : symbol.star ? Topology::disk : Topology::sphere;
   target.marks = marks_of(symbol);
   target.inner_marks = static_cast<int>(symbol.rotations.size());
   target.group_order = chi.numerator > 0 ? static_cast<int>(2 * chi.denominator / chi.numerator) : 0;

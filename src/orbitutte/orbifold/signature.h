@@ -9,12 +9,12 @@
 
 namespace orbitutte {
 
-/// Reads a symbol, or `sphere` for 1 and `hemisphere` for *, and finds its family; three orders or more of no
-/// family, without star and cross, make a hyperbolic orbifold, whose tile is free. The sign of the orbifold's
-/// Euler characteristic decides the space. Orders may come in any arrangement. Throws ArgumentError if the
-/// text is not a symbol; if it could be read in two ways (both are named); if the orders make a hyperbolic
-/// orbifold with mirrors or crosses, or none at all (teardrops, spindles, order one); and for Euclidean
-/// orbifolds that have no tile here.
+/// Reads a symbol, or `sphere` for 1 and `hemisphere` for *, and finds its family; orders of no family that
+/// are large or many enough, without a cross, make a hyperbolic orbifold, whose tile is free. The sign of the
+/// orbifold's Euler characteristic decides the space. Orders may come in any arrangement. Throws
+/// ArgumentError if the text is not a symbol; if it could be read in two ways (both are named); if the orders
+/// make a hyperbolic orbifold with a cross, or none at all (teardrops, spindles, order one); and for
+/// Euclidean orbifolds that have no tile here.
 Target parse_orbifold(const std::string& signature);
 
 /// Do the marks lie at opposite points of the sphere? They do if there are two and both are alike.

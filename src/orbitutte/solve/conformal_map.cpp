@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <utility>
 
+#include "orbitutte/orbifold/cone_target.h"
 #include "orbitutte/orbifold/free_tile.h"
 #include "orbitutte/orbifold/polygon.h"
 #include "orbitutte/parallel.h"
@@ -17,7 +17,6 @@
 namespace orbitutte {
 namespace {
 
-using std::numbers::pi;
 using PlaneNumber = std::complex<double>;
 using HermitianForm = Eigen::MatrixXcd;
 
@@ -110,13 +109,6 @@ HermitianForm area_form(const CutMesh& cut, const std::vector<ShapeMap>& maps) {
   next << z.bottomRows(z.rows() - 1), z.topRows(1);
   const Eigen::MatrixXcd products = z.adjoint() * next;
   return (products - products.adjoint()) / PlaneNumber(0, 4);
-}
-
-// By how many whole turns the angle of a mark exceeds one of 2 pi, or of pi at a corner.
-int turns_in_excess(const Mark& mark) {
-  constexpr double slack = 1e-9;
-  const double turn = mark.kind == ConeKind::corner ? pi : 2 * pi;
-  return static_cast<int>(std::ceil(mark.angle / turn - slack)) - 1;
 }
 
 // How many eigenvalues approach that of conformal maps. On a disk, whose double has every cone twice, the

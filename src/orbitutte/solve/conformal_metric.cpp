@@ -74,6 +74,16 @@ Eigen::VectorXd area_shares(const Surface& surface) {
   return share / share.sum();
 }
 
+// What the angles around each vertex add up to where nothing is marked; zero if no triangle uses it.
+Eigen::VectorXd ordinary_angles(const Surface& surface) {
+  Eigen::VectorXd angles = Eigen::VectorXd::Zero(surface.vertex_count());
+  for (const int v : surface.triangles.reshaped()) angles[v] = 2 * pi;
+  const std::vector<char> on_boundary = surface.boundary_vertices();
+  for (Eigen::Index v = 0; v < angles.size(); ++v)
+    if (on_boundary[v]) angles[v] = pi;
+  return angles;
+}
+
 // One unknown for each vertex that a triangle uses.
 std::vector<int> scale_counts(const Surface& surface) {
   std::vector<int> count(surface.vertex_count(), 0);
@@ -88,6 +98,7 @@ class ConformalScale {
       : surface_(problem.surface),
         k_(problem.space.curvature()),
         wanted_(problem.angles),
+        ordinary_(ordinary_angles(problem.surface)),
         angles_(problem.angles),
         area_(k_ * (problem.angles.sum() - pi * problem.surface.triangle_count())),
         length_(surface_.triangle_count(), 3),
@@ -134,9 +145,8 @@ class ConformalScale {
 
   // What the angles are to be if all deficits are scaled so that the area is another one.
   Eigen::VectorXd angles_with_area(double area) const {
-    const double factor = (4 * pi - k_ * area) / (4 * pi - k_ * area_);
-    return wanted_.unaryExpr(
-        [&](double angle) { return angle > 0 ? 2 * pi - factor * (2 * pi - angle) : angle; });
+    const double deficits = (ordinary_ - wanted_).sum();
+    return ordinary_ - (deficits + k_ * (area_ - area)) / deficits * (ordinary_ - wanted_);
   }
 
   void descend(double tolerance, State& state) const {
@@ -275,6 +285,7 @@ class ConformalScale {
   const Surface& surface_;
   int k_;
   const Eigen::VectorXd& wanted_;
+  Eigen::VectorXd ordinary_;
 
   // Those that are searched for at present.
   Eigen::VectorXd angles_;

@@ -32,14 +32,14 @@ TriangleAngles triangle_angles(int k, const std::array<double, 3>& half_sn);
 
 /// What angles a surface is to have, and what its linear systems are made of.
 struct ConformalProblem {
-  /// Closed.
+  /// A sphere or a disk.
   const Surface& surface;
 
   /// The sphere or the hyperbolic plane.
   Space space;
 
-  /// n: what the angles around each vertex are to add up to: 2 pi, the angle of a cone, or 0 if no triangle
-  /// uses the vertex. By Gauss and Bonnet they decide the area, which must be positive.
+  /// n: what the angles around each vertex are to add up to: 2 pi, pi on the boundary, the angle of a mark,
+  /// or 0 if no triangle uses the vertex. By Gauss and Bonnet they decide the area, which must be positive.
   Eigen::VectorXd angles;
 
   /// Of the Laplacian that preconditions, and a dissection of the graph of its edges.

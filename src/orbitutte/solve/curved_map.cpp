@@ -3,9 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <numbers>
 
@@ -29,18 +30,24 @@ using std::numbers::pi;
 // The target with all deficits of angles scaled so that its area is another one.
 Target with_area(const Target& target, double area) {
   if (area == free_tile_area(target)) return target;
-  const double deficits = 4 * pi - total_curvature(Topology::sphere, target.marks),
-               wanted = 4 * pi - target.space.curvature() * area;
+  const double curvature = total_curvature(target.topology, target.marks);
+  const double deficits = total_curvature(target.topology, {}) - curvature,
+               wanted = deficits + curvature - target.space.curvature() * area;
   Target result = target;
-  for (Mark& mark : result.marks) mark.angle = 2 * pi - (2 * pi - mark.angle) * wanted / deficits;
+  for (Mark& mark : result.marks) {
+    const double ordinary = mark.kind == ConeKind::corner ? pi : 2 * pi;
+    mark.angle = ordinary - (ordinary - mark.angle) * wanted / deficits;
+  }
   return result;
 }
 
-// The areas of the targets on the way: the last is the target's own.
+// The areas of the targets on the way: the last is the target's own. Of a disk with cones a polygon with an
+// inscribed circle may be made only if it is almost flat.
 std::vector<double> areas_on_the_way(const Target& target) {
-  constexpr double first = 3, step = 2;
+  const bool is_disk = target.topology == Topology::disk;
+  const double small = is_disk ? 0.5 : 5, first = is_disk ? 0.5 : 3, step = is_disk ? 0.7 : 2;
   const double area = free_tile_area(target);
-  if (!target.space.is_closed() || area <= 5) return {area};
+  if (!target.space.is_closed() || area <= small) return {area};
   const int steps = static_cast<int>(std::ceil((area - first) / step));
   std::vector<double> areas;
   for (int k = 0; k <= steps; ++k) areas.push_back(first + (area - first) * k / steps);
@@ -52,12 +59,31 @@ double paired(const Points& covectors, const Points& vectors) {
   return covectors.cwiseProduct(vectors).sum();
 }
 
+// The edges of the energy as words, with their weights: those of the problem, and their mirror images.
+struct WeightedWords {
+  explicit WeightedWords(const GluingProblem& problem)
+      : edges(edge_words(problem.surface, problem.weights.triangulation.get(), problem.cut)) {
+    weights.w = edges.weights(problem.weights.w);
+  }
+
+  EdgeWords edges;
+  EdgeWeights weights;
+};
+
+// What the search over shapes is about.
+struct ShapeProblem {
+  const GluingProblem& problem;
+  const Target& target;
+  const WeightedWords& words;
+  const Dissection& dissection;
+};
+
 // Everything that belongs to one tile. The parts refer to each other.
 struct TileSystem {
-  TileSystem(const GluingProblem& problem, const Target& target, GluedEdges edges, const Points& x)
-      : boundary(glue(problem.cut, tile_through(target, problem.cut, x), target)),
+  TileSystem(const ShapeProblem& shapes, GluedEdges edges, const Points& x)
+      : boundary(glue(shapes.problem.cut, tile_through(shapes.target, shapes.problem.cut, x), shapes.target)),
         glued(std::move(edges)),
-        energy(glued, problem.weights, boundary) {}
+        energy(glued, shapes.words.weights, boundary) {}
   TileSystem(const TileSystem&) = delete;
   TileSystem& operator=(const TileSystem&) = delete;
 
@@ -76,7 +102,10 @@ struct HarmonicTile {
   double moved = 0;
   Minimum minimum;
 
-  // Of the shapes (Moduli::basis), and the derivative of the energy along it.
+  // Steps of the marks (2k, one a column) along which the shape is not looked for.
+  Eigen::MatrixXd held;
+
+  // Of the shapes (Moduli::basis), those that are held left out, and the derivative of the energy along it.
   Eigen::MatrixXd basis;
   Eigen::VectorXd slope;
 
@@ -105,13 +134,10 @@ struct ShapeStart {
 // The search over the shapes of one target.
 class ShapeSearch {
  public:
-  ShapeSearch(const GluingProblem& problem, const Target& target, const EdgeWords& edges,
-              const Dissection& dissection)
-      : problem_(problem),
-        target_(target),
-        dissection_(dissection),
-        moduli_(moduli_of(target, problem.cut)),
-        energy_(moduli_, edges, problem.weights, cones_as_met(problem.cut)) {}
+  explicit ShapeSearch(const ShapeProblem& shapes)
+      : shapes_(shapes),
+        moduli_(moduli_of(shapes.target, shapes.problem.cut)),
+        energy_(moduli_, shapes.words.edges, shapes.words.weights.w, cones_as_met(shapes.problem.cut)) {}
 
   const Moduli& moduli() const { return moduli_; }
 
@@ -126,12 +152,29 @@ class ShapeSearch {
   // The same from a tile whose shape is so far away: nearby its factor serves once more.
   HarmonicTile harmonic_beside(const HarmonicTile& from, double distance, const ShapeStart& start,
                                const LbfgsOptions& options) const {
-    if (!serves_again(from, distance)) return harmonic(start.cones, start.x, options);
     HarmonicTile tile = started(start.cones, start.x);
-    tile.hessian = std::make_shared<TangentSystem>(from.hessian->moved_to(tile.minimum.positions));
-    tile.moved = from.moved + distance;
+    tile.held = from.held;
+    if (serves_again(from, distance)) {
+      tile.hessian = std::make_shared<TangentSystem>(from.hessian->moved_to(tile.x()));
+      tile.moved = from.moved + distance;
+    } else {
+      tile.hessian = std::make_shared<TangentSystem>(tangent_problem(*tile.system), tile.x());
+    }
     relax(options, tile);
     return tile;
+  }
+
+  // With the directions held in which great cones leave the energy almost flat, the least eigenvectors of its
+  // second derivative: as many as there are turns in excess. Maps that run around such a cone fewer times
+  // than they should are as conformal everywhere else.
+  void hold_flat_directions(HarmonicTile& tile) const {
+    int flat = 0;
+    for (const Mark& mark : moduli_.marks())
+      flat += (mark.kind == ConeKind::corner ? 1 : 2) * turns_in_excess(mark);
+    if (flat == 0) return;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(model(tile).energy.hessian);
+    tile.held = tile.basis * eigen.eigenvectors().leftCols(std::min<Eigen::Index>(flat, tile.basis.cols()));
+    find_slope(tile);
   }
 
   // Is the energy there about as small as that of a conformal map?
@@ -142,22 +185,15 @@ class ShapeSearch {
     return energy < largest_conformality * 2 * moduli_.area();
   }
 
-  // By differences of first derivatives of the edges that feel the cones.
   ShapeModel model(const HarmonicTile& tile) const {
-    constexpr double h = 1e-5;
-    ShapeModel model = {{tile.slope, second_derivative(tile)}, {}};
-    std::vector<Points> mixed;  // its negative
-    for (int a = 0; a < moduli_.dimension(); ++a) {
-      const Eigen::VectorXd step = h * tile.basis.col(a);
-      mixed.push_back((energy_.gradient(tile.x(), nearby(tile.cones, step)) -
-                       energy_.gradient(tile.x(), nearby(tile.cones, -step))) /
-                      (-2 * h));
-    }
-    model.responses = tile.hessian->beside(tangent_problem(*tile.system), tile.x()).solve(mixed);
-    for (int a = 0; a < moduli_.dimension(); ++a)
-      for (int b = 0; b < moduli_.dimension(); ++b)
-        model.energy.hessian(a, b) -=
-            0.5 * (paired(mixed[a], model.responses[b]) + paired(mixed[b], model.responses[a]));
+    const ModuliEnergy::Curvature curvature = energy_.curvature(tile.x(), tile.cones, tile.basis);
+    ShapeModel model = {{tile.slope, curvature.energy + bending(tile)}, {}};
+    model.responses = tile.hessian->beside(tangent_problem(*tile.system), tile.x()).solve(curvature.gradient);
+    for (Points& response : model.responses) response *= -1;
+    for (Eigen::Index a = 0; a < tile.basis.cols(); ++a)
+      for (Eigen::Index b = 0; b < tile.basis.cols(); ++b)
+        model.energy.hessian(a, b) += 0.5 * (paired(curvature.gradient[a], model.responses[b]) +
+                                             paired(curvature.gradient[b], model.responses[a]));
     return model;
   }
 
@@ -167,8 +203,8 @@ class ShapeSearch {
 
  private:
   TangentProblem tangent_problem(const TileSystem& system) const {
-    return {system.glued, problem_.weights.w, system.boundary, dissection_,
-            problem_.laplacian.options.backend};
+    return {system.glued, shapes_.words.weights.w, system.boundary, shapes_.dissection,
+            shapes_.problem.laplacian.options.backend};
   }
 
   // Does a tile's factor precondition that of another one so far away? Where the map took many iterations, it
@@ -185,51 +221,36 @@ class ShapeSearch {
     HarmonicTile tile;
     tile.cones = cones;
     Points& x = tile.minimum.positions = energy_.with_cones(start, cones);
-    tile.system = std::make_unique<TileSystem>(problem_, target_, energy_.glued(cones), x);
+    tile.system = std::make_unique<TileSystem>(shapes_, energy_.glued(cones), x);
     tile.system->boundary.make_feasible(x);
     return tile;
   }
 
   void relax(const LbfgsOptions& options, HarmonicTile& tile) const {
     tile.minimum = minimize(tile.system->energy, *tile.hessian, tile.minimum.positions, options);
+    find_slope(tile);
+  }
+
+  void find_slope(HarmonicTile& tile) const {
     tile.basis = moduli_.basis(tile.cones);
+    if (tile.held.cols() > 0) {
+      const Eigen::HouseholderQR<Eigen::MatrixXd> factors(tile.basis.transpose() * tile.held);
+      const Eigen::MatrixXd Q = factors.householderQ();
+      tile.basis = tile.basis * Q.rightCols(tile.basis.cols() - tile.held.cols());
+    }
     tile.slope = tile.basis.transpose() * energy_.cone_gradient(tile.x(), tile.cones);
   }
 
-  Points nearby(const Points& cones, const Eigen::VectorXd& step) const {
-    if (const std::optional<Points> moved = moduli_.retract(cones, step)) return *moved;
-    throw MeshError(fmt::format(
-        "the tile of {} reaches so far out in the {} space that doubles do not hold it; take fewer cones, or "
-        "larger angles",
-        target_.signature, target_.space.name()));
+  // What the closing adds to the second derivative: tiles that close bend away from geodesic steps, across
+  // the steps that keep them closed, where the energy has a slope, a combination of those of the closing.
+  Eigen::MatrixXd bending(const HarmonicTile& tile) const {
+    const Eigen::VectorXd slope = energy_.cone_gradient(tile.x(), tile.cones);
+    const Eigen::MatrixXd across = moduli_.closing_jacobian(tile.cones).transpose();
+    const Eigen::VectorXd multipliers = -across.completeOrthogonalDecomposition().solve(slope);
+    return moduli_.varying(tile.cones, tile.basis, Order::second).closing_curvature(multipliers);
   }
 
-  // E_mm, by second differences.
-  Eigen::MatrixXd second_derivative(const HarmonicTile& tile) const {
-    constexpr double h = 2e-4;
-    const int count = moduli_.dimension();
-    const auto at = [&](const Eigen::VectorXd& step) {
-      return energy_.energy(tile.x(), nearby(tile.cones, tile.basis * step));
-    };
-    const auto unit = [&](int a) -> Eigen::VectorXd { return h * Eigen::VectorXd::Unit(count, a); };
-    const double here = energy_.energy(tile.x(), tile.cones);
-    std::vector<double> alone;  // the sum of both directions
-    alone.reserve(count);
-    for (int a = 0; a < count; ++a) alone.push_back(at(unit(a)) + at(-unit(a)));
-    Eigen::MatrixXd result(count, count);
-    for (int a = 0; a < count; ++a) {
-      result(a, a) = (alone[a] - 2 * here) / (h * h);
-      for (int b = 0; b < a; ++b) {
-        const Eigen::VectorXd both = unit(a) + unit(b);
-        result(a, b) = result(b, a) = (at(both) + at(-both) - alone[a] - alone[b] + 2 * here) / (2 * h * h);
-      }
-    }
-    return result;
-  }
-
-  const GluingProblem& problem_;
-  const Target& target_;
-  const Dissection& dissection_;
+  const ShapeProblem& shapes_;
   Moduli moduli_;
   ModuliEnergy energy_;
 };
@@ -242,6 +263,7 @@ class ShapeDescent {
 
   HarmonicTile run(const ShapeStart& start) {
     HarmonicTile tile = search_.harmonic(start.cones, start.x, within(loosest));
+    search_.hold_flat_directions(tile);
     add_row(tile, 0);
     for (int step = 0; step < most_steps && tile.steepest() > slope_tolerance(); ++step)
       if (!advance(tile)) break;
@@ -338,8 +360,10 @@ class ShapeDescent {
 
 // What the angles around each vertex are to add up to.
 Eigen::VectorXd angles_around_vertices(const GluingProblem& problem) {
-  Eigen::VectorXd angles = Eigen::VectorXd::Zero(problem.surface.vertex_count());
-  for (const int v : problem.surface.triangles.reshaped()) angles[v] = 2 * pi;
+  const Surface& surface = problem.surface;
+  const std::vector<char> on_boundary = surface.boundary_vertices();
+  Eigen::VectorXd angles = Eigen::VectorXd::Zero(surface.vertex_count());
+  for (const int v : surface.triangles.reshaped()) angles[v] = on_boundary[v] ? pi : 2 * pi;
   for (std::size_t k = 0; k < problem.target.marks.size(); ++k)
     angles[problem.cut.marks[k]] = problem.target.marks[k].angle;
   return angles;
@@ -377,7 +401,7 @@ std::optional<ShapeStart> developed_start(const GluingProblem& problem, const Di
 // the mean of these, the nearer ones counting more, so that where cuts branch they lie between.
 Points corners_of_polygon(const GluingProblem& problem, const Moduli& moduli) {
   const std::vector<int> cones = cones_as_met(problem.cut);
-  const Points polygon = moduli.closed(moduli.doubled_polygon()).value_or(moduli.doubled_polygon());
+  const Points inscribed = moduli.inscribed_polygon(), polygon = moduli.closed(inscribed).value_or(inscribed);
   const Points& V = problem.surface.V;
   Points x(V.rows(), 3);
   for (Eigen::Index v = 0; v < x.rows(); ++v) {
@@ -394,10 +418,10 @@ Points corners_of_polygon(const GluingProblem& problem, const Moduli& moduli) {
 
 // On the sphere, the harmonic map to R^3 that is glued like the tile, its cones held, moved to the sphere.
 // In the hyperbolic plane, where the energy of maps onto one tile is convex, the start is a matter of speed.
-Points first_map(const GluingProblem& problem, const Target& target, const GluedEdges& glued,
-                 const Points& corners) {
+Points first_map(const GluingProblem& problem, const Target& target, const Points& corners) {
   const Tile tile = tile_through(target, problem.cut, corners);
   const BoundaryConditions boundary = glue(problem.cut, tile, target);
+  const GluedEdges glued = glued_along(problem, boundary);
   const LaplacianSolver laplacian(problem.cut, glued, problem.weights, boundary, problem.laplacian);
   if (!target.space.is_closed())
     return initial_embedding(problem.surface, problem.cut, tile, boundary, laplacian);
@@ -418,18 +442,20 @@ Points first_map(const GluingProblem& problem, const Target& target, const Glued
   return x;
 }
 
-// From the doubled polygon, through tiles of less area.
+// From the polygon with an inscribed circle, through tiles of less area.
 class AreaContinuation {
  public:
-  AreaContinuation(const GluingProblem& problem, const EdgeWords& edges, const Dissection& dissection)
-      : problem_(problem), edges_(edges), dissection_(dissection) {}
+  AreaContinuation(const GluingProblem& problem, const WeightedWords& words, const Dissection& dissection)
+      : problem_(problem), words_(words), dissection_(dissection) {}
 
   Minimum run(const LbfgsOptions& options, const Stages& stage) const {
     Minimum minimum;
     for (const double area : areas_on_the_way(problem_.target)) {
       const Target target = with_area(problem_.target, area);
-      const ShapeSearch search(problem_, target, edges_, dissection_);
-      if (minimum.positions.size() == 0) minimum.positions = start_on_polygon(target, search.moduli());
+      const ShapeProblem shapes = {problem_, target, words_, dissection_};
+      const ShapeSearch search(shapes);
+      if (minimum.positions.size() == 0)
+        minimum.positions = first_map(problem_, target, corners_of_polygon(problem_, search.moduli()));
       LbfgsOptions within = options;
       if (area < free_tile_area(problem_.target)) within.tolerance = std::max(options.tolerance, 1e-4);
       const ShapeStart start = {cones_of(minimum.positions, search.moduli()), minimum.positions};
@@ -439,13 +465,6 @@ class AreaContinuation {
   }
 
  private:
-  Points start_on_polygon(const Target& target, const Moduli& moduli) const {
-    const Points corners = corners_of_polygon(problem_, moduli);
-    const std::vector<int> cones = cones_as_met(problem_.cut);
-    const ModuliEnergy energy(moduli, edges_, problem_.weights, cones);
-    return first_map(problem_, target, energy.glued(corners(cones, Eigen::all)), corners);
-  }
-
   Points cones_of(const Points& x, const Moduli& moduli) const {
     if (const std::optional<Points> cones = moduli.closed(x(cones_as_met(problem_.cut), Eigen::all)))
       return *cones;
@@ -454,7 +473,7 @@ class AreaContinuation {
   }
 
   const GluingProblem& problem_;
-  const EdgeWords& edges_;
+  const WeightedWords& words_;
   const Dissection& dissection_;
 };
 
@@ -464,15 +483,16 @@ Minimum curved_map(const GluingProblem& problem, const LbfgsOptions& options, co
   const IntrinsicTriangulation* triangulation = problem.weights.triangulation.get();
   const Connectivity& connectivity =
       triangulation ? triangulation->connectivity : problem.surface.connectivity;
-  const EdgeWords edges = edge_words(problem.surface, triangulation, problem.cut);
+  const WeightedWords words(problem);
   const Dissection dissection = dissect(vertex_neighbors(connectivity.edges, problem.surface.vertex_count()));
   LbfgsOptions within = options;
   within.tolerance *= 0.1;  // so that other cuts give the same lengths to ten times the tolerance
   if (const std::optional<ShapeStart> start = developed_start(problem, dissection)) {
-    const ShapeSearch search(problem, problem.target, edges, dissection);
+    const ShapeProblem shapes = {problem, problem.target, words, dissection};
+    const ShapeSearch search(shapes);
     if (search.is_good(*start)) return ShapeDescent(search, within, stage).run(*start).minimum;
   }
-  return AreaContinuation(problem, edges, dissection).run(within, stage);
+  return AreaContinuation(problem, words, dissection).run(within, stage);
 }
 
 }  // namespace orbitutte

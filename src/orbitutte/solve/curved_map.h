@@ -8,7 +8,7 @@
 namespace orbitutte {
 
 /// Minimises the energy (2) over the positions and the shapes of a curved tile whose shape is free, of a
-/// surface that is a sphere and cut along a tree. The positions of the result are those for the tile that
+/// sphere or a disk that is cut along a tree. The positions of the result are those for the tile that
 /// tile_through makes of them; `shapes` has a row for each tile: the energy, the largest derivative by a unit
 /// step of its shape, and the length of the step that led there.
 ///
@@ -21,7 +21,7 @@ namespace orbitutte {
 ///
 /// The first tile and map are the surface with its discretely conformal metric (conformal_metric), developed;
 /// they are so near to the last that a few tiles share one factorisation. If there is no such metric, the
-/// first tile is a doubled polygon (Moduli); on the sphere, whose harmonic maps of large area are many, the
+/// first tile is made from a polygon (Moduli); on the sphere, whose harmonic maps of large area are many, the
 /// area of the target then grows in steps, all deficits of angles being scaled.
 ///
 /// problem: its tile is any of the target's. Throws MeshError if doubles do not hold the tile, and Cancelled.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The gluing of the edges of a surface that is cut along a tree, as products of rotations about its cones:
-// what it is for any places of the cones.
+// The gluing of the edges of a surface that is cut along a tree, as products of rotations about its cones and
+// of reflections in its mirrors: what it is for any places of the marks.
 #pragma once
 
 #include <vector>
@@ -10,30 +10,44 @@
 
 namespace orbitutte {
 
-/// A product of rotations R_1 .. R_k and their inverses: i + 1 stands for R_(i + 1), its negative for the
-/// inverse; the first letter is the leftmost factor.
-using RotationWord = std::vector<int>;
+/// A product of generators g_1 .. g_k of a surface's gluings (Moduli) and their inverses: i + 1 stands for
+/// g_(i + 1), its negative for the inverse; the first letter is the leftmost factor.
+using GluingWord = std::vector<int>;
 
 /// The product in letters of any group.
 template <typename Element>
-Element product_of_word(const RotationWord& word, const std::vector<Element>& rotations, Element identity) {
+Element product_of_word(const GluingWord& word, const std::vector<Element>& generators, Element identity) {
   for (const int letter : word)
-    identity = identity * (letter > 0 ? rotations[letter - 1] : rotations[-letter - 1].inverse());
+    identity = identity * (letter > 0 ? generators[letter - 1] : generators[-letter - 1].inverse());
   return identity;
 }
 
 /// The edges of the energy, each with the word that is applied to its second end.
+///
+/// A mirror is a seam whose banks are the same vertices: on two copies of a disk, glued along its boundary,
+/// an edge from p to g q has a mirror image. If M and N are the reflections in the mirrors of its ends, in
+/// their frames, or the identity where an end lies on none, that is the edge from p to (M g N) q. Both are
+/// edges here, each with half the weight, unless both words are the same. For vertices on their mirrors the
+/// energy is that of the disk; where mirrors move away, it draws their vertices after them.
 struct EdgeWords {
-  /// As GluedEdges::edges, with an index into words; 0 is the empty word.
+  /// As GluedEdges::edges, with an index into words; 0 is the empty word. The mirror images follow the
+  /// edges.
   std::vector<GluedEdge> edges;
 
   /// Distinct, and reduced: no letter stands beside its inverse.
-  std::vector<RotationWord> words;
+  std::vector<GluingWord> words;
+
+  /// The edges that have a mirror image, in the order of these.
+  std::vector<int> mirrored;
+
+  /// The weights of all these edges, from those of the edges themselves.
+  Eigen::VectorXd weights(const Eigen::VectorXd& w) const;
 };
 
-/// The words of the surface's edges, or of the edges of a triangulation of it if that is not null. R_i is the
-/// rotation about the i-th cone that the boundary of the cut mesh meets (cut.arrangement), counterclockwise,
-/// about the copy that it meets first. The surface is a sphere that was cut along a tree (cut_along_tree).
+/// The words of the surface's edges, or of the edges of a triangulation of it if that is not null. The
+/// letters are the generators of the marks as the boundary of the cut mesh meets them (cut.arrangement),
+/// counterclockwise, about the copies that it meets first. The surface is a sphere or a disk that was cut
+/// along a tree (cut_along_tree).
 EdgeWords edge_words(const Surface& surface, const IntrinsicTriangulation* triangulation, const CutMesh& cut);
 
 }  // namespace orbitutte

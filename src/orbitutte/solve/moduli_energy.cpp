@@ -18,9 +18,9 @@ Vector3 gradient_of_squared_distance(Curvature<k> curvature, const Vector3& p, c
 
 }  // namespace
 
-ModuliEnergy::ModuliEnergy(const Moduli& moduli, const EdgeWords& edges, const EdgeWeights& weights,
+ModuliEnergy::ModuliEnergy(const Moduli& moduli, const EdgeWords& edges, Eigen::VectorXd w,
                            std::vector<int> cones)
-    : moduli_(moduli), edges_(edges), weights_(weights), cones_(std::move(cones)) {
+    : moduli_(moduli), edges_(edges), w_(std::move(w)), cones_(std::move(cones)) {
   int vertices = 0;
   for (const auto& [i, j, t] : edges.edges) vertices = std::max({vertices, i + 1, j + 1});
   cone_at_.assign(vertices, -1);
@@ -32,10 +32,9 @@ ModuliEnergy::ModuliEnergy(const Moduli& moduli, const EdgeWords& edges, const E
 }
 
 std::vector<Isometry> ModuliEnergy::transforms(const Points& cones) const {
-  const std::vector<Isometry> rotations = moduli_.rotations(cones);
+  const std::vector<Isometry> generators = moduli_.generators(cones);
   std::vector<Isometry> result;
-  for (const RotationWord& word : edges_.words)
-    result.push_back(product_of_word(word, rotations, Isometry()));
+  for (const GluingWord& word : edges_.words) result.push_back(product_of_word(word, generators, Isometry()));
   return result;
 }
 
@@ -51,7 +50,7 @@ void ModuliEnergy::for_each(const Points& x, const std::vector<Isometry>& transf
                             const Visit& visit) const {
   for (const int e : dependent_) {
     const GluedEdge& edge = edges_.edges[e];
-    visit(edge, weights_.w[e], Vector3(x.row(edge.i)), transforms[edge.t] * Vector3(x.row(edge.j)));
+    visit(edge, w_[e], Vector3(x.row(edge.i)), transforms[edge.t] * Vector3(x.row(edge.j)));
   }
 }
 
@@ -82,18 +81,23 @@ Points ModuliEnergy::gradient(const Points& x, const Points& cones) const {
   return result;
 }
 
+std::vector<VaryingIsometry> ModuliEnergy::varying_transforms(const VaryingMarks& marks,
+                                                              Eigen::Index parameters, Order order) const {
+  const VaryingIsometry identity = {Isometry(), VaryingMotion::none(moduli_.space(), parameters, order)};
+  const std::vector<VaryingIsometry> generators = marks.generators();
+  std::vector<VaryingIsometry> result;
+  for (const GluingWord& word : edges_.words) result.push_back(product_of_word(word, generators, identity));
+  return result;
+}
+
 // Where q = g x_j moves by the infinitesimal isometry w, d^2 changes by <u, J (w x q)> = w . (q x u), u the
 // gradient by q. So each g needs one sum of moments q x u.
 Eigen::VectorXd ModuliEnergy::cone_gradient(const Points& x, const Points& cones) const {
   const Points all = with_cones(x, cones);
-  const std::vector<VaryingIsometry> rotations = moduli_.varying_rotations(cones);
-  const VaryingIsometry identity = {Isometry(), Eigen::Matrix3Xd::Zero(3, 2 * moduli_.mark_count())};
-  std::vector<VaryingIsometry> varying;
+  const std::vector<VaryingIsometry> varying =
+      varying_transforms(moduli_.varying(cones), 2 * moduli_.mark_count(), Order::first);
   std::vector<Isometry> transform;
-  for (const RotationWord& word : edges_.words) {
-    varying.push_back(product_of_word(word, rotations, identity));
-    transform.push_back(varying.back().value);
-  }
+  for (const VaryingIsometry& g : varying) transform.push_back(g.value);
   Eigen::Matrix3Xd moments = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(transform.size()));
   Points at_cones = Points::Zero(cones.rows(), 3);
   visit_curvature(moduli_.space(), [&](auto curvature) {
@@ -107,7 +111,109 @@ Eigen::VectorXd ModuliEnergy::cone_gradient(const Points& x, const Points& cones
   });
   Eigen::VectorXd result = moduli_.coordinates(cones, at_cones);
   for (std::size_t t = 0; t < varying.size(); ++t)
-    result += varying[t].rate.transpose() * moments.col(static_cast<Eigen::Index>(t));
+    result += varying[t].motion.first.transpose() * moments.col(static_cast<Eigen::Index>(t));
+  return result;
+}
+
+VaryingMotion ModuliEnergy::motion_along(const GluedEdge& edge, const VaryingIsometry& transform,
+                                         const VaryingMarks& marks) const {
+  VaryingMotion motion = transform.motion;
+  if (const int k = cone_at_[edge.j]; k >= 0)
+    motion = motion * marks.points()[k].motion.seen_through(transform.value);
+  if (const int k = cone_at_[edge.i]; k >= 0) motion = marks.points()[k].motion.inverse() * motion;
+  return motion;
+}
+
+namespace {
+
+// d(d/sn d)/ds, with s = 4 sn^2(d/2) the squared chord: (1 - cs d d/sn d)/(2 sn^2 d). Nearby by the series of
+// d/sn d, the sum of G_j (k s/4)^j with G_j = 4^j j!^2/(2j + 1)!.
+double slope_of_over_sn(int k, double s, double over_sn) {
+  constexpr double nearby = 0.01;
+  if (s > nearby) return (1 - (1 - k * s / 2) * over_sn) / (2 * s * (1 - k * s / 4));
+  double sum = 0;
+  double power = k / 4.0, G = 2.0 / 3;
+  for (int j = 1; j <= 6; ++j) {
+    sum += j * G * power;
+    power *= k * s / 4;
+    G *= 2.0 * (j + 1) / (2 * j + 3);
+  }
+  return sum;
+}
+
+// What moving an edge's far end q, as it is seen from the near end p, changes: with the squared chord s = <y,
+// y>, y = q - p, and f(s) = d^2, of which f' = d/sn d.
+class MovingEdge {
+ public:
+  MovingEdge(const VaryingMotion& motion, const Vector3& p, const Vector3& q)
+      : motion_(motion), p_(p), q_(q), y_(q - p), velocity_(motion.velocities(q)) {
+    const Space space = motion.space;
+    s_ = space.dot(y_, y_);
+    visit_curvature(space, [&](auto curvature) { slope_ = curvature.distance(p, q).over_sn; });
+    bend_ = slope_of_over_sn(space.curvature(), s_, slope_);
+    chord_ = 2 * (motion.first.transpose() * q.cross(y_));
+  }
+
+  // Of d^2, q x q: f'' s_a s_b + f' s_ab, with s_ab = 2 <Z_a q, Z_b q> + 2 <y, acceleration_ab>.
+  void add_second(double w, Eigen::MatrixXd& sum) const {
+    const Eigen::Index count = motion_.parameters();
+    const Vector3 metric(1, 1, motion_.space.curvature());
+    const Eigen::VectorXd second = motion_.second.transpose() * q_.cross(y_);
+    Eigen::Matrix3Xd moments(3, count);
+    for (Eigen::Index a = 0; a < count; ++a) moments.col(a) = Vector3(velocity_.col(a)).cross(y_);
+    const Eigen::MatrixXd turned = motion_.first.transpose() * moments;
+    sum.noalias() += w * bend_ * chord_ * chord_.transpose();
+    sum.noalias() += 2 * w * slope_ * (velocity_.transpose() * metric.asDiagonal() * velocity_);
+    sum += w * slope_ *
+           (turned + turned.transpose() + 2 * Eigen::Map<const Eigen::MatrixXd>(second.data(), count, count));
+  }
+
+  // Of the gradients -2 f' y at p, and 2 f' g^-1 y at the vertex whose image q is, tangential parts not yet
+  // taken: 3 x q.
+  Eigen::Matrix3Xd near_gradient() const {
+    return -2 * (bend_ * y_ * chord_.transpose() + slope_ * velocity_);
+  }
+  Eigen::Matrix3Xd far_gradient(const Isometry& g) const {
+    return 2 * g.inverse_matrix() * (bend_ * y_ * chord_.transpose() + slope_ * motion_.velocities(p_));
+  }
+
+ private:
+  const VaryingMotion& motion_;
+  Vector3 p_, q_, y_;
+  Eigen::Matrix3Xd velocity_;
+  Eigen::VectorXd chord_;
+  double s_ = 0, slope_ = 1, bend_ = 0;
+};
+
+}  // namespace
+
+ModuliEnergy::Curvature ModuliEnergy::curvature(const Points& x, const Points& cones,
+                                                const Eigen::MatrixXd& directions) const {
+  const Points all = with_cones(x, cones);
+  const Eigen::Index count = directions.cols();
+  const Space space = moduli_.space();
+  const VaryingMarks marks = moduli_.varying(cones, directions, Order::second);
+  const std::vector<VaryingIsometry> transform = varying_transforms(marks, count, Order::second);
+  Curvature result = {Eigen::MatrixXd::Zero(count, count),
+                      std::vector<Points>(count, Points::Zero(x.rows(), 3))};
+  const auto add = [&](int v, const Eigen::Matrix3Xd& change) {
+    if (cone_at_[v] >= 0) return;
+    for (Eigen::Index a = 0; a < count; ++a)
+      result.gradient[a].row(v) += space.tangent(all.row(v), change.col(a));
+  };
+  for (const int e : dependent_) {
+    const GluedEdge& edge = edges_.edges[e];
+    const bool is_at_cone = cone_at_[edge.i] >= 0 || cone_at_[edge.j] >= 0;
+    const VaryingIsometry& g = transform[edge.t];
+    const VaryingMotion at_cone = is_at_cone ? motion_along(edge, g, marks) : VaryingMotion();
+    const MovingEdge moving(is_at_cone ? at_cone : g.motion, all.row(edge.i),
+                            g.value * Vector3(all.row(edge.j)));
+    moving.add_second(w_[e], result.energy);
+    add(edge.i, w_[e] * moving.near_gradient());
+    add(edge.j, w_[e] * moving.far_gradient(g.value));
+  }
+  if (space.curvature() < 0)
+    for (Points& gradient : result.gradient) gradient.col(2) *= -1;
   return result;
 }
 

@@ -4,19 +4,19 @@
 
 #include <vector>
 
-#include "orbitutte/mesh/edge_weights.h"
 #include "orbitutte/orbifold/moduli.h"
 #include "orbitutte/solve/edge_words.h"
 
 namespace orbitutte {
 
-/// Of E(x, p) = sum of w_ij d(x_i, g_ij(p) x_j)^2, in which the cones' positions are p_1 .. p_k and the
-/// gluing of each edge is a product of rotations about them, the part that depends on p.
+/// Of E(x, p) = sum of w_ij d(x_i, g_ij(p) x_j)^2, in which the positions of cones and corners are p_1 .. p_k
+/// and the gluing of each edge is a word in the rotations and reflections that they make, the part that
+/// depends on p.
 class ModuliEnergy {
  public:
-  /// cones: the input vertices of the cones, in the order of the moduli. The arguments must outlive this.
-  ModuliEnergy(const Moduli& moduli, const EdgeWords& edges, const EdgeWeights& weights,
-               std::vector<int> cones);
+  /// w: of the edges, mirror images included. cones: the input vertices of the marks, in the order of the
+  /// moduli. moduli and edges must outlive this.
+  ModuliEnergy(const Moduli& moduli, const EdgeWords& edges, Eigen::VectorXd w, std::vector<int> cones);
 
   /// All edges with their gluing.
   GluedEdges glued(const Points& cones) const;
@@ -33,8 +33,26 @@ class ModuliEnergy {
   /// The derivative of E by steps of the cones (2k numbers: Moduli), all other x being held.
   Eigen::VectorXd cone_gradient(const Points& x, const Points& cones) const;
 
+  /// Second derivatives by steps of the cones along geodesics, in q directions.
+  struct Curvature {
+    /// q x q.
+    Eigen::MatrixXd energy;
+
+    /// q times n x 3: how the gradient by x changes.
+    std::vector<Points> gradient;
+  };
+
+  /// directions: 2k x q.
+  Curvature curvature(const Points& x, const Points& cones, const Eigen::MatrixXd& directions) const;
+
  private:
   std::vector<Isometry> transforms(const Points& cones) const;
+  std::vector<VaryingIsometry> varying_transforms(const VaryingMarks& marks, Eigen::Index parameters,
+                                                  Order order) const;
+
+  /// How the far end of an edge moves, as it is seen from the near one.
+  VaryingMotion motion_along(const GluedEdge& edge, const VaryingIsometry& transform,
+                             const VaryingMarks& marks) const;
 
   /// Calls visit(edge, w, x_i, g x_j) for every edge that depends on p.
   template <typename Visit>
@@ -42,7 +60,7 @@ class ModuliEnergy {
 
   const Moduli& moduli_;
   const EdgeWords& edges_;
-  const EdgeWeights& weights_;
+  Eigen::VectorXd w_;
   std::vector<int> cones_;
 
   /// n: the number of the cone that a vertex is, or -1.

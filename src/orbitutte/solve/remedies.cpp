@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <atomic>
+#include <iterator>
 #include <limits>
 #include <set>
 
 #include "orbitutte/geometry/orientation.h"
+#include "orbitutte/orbifold/free_tile.h"
 #include "orbitutte/parallel.h"
 #include "orbitutte/solve/repair.h"
+#include "orbitutte/solve/tips.h"
 
 namespace orbitutte {
 namespace {
@@ -181,8 +184,20 @@ std::optional<std::vector<int>> put_right(Site& site, const std::vector<int>& tu
   return moved;
 }
 
+std::vector<int> united(const std::vector<int>& a, const std::vector<int>& b) {
+  std::vector<int> result;
+  std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(result));
+  return result;
+}
+
+Points positions_of_copies(const GluingProblem& problem, const Placement& placed) {
+  const Points& positions = placed.minimum.positions;
+  return problem.target.has_free_tile ? spread_on_free_tile(problem.target, problem.cut, positions)
+                                      : placed.boundary.spread(positions, problem.cut.source_vertex);
+}
+
 SpreadMap spread_map(const GluingProblem& problem, Placement placed, std::vector<int> moved) {
-  Points all = placed.boundary.spread(placed.minimum.positions, problem.cut.source_vertex);
+  Points all = positions_of_copies(problem, placed);
   return {std::move(placed), std::move(all), {}, std::move(moved)};
 }
 
@@ -277,6 +292,18 @@ std::optional<SpreadMap> with_faces_repaired(const GluingProblem& problem, const
   std::optional<std::vector<int>> moved = put_right(site, turned, positions);
   if (!moved) return std::nullopt;
   return spread_map(problem, std::move(result), std::move(*moved));
+}
+
+std::optional<SpreadMap> with_tips_unrolled(const GluingProblem& problem, const Placement& placed) {
+  Placement result = placed;
+  Site site(problem, placed);
+  MovablePositions positions(site.gluing, result.minimum.positions);
+  const std::vector<int> unrolled =
+      unroll_tips({problem.surface, site.gluing, site.stars, site.may_move}, positions);
+  if (unrolled.empty()) return std::nullopt;
+  const std::optional<std::vector<int>> repaired = put_right(site, turned_faces(site, positions), positions);
+  if (!repaired) return std::nullopt;
+  return spread_map(problem, std::move(result), united(unrolled, *repaired));
 }
 
 std::optional<SpreadMap> with_limbs_resolved(const GluingProblem& problem, const Placement& placed) {

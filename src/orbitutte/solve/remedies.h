@@ -39,6 +39,10 @@ std::vector<Ear> ears_of(const GluingProblem& problem, const Placement& placed);
 /// where edges are as short as in with_limbs_resolved: it is left to that.
 std::optional<SpreadMap> with_faces_repaired(const GluingProblem& problem, const Placement& placed);
 
+/// With the vertices around cones placed anew where faces beside them are turned over (unroll_tip), and other
+/// faces repaired; nothing if there are no such cones, or if faces remain.
+std::optional<SpreadMap> with_tips_unrolled(const GluingProblem& problem, const Placement& placed);
+
 /// The same turned to where doubles resolve the smallest limb, all limbs settled there, and turned faces
 /// repaired. Nothing if no edge is shorter than 1e-6, if the tile may not be turned, or if that fails.
 std::optional<SpreadMap> with_limbs_resolved(const GluingProblem& problem, const Placement& placed);

@@ -39,8 +39,14 @@ Row2 unit_in_frame(const Vector3& log, const Eigen::Matrix<double, 3, 2>& lowere
 
 Row2 turned_left(const Row2& v) { return {-v.y(), v.x()}; }
 
-EdgeHessian hessian_along(const Row2& at_p, const Row2& at_q, const NormalFactors& factors) {
-  const Row2 n_p = turned_left(at_p), n_q = turned_left(at_q);
+// The directions along an edge in the frames of its ends, and across it, of which the image of n_q is on the
+// same side as n_p.
+struct EdgeDirections {
+  Row2 at_p, at_q, n_p, n_q;
+};
+
+EdgeHessian hessian_along(const EdgeDirections& directions, const NormalFactors& factors) {
+  const auto& [at_p, at_q, n_p, n_q] = directions;
   return {at_p.transpose() * at_p + factors.own * n_p.transpose() * n_p,
           at_q.transpose() * at_q + factors.own * n_q.transpose() * n_q,
           -at_p.transpose() * at_q - factors.mixed * n_p.transpose() * n_q};
@@ -128,6 +134,21 @@ class BlockMatrix {
   SparseMatrix matrix_;
 };
 
+// A factor of the form, or, where rounding leaves it no longer positive, of the form with a small share of
+// its diagonal added: enough for a preconditioner. In limbs whose edges are shorter than doubles tell apart,
+// frames of neighbours do not agree.
+LeadingFactor eliminate_strengthened(SparseMatrix form, const Unknowns& unknowns, Backend backend) {
+  for (const double share : {1e-13, 1e-11, 1e-9}) {
+    try {
+      return eliminate(form, backend, 0).factor;
+    } catch (const NotPositiveDefinite&) {
+      for (long column = 0; column < form.cols(); ++column)
+        form.valuePtr()[form.outerIndexPtr()[column]] *= 1 + share;
+    }
+  }
+  return eliminate_laplacian(form, unknowns, backend);
+}
+
 }  // namespace
 
 TangentSystem::TangentSystem(Space space, const Points& x)
@@ -148,7 +169,7 @@ TangentSystem::TangentSystem(const TangentProblem& problem, const Points& x)
   } catch (const NotPositiveDefinite&) {
     factored.is_exact = false;
     form_ = assemble_form(problem, x, factored);
-    factored.factor = eliminate_laplacian(*form_, factored.unknowns, problem.backend);
+    factored.factor = eliminate_strengthened(*form_, factored.unknowns, problem.backend);
   }
   factored_ = std::make_shared<Factored>(std::move(factored));
 }
@@ -180,6 +201,8 @@ std::shared_ptr<const SparseMatrix> TangentSystem::assemble_form(const TangentPr
     frame.row(2) *= k_of_space;
     return frame;
   };
+  std::vector<double> sense;
+  for (const Isometry& g : problem.glued.transforms) sense.push_back(g.reverses_orientation() ? -1 : 1);
   std::vector<EdgeHessian> hessians(edges.size());
   visit_curvature(problem.boundary.space, [&]<int k>(Curvature<k> curvature) {
     parallel_ranges(static_cast<int>(edges.size()), [&](int begin, int end) {
@@ -192,7 +215,8 @@ std::shared_ptr<const SparseMatrix> TangentSystem::assemble_form(const TangentPr
             factored.is_exact ? normal_factors<k>(d.squared, d.over_sn) : NormalFactors();
         const Row2 e_p = unit_in_frame(curvature.tangent(p, q - p), lowered(i)),
                    e_q = -unit_in_frame(curvature.tangent(x_j, seen - x_j), lowered(j));
-        const EdgeHessian one = hessian_along(e_p, e_q, factors);
+        const EdgeHessian one =
+            hessian_along({e_p, e_q, turned_left(e_p), sense[t] * turned_left(e_q)}, factors);
         const double w = 2 * problem.w[e];
         hessians[e] = {w * one.ii, w * one.jj, w * one.ij};
       }

@@ -25,7 +25,7 @@ struct TangentProblem {
 };
 
 /// Factorises the second derivative of E = sum of w d(p, q)^2, q = g x_j, along geodesics. For an edge with
-/// unit tangents e_p and e_q along it at its ends, and n_p, n_q normal to it,
+/// unit tangents e_p and e_q along it at its ends, and n_p, n_q normal to it on the same side,
 ///     2 w ((e_q . dq - e_p . dp)^2 + A ((n_p . dp)^2 + (n_q . dq)^2) - 2 B (n_p . dp)(n_q . dq)),
 /// with A = d ct d and B = d/sn d. In the hyperbolic plane A > B > 0, so the form is positive definite. If it
 /// is not so on the sphere, A = B = 1 take the place of both: the Laplacian of the frames.
