@@ -8,13 +8,9 @@
 #include <vector>
 
 #include "orbitutte/embed_types.h"
+#include "orbitutte/io/landmark_file.h"
 
 namespace orbitutte {
-
-/// A vertex of surface A, and the vertex of surface B that corresponds to it.
-struct Landmark {
-  int a = -1, b = -1;
-};
 
 /// What decides the shape of the tile that both surfaces are mapped onto.
 enum class TileShape {
@@ -60,10 +56,12 @@ struct MapClass {
   int half_twists = 0;
 };
 
-/// Two embeddings into one target, the mark i of which is where landmark i lies on both. Both lie in one
-/// frame (Embedding::placement), and the gluings of either are products of the other's.
+/// Two embeddings into one target. Cone i of one (Embedding::cones) and cone i of the other are partners.
+/// Both lie in one frame but for Embedding::placement, and the gluings of either are products of the other's.
 struct SurfaceMap {
   EmbedResult a, b;
+
+  /// In the order in which they were given.
   std::vector<Landmark> landmarks;
   MapClass map_class;
   Timings timings;

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/solve/shared_placement.h"
+
+#include <cmath>
+#include <complex>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "orbitutte/orbifold/free_tile.h"
+#include "orbitutte/parallel.h"
+#include "orbitutte/solve/conformal_map.h"
+
+namespace orbitutte {
+namespace {
+
+// Positions of the input vertices with the tile that goes through them.
+Placement placed_at(const GluingProblem& problem, Minimum minimum) {
+  Placement placed;
+  placed.minimum = std::move(minimum);
+  Points& positions = placed.minimum.positions;
+  placed.tile = tile_through(problem.target, problem.cut, positions);
+  placed.boundary = glue(problem.cut, placed.tile, problem.target);
+  placed.boundary.make_feasible(positions);
+  return placed;
+}
+
+Braid chosen_class(const SharingOptions& options, const OwnTiles& tiles) {
+  return options.choose_class ? options.choose_class(tiles) : Braid();
+}
+
+// Takes the canonical frame to that of the positions, which has the first mark at its origin.
+Isometry frame_of_marks(const GluingProblem& problem, const Points& positions) {
+  const Space space = problem.target.space;
+  const Isometry to_origin = space.to_origin(positions.row(problem.cut.marks[0]));
+  const Vector3 second = to_origin * Vector3(positions.row(problem.cut.marks[1]));
+  return to_origin.inverse() * space.rotation(Space::origin(), std::atan2(second.y(), second.x()));
+}
+
+LbfgsOptions telling(const LbfgsOptions& options, const Stages& stage) {
+  LbfgsOptions result = options;
+  result.callback = [&stage](int iteration, const Iteration& state) {
+    stage.tell({"optimize", iteration, state.energy, state.gradient_norm});
+    return true;
+  };
+  return result;
+}
+
+// The plane.
+
+// What the maps of one surface onto all of its tiles are made from.
+struct FlatSurface {
+  explicit FlatSurface(const GluingProblem& the_problem)
+      : problem(the_problem),
+        glued(glued_along(problem, problem.boundary)),
+        laplacian(problem.cut, glued, problem.weights, problem.boundary, problem.laplacian),
+        shapes(problem, laplacian) {}
+
+  const GluingProblem& problem;
+  GluedEdges glued;
+  LaplacianSolver laplacian;
+  ConformalShapes shapes;
+
+  Points own_cones() const {
+    return positions_of_marks(problem.cut, shapes.own_shape())(problem.cut.marks, Eigen::all);
+  }
+
+  // The harmonic map onto the tile of a shape.
+  Placement placed(const Eigen::VectorXcd& shape, const LbfgsOptions& options) const {
+    Minimum start;
+    start.positions = shapes.map_onto(shape);
+    Placement result = placed_at(problem, std::move(start));
+    const DirichletEnergy energy(glued_along(problem, result.boundary), problem.weights, result.boundary);
+    result.minimum = minimize(energy, laplacian, result.minimum.positions, options);
+    return result;
+  }
+};
+
+// The doubled polygon of so many cones, in the order of the marks.
+Eigen::VectorXcd regular_shape(const GluingProblem& problem) {
+  const Moduli moduli = moduli_of(problem.target, problem.cut);
+  const Points polygon = moduli.closed(moduli.doubled_polygon()).value_or(moduli.doubled_polygon());
+  Eigen::VectorXcd shape(polygon.rows());
+  for (Eigen::Index k = 0; k < shape.size(); ++k) shape[k] = {polygon(k, 0), polygon(k, 1)};
+  return shape;
+}
+
+// Gives the tile its direction, if its first mark lies at the origin.
+Isometry turn_towards_x(const GluingProblem& problem, const Points& positions) {
+  const Vector3 p = point_towards_x(problem.target, problem.cut, positions);
+  return Space::plane().rotation(Space::origin(), -std::atan2(p.y(), p.x()));
+}
+
+// The translation that takes a point to the origin.
+Isometry translation_from(const Vector3& p) {
+  Matrix3 matrix = Matrix3::Identity();
+  matrix.col(2).head<2>() = -p.head<2>();
+  return Space::plane().isometry(matrix);
+}
+
+std::array<Placement, 2> place_in_plane(const ProblemPair& problems, const SharingOptions& options,
+                                        Stages& stage) {
+  std::array<std::unique_ptr<FlatSurface>, 2> sides;
+  stage("factorize", [&] {
+    parallel_for(2, [&](int s) { sides[s] = std::make_unique<FlatSurface>(problems[s].get()); });
+  });
+  const OwnTiles own = {{sides[0]->own_cones(), sides[1]->own_cones()}};
+  const Braid to_second = inverse(chosen_class(options, own));
+  const int count = static_cast<int>(problems[0].get().cut.marks.size());
+  const std::vector<Eigen::MatrixXcd> changes = {Eigen::MatrixXcd::Identity(count, count),
+                                                 braid_matrix(count, to_second)};
+  Eigen::VectorXcd shape = options.is_tile_regular
+                               ? sides[0]->shapes.scaled(regular_shape(problems[0]))
+                               : shared_shape({&sides[0]->shapes, &sides[1]->shapes}, changes);
+  shape.array() -= std::complex<double>(shape[0]);
+  std::array<Placement, 2> placed;
+  stage("optimize", [&] {
+    const LbfgsOptions lbfgs = telling(options.lbfgs, stage);
+    for (int s = 0; s < 2; ++s) placed[s] = sides[s]->placed(changes[s] * shape, lbfgs);
+  });
+  const Isometry turn = turn_towards_x(problems[0], placed[0].minimum.positions);
+  // A braid has moved the first mark of the second surface by a translation of the group.
+  const Vector3 first = placed[1].minimum.positions.row(problems[1].get().cut.marks[0]);
+  placed[0] = moved(problems[0], turn, placed[0]);
+  placed[1] = moved(problems[1], turn * translation_from(first), placed[1]);
+  for (Placement& each : placed) each.frame = {};
+  return placed;
+}
+
+// Curved spaces.
+
+std::array<TiledPositions, 2> first_tiles(const ProblemPair& problems, const LbfgsOptions& options,
+                                          const Stages& stage) {
+  std::array<TiledPositions, 2> tiles;
+  parallel_for(2, [&](int s) { tiles[s] = own_tile(problems[s], options, stage); });
+  return tiles;
+}
+
+std::array<Placement, 2> place_on_curved_tile(const ProblemPair& problems, const SharingOptions& options,
+                                              Stages& stage) {
+  const std::array<TiledPositions, 2> own =
+      stage("initialize", [&] { return first_tiles(problems, options.lbfgs, stage); });
+  const Braid to_second = inverse(chosen_class(options, {{own[0].cones, own[1].cones}}));
+  const std::vector<TileSharer> sharers = {{problems[0], {}}, {problems[1], to_second}};
+  const SharedStart start = options.is_tile_regular
+                                ? SharedStart{polygon_tile(problems[0]).cones, {own[0].x, own[1].x}, true}
+                                : SharedStart{own[0].cones, {own[0].x, own[1].x}, false};
+  std::vector<Minimum> minima =
+      stage("optimize", [&] { return maps_sharing_a_tile(sharers, start, options.lbfgs, stage); });
+  std::array<Placement, 2> placed;
+  for (int s = 0; s < 2; ++s) {
+    const GluingProblem& problem = problems[s];
+    Points& positions = minima[s].positions;
+    positions.row(problem.cut.marks.front()) = closing_position(problem.target, problem.cut, positions);
+    placed[s] = placed_at(problem, std::move(minima[s]));
+  }
+  const Moduli moduli = moduli_of(problems[0].get().target, problems[0].get().cut);
+  const Points cones = placed[0].minimum.positions(problems[0].get().cut.marks, Eigen::all);
+  if (!to_second.empty())
+    placed[1] = moved(problems[1], motions(moduli, cones, to_second).front().inverse(), placed[1]);
+  placed[0].frame = placed[1].frame = frame_of_marks(problems[0], placed[0].minimum.positions);
+  return placed;
+}
+
+}  // namespace
+
+std::array<Placement, 2> place_together(const ProblemPair& problems, const SharingOptions& options,
+                                        Stages& stage) {
+  const bool is_flat = problems[0].get().target.space == Space::plane();
+  return is_flat ? place_in_plane(problems, options, stage) : place_on_curved_tile(problems, options, stage);
+}
+
+}  // namespace orbitutte
