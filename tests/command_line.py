@@ -17,7 +17,7 @@ import tempfile
 import unittest
 
 PROGRAM = ''
-COMMANDS = ['embed', 'choose', 'info', 'types', 'verify', 'tile', 'export', 'render', 'report', 'compare', 'sample']
+COMMANDS = ['embed', 'choose', 'info', 'types', 'verify', 'tile', 'export', 'render', 'report', 'compare', 'map', 'sample']
 IS_A_FILE, IS_WRONG, IS_UNSUITABLE, IS_NOT_CONVERGED, IS_NOT_CERTIFIED = 1, 2, 3, 4, 5
 
 

@@ -99,7 +99,7 @@ void require_enough(Topology topology, const LandmarkPlaces& places) {
   if (topology == Topology::sphere && inside > 0 && inside < 3)
     throw MeshError(fmt::format("{} landmark{} between two spheres; give three or more, or none for a guess",
                                 inside, inside == 1 ? "" : "s"));
-  if (topology == Topology::disk && 2 * inside + outside < 3)
+  if (topology == Topology::disk && inside + outside > 0 && 2 * inside + outside < 3)
     throw MeshError(fmt::format(
         "{} landmark{} on the boundary and {} inside; between two disks, give three on the boundary, one "
         "there and one inside, or more",

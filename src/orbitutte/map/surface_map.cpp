@@ -3,16 +3,21 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
 
 #include "orbitutte/certified_map.h"
 #include "orbitutte/cut/tour.h"
+#include "orbitutte/embed.h"
+#include "orbitutte/map/guessed_rotation.h"
 #include "orbitutte/map/isotopy_class.h"
 #include "orbitutte/map/landmarks.h"
 #include "orbitutte/orbifold/free_tile.h"
+#include "orbitutte/orbifold/signature.h"
 #include "orbitutte/parallel.h"
 #include "orbitutte/solve/shared_placement.h"
 
@@ -305,12 +310,41 @@ class Mapping {
   Sides sides_;
 };
 
+// Without landmarks: both onto the whole sphere, B turned so that the scales of both agree best.
+SurfaceMap guessed_map(const Surface& a, const Surface& b, const MapOptions& options) {
+  landmark_places(a, b, {});
+  if (a.topology != Topology::sphere)
+    throw MeshError(
+        "a map between two disks needs landmarks: three on the boundary, or one there and one inside");
+  SurfaceMap map;
+  Stages stage(options.embed.progress, map.timings);
+  EmbedOptions embed_options = options.embed;
+  embed_options.quotient = {};
+  const Target sphere = parse_orbifold("1");
+  stage("embed", [&] {
+    map.a = embed(a, sphere, {}, embed_options);
+    map.b = embed(b, sphere, {}, embed_options);
+  });
+  Embedding& turned = map.b.embedding;
+  const Isometry rotation = stage("rotation", [&] {
+    return guessed_rotation({b, turned}, {a, map.a.embedding});
+  });
+  turned.placement = turned.placement * rotation.inverse();
+  map.warnings.push_back(
+      "no landmarks were given: the map is a guess by where both surfaces shrink and grow on the sphere; "
+      "give "
+      "three landmarks or more to say what corresponds");
+  return map;
+}
+
 }  // namespace
 
 SurfaceMap map_between(const Surface& a, const Surface& b, const std::vector<Landmark>& landmarks,
                        const MapOptions& options) {
   if (options.embed.threads < 0) throw ArgumentError("the number of threads must not be negative");
-  return with_threads(options.embed.threads, [&] { return Mapping(a, b, landmarks, options).run(); });
+  return with_threads(options.embed.threads, [&] {
+    return landmarks.empty() ? guessed_map(a, b, options) : Mapping(a, b, landmarks, options).run();
+  });
 }
 
 }  // namespace orbitutte
