@@ -133,7 +133,9 @@ LandmarkPlaces landmark_places(const Surface& a, const Surface& b, const std::ve
 
 Target landmark_target(Topology topology, const LandmarkPlaces& places) {
   const std::size_t inside = places.inside.size(), outside = places.on_boundary.size();
-  if (topology == Topology::sphere) return parse_orbifold(std::string(inside, '2'));
+  if (topology == Topology::sphere && inside <= 4) return parse_orbifold(std::string(inside, '2'));
+  if (topology == Topology::sphere)
+    return parse_orbifold(fmt::format("{}", fmt::join(std::vector<int>(inside, 2), ",")));
   if (inside == 0 && outside <= 4) return parse_orbifold("*" + std::string(outside, '2'));
   const double deficit = 2 * pi / static_cast<double>(outside + 2 * inside);
   std::vector<Mark> marks(inside, Mark{2 * pi - 2 * deficit, ConeKind::rotation});

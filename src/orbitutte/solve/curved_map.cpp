@@ -257,7 +257,6 @@ struct SharedTile {
   std::vector<HarmonicTile> maps;
 
   const Points& cones() const { return maps.front().cones; }
-  const Eigen::MatrixXd& basis() const { return maps.front().basis; }
 
   double energy() const {
     double sum = 0;
@@ -275,12 +274,6 @@ struct SharedTile {
   double steepest() const {
     const Eigen::VectorXd all = slope();
     return all.size() > 0 ? all.cwiseAbs().maxCoeff() : 0;
-  }
-
-  bool is_converged() const {
-    return std::all_of(maps.begin(), maps.end(), [](const HarmonicTile& map) {
-      return map.minimum.termination == Termination::converged;
-    });
   }
 };
 

@@ -129,17 +129,19 @@ std::array<Placement, 2> place_in_plane(const ProblemPair& problems, const Shari
 
 // Curved spaces.
 
-std::array<TiledPositions, 2> first_tiles(const ProblemPair& problems, const LbfgsOptions& options,
-                                          const Stages& stage) {
+// On two threads, so that neither tells of its progress.
+std::array<TiledPositions, 2> first_tiles(const ProblemPair& problems, const LbfgsOptions& options) {
+  const ProgressCallback nobody;
+  std::array<Timings, 2> timings;
   std::array<TiledPositions, 2> tiles;
-  parallel_for(2, [&](int s) { tiles[s] = own_tile(problems[s], options, stage); });
+  parallel_for(2, [&](int s) { tiles[s] = own_tile(problems[s], options, Stages(nobody, timings[s])); });
   return tiles;
 }
 
 std::array<Placement, 2> place_on_curved_tile(const ProblemPair& problems, const SharingOptions& options,
                                               Stages& stage) {
   const std::array<TiledPositions, 2> own =
-      stage("initialize", [&] { return first_tiles(problems, options.lbfgs, stage); });
+      stage("initialize", [&] { return first_tiles(problems, options.lbfgs); });
   const Braid to_second = inverse(chosen_class(options, {{own[0].cones, own[1].cones}}));
   const std::vector<TileSharer> sharers = {{problems[0], {}}, {problems[1], to_second}};
   const SharedStart start = options.is_tile_regular
