@@ -33,8 +33,7 @@ class HalfedgeList {
 
   // The half-edge from one cut vertex to another, or -1.
   int find(int from, int to) const {
-    const auto at =
-        std::lower_bound(entries_.begin(), entries_.end(), std::pair(key_of_pair(from, to), -1));
+    const auto at = std::lower_bound(entries_.begin(), entries_.end(), std::pair(key_of_pair(from, to), -1));
     return at != entries_.end() && at->first == key_of_pair(from, to) ? at->second : -1;
   }
 
@@ -45,15 +44,14 @@ class HalfedgeList {
 // Makes a DevelopedSurface.
 class Development {
  public:
-  Development(const Embedding& embedding, const SharedGroup& group, ElementTable& elements,
-              std::string name)
+  Development(const Embedding& embedding, const SharedGroup& group, ElementTable& elements, std::string name)
       : embedding_(embedding),
         group_(group),
         elements_(elements),
         name_(std::move(name)),
         positions_(embedding),
         out_(exact_isometry(embedding.space(), embedding.placement)),
-        result_{embedding.triangles, embedding.source_vertex, {}, {}, {}, {}, {},
+        result_{embedding.triangles,       embedding.source_vertex, {}, {}, {}, {}, {},
                 Sites(embedding.positions)} {}
 
   DevelopedSurface run() {
@@ -96,8 +94,7 @@ class Development {
   // The element of a seam, in the frame of the positions.
   int element_of(const Seam& seam) {
     const Isometry& placement = embedding_.placement;
-    const Matrix3Of<MostPrecise> element =
-        group_.element(placement.inverse() * seam.transform * placement);
+    const Matrix3Of<MostPrecise> element = group_.element(placement.inverse() * seam.transform * placement);
     if (placement.is_identity()) return elements_.add(element);
     return elements_.add(out_ * element * precise_inverse(embedding_.space(), out_));
   }
@@ -106,9 +103,8 @@ class Development {
     for (const Seam& seam : embedding_.seams) {
       const bool is_mirror = seam.is_mirror();
       if (!is_mirror && seam.transform.reverses_orientation())
-        throw ArgumentError(
-            fmt::format("{} is glued by a rotary reflection; maps between surfaces need spheres or disks",
-                        name_));
+        throw ArgumentError(fmt::format(
+            "{} is glued by a rotary reflection; maps between surfaces need spheres or disks", name_));
       const int element = element_of(seam), inverse = elements_.inverse(element);
       for (std::size_t k = 1; k < seam.left.size(); ++k) {
         const int left = boundary_halfedge(seam.left[k - 1], seam.left[k]);
@@ -183,8 +179,7 @@ class Development {
     while (corners.size() <= static_cast<std::size_t>(halfedge_count())) {
       const int back = previous_halfedge(corners.back().halfedge), o = result_.opposite[back];
       if (o < 0) return corners;
-      const int element =
-          elements_.product(elements_.inverse(result_.beyond[back]), corners.back().element);
+      const int element = elements_.product(elements_.inverse(result_.beyond[back]), corners.back().element);
       corners.push_back({o, element});
       if (o == first) return corners;
     }
@@ -195,8 +190,8 @@ class Development {
     const std::vector<Corner> corners = corners_around(v);
     const bool is_inside = result_.opposite[corners.front().halfedge] >= 0;
     const ExactPoint here = positions_.exact(result_.site_of(corners.front().halfedge));
-    const ExactPoint place = is_inside ? held_by(corners.back().element, here)
-                                       : on_mirrors(corners.front(), corners.back(), here);
+    const ExactPoint place =
+        is_inside ? held_by(corners.back().element, here) : on_mirrors(corners.front(), corners.back(), here);
     for (const Corner& corner : corners) place_copy(v, corner, place);
   }
 
@@ -220,8 +215,7 @@ class Development {
 
   // The point near `here` on the mirrors of the first and the last triangle around a vertex.
   ExactPoint on_mirrors(const Corner& first, const Corner& last, const ExactPoint& here) {
-    const int right = mirror_.at(first.halfedge),
-              beyond_left = mirror_.at(previous_halfedge(last.halfedge)),
+    const int right = mirror_.at(first.halfedge), beyond_left = mirror_.at(previous_halfedge(last.halfedge)),
               left = elements_.product(elements_.product(elements_.inverse(last.element), beyond_left),
                                        last.element);
     const int rotation = elements_.product(left, right);

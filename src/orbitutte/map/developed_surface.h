@@ -10,9 +10,9 @@
 
 namespace orbitutte {
 
-/// The uncut surface of an embedding. Half-edges are those of Embedding::triangles. Positions are in the frame
-/// of the embedding's, each triangle's in one piece; the triangle beyond half-edge h goes on at the element
-/// beyond[h] times its own positions.
+/// The uncut surface of an embedding. Half-edges are those of Embedding::triangles. Positions are in the
+/// frame of the embedding's, each triangle's in one piece; the triangle beyond half-edge h goes on at the
+/// element beyond[h] times its own positions.
 struct DevelopedSurface {
   /// T x 3, cut vertices, which are also the sites.
   Triangles triangles;

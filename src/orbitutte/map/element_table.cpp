@@ -66,8 +66,7 @@ Matrix3Of<MostPrecise> exact_isometry(Space space, const Isometry& isometry) {
   if (isometry.is_identity()) return result;
   for (int step = 0; step < steps; ++step) {
     const Matrix3Of<MostPrecise> rest = precise_inverse(space, result) * result;
-    result =
-        (result * (MostPrecise(3) * Matrix3Of<MostPrecise>::Identity() - rest) / MostPrecise(2)).eval();
+    result = (result * (MostPrecise(3) * Matrix3Of<MostPrecise>::Identity() - rest) / MostPrecise(2)).eval();
   }
   return result;
 }
@@ -80,8 +79,7 @@ SharedGroup::SharedGroup(const Embedding& a)
 void SharedGroup::take_generators(const Embedding& a) {
   const ExactPositions positions(a);
   const PreciseGroup<MostPrecise> group = exact_group(a, positions);
-  const Matrix3Of<MostPrecise> out = exact_isometry(space_, a.placement),
-                               back = precise_inverse(space_, out);
+  const Matrix3Of<MostPrecise> out = exact_isometry(space_, a.placement), back = precise_inverse(space_, out);
   for (const Seam& seam : a.seams) {
     const Matrix3Of<MostPrecise> element = back * group.element(seam.transform) * out,
                                  inverse = precise_inverse(space_, element);

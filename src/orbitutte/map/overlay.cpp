@@ -54,7 +54,7 @@ struct WalkedEdges {
 // edge's reference half-edge is.
 struct EdgeStop {
   int edge = none;
-  int vertex = none;  // of the overlay
+  int vertex = none;           // of the overlay
   int from = none, to = none;  // sites of B's edge; only the first if it is a vertex of B
   int element = ElementTable::identity;
   ExactSigns::Share share;
@@ -62,9 +62,9 @@ struct EdgeStop {
 
 // What lies on the left of a half-edge of the overlay, and what it lies on.
 struct OverlayHalfedge {
-  int target = none;                   // vertex of the overlay
-  int on_a = none, on_b = none;        // half-edges of A and B in its direction
-  int left_a = none, left_b = none;    // triangles
+  int target = none;                     // vertex of the overlay
+  int on_a = none, on_b = none;          // half-edges of A and B in its direction
+  int left_a = none, left_b = none;      // triangles
   int element = ElementTable::identity;  // takes the triangle of B there
   bool is_traced = false;
 };
@@ -176,11 +176,11 @@ class OverlayBuilder {
       return id;
     }
     const int id = add_vertex({none, none, stop.halfedge, h});
-    share_on_b_[id] = pair_.signs()
-                          .share({of_b(b_.site_of(h), stop.element),
-                                  of_b(b_.site_of(next_halfedge(h)), stop.element)},
-                                 {of_a(stop.halfedge), of_a(next_halfedge(stop.halfedge))})
-                          .value;
+    share_on_b_[id] =
+        pair_.signs()
+            .share({of_b(b_.site_of(h), stop.element), of_b(b_.site_of(next_halfedge(h)), stop.element)},
+                   {of_a(stop.halfedge), of_a(next_halfedge(stop.halfedge))})
+            .value;
     add_stop({a_.edge[stop.halfedge], id, b_.site_of(h), b_.site_of(next_halfedge(h)), stop.element, {}},
              stop.halfedge);
     return id;
@@ -446,8 +446,7 @@ class OverlayBuilder {
       put_on_edge(result_.on_a, id, a_.reference[a_.edge[v.a_halfedge]], share_on_a_[id]);
     } else {
       const Fix& fix = fixes_[v.b_vertex];
-      put(result_.on_a, id, fix.place.triangle(),
-          pair_.coordinates(fix.place, b_.site_of(fix.halfedge)));
+      put(result_.on_a, id, fix.place.triangle(), pair_.coordinates(fix.place, b_.site_of(fix.halfedge)));
     }
   }
 
@@ -483,9 +482,9 @@ class OverlayBuilder {
   const DevelopedSurface& a_;
   const DevelopedSurface& b_;
   WalkedEdges walked_;
-  std::vector<Fix> fixes_;               // of B's vertices
-  std::vector<int> id_of_a_, id_of_b_;   // vertices of the overlay
-  std::vector<EdgeStop> stops_;          // on edges of A
+  std::vector<Fix> fixes_;              // of B's vertices
+  std::vector<int> id_of_a_, id_of_b_;  // vertices of the overlay
+  std::vector<EdgeStop> stops_;         // on edges of A
   std::vector<OverlayHalfedge> halfedges_;
   std::vector<std::vector<int>> pieces_of_a_, pieces_of_b_;  // of edges, in the direction of
   std::vector<int> walked_halfedge_;                         // the reference of A, and of this of B
@@ -502,8 +501,7 @@ class OverlayBuilder {
 Overlay overlay(const Embedding& a, const Embedding& b) { return OverlayBuilder(a, b).run(); }
 
 Points positions_on(const Points& V, const Embedding& embedding, const SurfacePoints& points) {
-  Points result =
-      Points::Constant(points.count(), 3, std::numeric_limits<double>::quiet_NaN());
+  Points result = Points::Constant(points.count(), 3, std::numeric_limits<double>::quiet_NaN());
   for (int k = 0; k < points.count(); ++k) {
     const int t = points.triangle[k];
     if (t < 0) continue;

@@ -223,8 +223,7 @@ class OverlayExaminer {
     Findings findings("indices");
     const auto count = static_cast<std::size_t>(overlay_.vertex_count());
     for (int side = 0; side < 2; ++side)
-      if (places(side).triangle.size() != count ||
-          places(side).barycentric.rows() != overlay_.vertex_count())
+      if (places(side).triangle.size() != count || places(side).barycentric.rows() != overlay_.vertex_count())
         findings.add("the vertices do not all have places on both surfaces");
     if (overlay_.parents.size() != static_cast<std::size_t>(face_count()))
       findings.add("the faces do not all have parents");
@@ -319,8 +318,7 @@ class OverlayExaminer {
     examine_fans(findings);
     conclude(findings);
     const long long undirected = (static_cast<long long>(edges_.size()) + boundary) / 2;
-    result_.euler_characteristic =
-        static_cast<int>(overlay_.vertex_count() - undirected + face_count());
+    result_.euler_characteristic = static_cast<int>(overlay_.vertex_count() - undirected + face_count());
     const int expected = is_disk ? 1 : 2;
     Findings characteristic("euler_characteristic");
     if (result_.euler_characteristic != expected)
@@ -341,8 +339,7 @@ class OverlayExaminer {
       met[v] = faces_around(edge);
     }
     for (int v = 0; v < overlay_.vertex_count(); ++v)
-      if (met[v] != faces[v] || faces[v] == 0)
-        findings.add("the faces around vertex {} are not one fan", v);
+      if (met[v] != faces[v] || faces[v] == 0) findings.add("the faces around vertex {} are not one fan", v);
   }
 
   // Counterclockwise from the face on the left of an edge, until the same face or the boundary.
@@ -518,16 +515,14 @@ class OverlayExaminer {
   // along the edge.
   NearPoint near_corner(int f, int v) const {
     for (int side = 0; side < 2; ++side)
-      if (const int k = corner_index(side, f, v); k >= 0)
-        return points_.near(corner_of_parent(side, f, k));
+      if (const int k = corner_index(side, f, v); k >= 0) return points_.near(corner_of_parent(side, f, k));
     const int on_a = edge_index(0, f, v), on_b = edge_index(1, f, v);
     if (on_a < 0 || on_b < 0) return {Vector3::Zero(), 1};
     const auto edge = edge_of_parent(0, f, on_a), line = edge_of_parent(1, f, on_b);
     const NearPoint a = points_.near(edge[0]), b = points_.near(edge[1]), c = points_.near(line[0]),
                     d = points_.near(line[1]);
-    const double of_a = a.x.dot((c.x - a.x).cross(d.x - a.x)),
-                 of_b = b.x.dot((c.x - b.x).cross(d.x - b.x)), sum = of_a - of_b,
-                 size = std::max({a.x.cwiseAbs().sum(), b.x.cwiseAbs().sum(), 1.0}),
+    const double of_a = a.x.dot((c.x - a.x).cross(d.x - a.x)), of_b = b.x.dot((c.x - b.x).cross(d.x - b.x)),
+                 sum = of_a - of_b, size = std::max({a.x.cwiseAbs().sum(), b.x.cwiseAbs().sum(), 1.0}),
                  reach = std::max({largest_coordinate(c.x - a.x), largest_coordinate(d.x - a.x),
                                    largest_coordinate(c.x - b.x), largest_coordinate(d.x - b.x)}),
                  off = a.error + b.error + c.error + d.error + 0x1p-53 * reach,
@@ -535,8 +530,7 @@ class OverlayExaminer {
     const double length = largest_coordinate(b.x - a.x);
     if (!(2 * error < std::abs(sum))) return {a.x, length + off};
     const double s = of_a / sum;
-    return {(1 - s) * a.x + s * b.x,
-            length * 4 * error / std::abs(sum) + a.error + b.error + 0x1p-51 * size};
+    return {(1 - s) * a.x + s * b.x, length * 4 * error / std::abs(sum) + a.error + b.error + 0x1p-51 * size};
   }
 
   // -- Neighbours --
@@ -682,9 +676,9 @@ class OverlayExaminer {
     const double off = std::abs(area - expected) / expected;
     result_.checks.push_back(
         {"target_area", off <= bound, off, bound,
-         off <= bound ? std::string()
-                      : fmt::format("the faces have the area {} on the target, and A has {}", area,
-                                    expected)});
+         off <= bound
+             ? std::string()
+             : fmt::format("the faces have the area {} on the target, and A has {}", area, expected)});
   }
 
   const Overlay& overlay_;

@@ -25,8 +25,7 @@ struct RoughDeterminant {
 RoughDeterminant rough_determinant(const PlacedPoint& p, const PlacedPoint& q, const PlacedPoint& r) {
   const Vector3 u = q.rough - p.rough, v = r.rough - p.rough;
   const double size = largest(p.rough), of_u = largest(u), of_v = largest(v),
-               error_u = p.error + q.error + half_unit * of_u,
-               error_v = p.error + r.error + half_unit * of_v;
+               error_u = p.error + q.error + half_unit * of_u, error_v = p.error + r.error + half_unit * of_v;
   const double error = 6 * (size * (of_u * error_v + of_v * error_u + error_u * error_v) +
                             p.error * of_u * of_v + 8 * half_unit * size * of_u * of_v) +
                        1e-290;
@@ -75,7 +74,8 @@ int sign_of(const Real& value, const Real& terms) {
 
 template <typename Real>
 int determinant_sign(const ElementTable& elements, const std::array<const PlacedPoint*, 3>& points) {
-  const Vector3Of<Real> p = Digits<Real>::of(elements, *points[0]), q = Digits<Real>::of(elements, *points[1]),
+  const Vector3Of<Real> p = Digits<Real>::of(elements, *points[0]),
+                        q = Digits<Real>::of(elements, *points[1]),
                         r = Digits<Real>::of(elements, *points[2]);
   const Real terms = largest_of<Real>(p) * largest_of<Real>(q) * largest_of<Real>(r);
   return sign_of<Real>(p.dot(q.cross(r)), terms);
@@ -170,8 +170,7 @@ PlacedPoint ExactSigns::placed(const Sites& sites, int site, int element) const 
   if (element == ElementTable::identity) return {&sites, site, element, here, error};
   const Matrix3& matrix = elements_.rough(element).matrix();
   const double size = matrix.cwiseAbs().maxCoeff();
-  return {&sites, site, element, matrix * here,
-          size * (3 * error + 6 * half_unit * here.cwiseAbs().sum())};
+  return {&sites, site, element, matrix * here, size * (3 * error + 6 * half_unit * here.cwiseAbs().sum())};
 }
 
 int ExactSigns::orientation(const PlacedPoint& p, const PlacedPoint& q, const PlacedPoint& r) const {

@@ -220,8 +220,7 @@ Fix SurfacePair::start(const Embedding& walked, const Embedding& walker) {
       if (tracer_.holds(t, element, walker_.site_of(h), fix.place)) return fix;
     throw ArgumentError("the surfaces do not cover the same part of the target");
   }
-  const std::optional<MeetingCopies> copies =
-      CopyMatcher(walked, walker).find(group_.elements_near(walked));
+  const std::optional<MeetingCopies> copies = CopyMatcher(walked, walker).find(group_.elements_near(walked));
   if (!copies)
     throw ArgumentError("the embeddings do not lie on the same tile: no copies of their marks meet");
   const int element = elements_.add(out * group_.element(copies->element) * in);
@@ -241,9 +240,7 @@ void SurfacePair::require_same_point(int walked_site, int walker_site, int eleme
           walked_.source_vertex[walked_site], walker_.source_vertex[walker_site]));
 }
 
-std::vector<Fix> SurfacePair::trace_edges(const Visit& visit) {
-  return Expedition(*this, visit).run(start_);
-}
+std::vector<Fix> SurfacePair::trace_edges(const Visit& visit) { return Expedition(*this, visit).run(start_); }
 
 std::vector<Fix> SurfacePair::locate_vertices() {
   const Visit none;

@@ -135,8 +135,8 @@ void require_points(const Embedding& embedding, const SurfacePoints& points) {
     const int t = points.triangle[k];
     if (t == -1) continue;
     if (t < 0 || t >= embedding.triangles.rows())
-      throw ArgumentError(fmt::format("point {} names the triangle {}; there are {}", k, t,
-                                      embedding.triangles.rows()));
+      throw ArgumentError(
+          fmt::format("point {} names the triangle {}; there are {}", k, t, embedding.triangles.rows()));
     const auto row = points.barycentric.row(k);
     if (!row.allFinite() || row.minCoeff() < 0 || std::abs(row.sum() - 1) > bound)
       throw ArgumentError(fmt::format(
