@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <queue>
 #include <set>
 #include <tuple>
 
@@ -90,21 +91,31 @@ void SharedGroup::take_generators(const Embedding& a) {
   list_words();
 }
 
-// Breadth first. Elements that agree to nine digits are the same.
+// Those that move (0, 0, 1) least first. Elements that agree to some digits are the same.
 void SharedGroup::list_words() {
-  constexpr std::size_t most_words = 4000;
-  using Key = std::tuple<long long, long long, long long>;
+  constexpr std::size_t most_words = 20000;
+  constexpr double largest_entry = 1e6;
+  using Key = std::tuple<long long, long long, long long, bool>;
   const auto key_of = [](const Isometry& g) {
     const auto digits = [&](int i, int j) { return std::llround(1e6 * g.matrix()(i, j)); };
-    return Key(digits(0, 2), digits(1, 2), digits(0, 0) + 3 * digits(1, 0));
+    return Key(digits(0, 2), digits(1, 2), digits(0, 0) + 3 * digits(1, 0), g.reverses_orientation());
+  };
+  const auto moves_less = [&](int x, int y) {
+    return words_[x].rough.matrix().col(2).squaredNorm() > words_[y].rough.matrix().col(2).squaredNorm();
   };
   words_ = {{Isometry(), -1, -1}};
   std::set<Key> known = {key_of(Isometry())};
-  for (std::size_t k = 0; k < words_.size() && words_.size() < most_words; ++k) {
+  std::priority_queue<int, std::vector<int>, decltype(moves_less)> waiting(moves_less);
+  waiting.push(0);
+  while (!waiting.empty() && words_.size() < most_words) {
+    const int k = waiting.top();
+    waiting.pop();
     for (std::size_t g = 0; g < generators_.size(); ++g) {
       const Isometry product = words_[k].rough * generators_[g].rough;
-      if (!(largest_entry_of(product.matrix()) < 1e6) || !known.insert(key_of(product)).second) continue;
-      words_.push_back({product, static_cast<int>(k), static_cast<int>(g)});
+      if (!(largest_entry_of(product.matrix()) < largest_entry) || !known.insert(key_of(product)).second)
+        continue;
+      words_.push_back({product, k, static_cast<int>(g)});
+      waiting.push(static_cast<int>(words_.size()) - 1);
     }
   }
 }

@@ -71,7 +71,7 @@ class SharedGroup {
   /// Of a fixed tile.
   PreciseGroup<MostPrecise> group_;
 
-  /// Of a free one: the gluings and their inverses, and products of these, the shortest first.
+  /// Of a free one: the gluings and their inverses, and products of these.
   std::vector<PreciseElement<MostPrecise>> generators_;
   std::vector<Word> words_;
 };

@@ -201,10 +201,11 @@ ExactSigns::Share ExactSigns::share(const LineThrough& edge, const LineThrough& 
   const RoughDeterminant from = rough_determinant(edge.to, line.from, line.to),
                          to = rough_determinant(edge.from, line.from, line.to);
   const double sum = from.value - to.value, error = 2 * (from.error + to.error);
-  if (error <= enough * std::abs(sum)) return {-to.value / sum, error / std::abs(sum) + rounding};
+  if (error <= enough * std::abs(sum))
+    return {std::clamp(-to.value / sum, 0.0, 1.0), error / std::abs(sum) + rounding};
   const double value = all_digits_ ? precise_share<MostPrecise>(elements_, edge, line)
                                    : precise_share<Precise>(elements_, edge, line);
-  return {value, rounding};
+  return {std::clamp(value, 0.0, 1.0), rounding};
 }
 
 int ExactSigns::compare_shares(const LineThrough& edge, const LineThrough& first,
