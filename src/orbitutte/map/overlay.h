@@ -45,7 +45,7 @@ struct Overlay {
   /// One for each face.
   std::vector<OverlayFace> parents;
 
-  /// Elements of the group, from the frame of B's positions to that of A's, both canonical.
+  /// From the frame of B's positions to that of A's.
   std::vector<Isometry> placements;
 
   int vertex_count() const { return static_cast<int>(vertices.size()); }
@@ -54,7 +54,7 @@ struct Overlay {
 
 /// The overlay of two certified embeddings into the same target: the same signature, with the same tile in
 /// the canonical frame, the marks corresponding in their order (Embedding::cones). Marked vertices lie on
-/// each other because the list says so; all others are where exact signs put them.
+/// each other as the list says; all others are where exact signs put them.
 ///
 /// Everything is decided by the signs of determinants of three points (and, of two crossings on one edge, by
 /// the order of such), which are exact: a filter in doubles, and numbers of 320 bits or, where positions have
@@ -79,8 +79,16 @@ Overlay overlay(const Embedding& a, const Embedding& b);
 /// of that surface.
 Points positions_on(const Points& V, const Embedding& embedding, const SurfacePoints& points);
 
-/// The overlay's faces divided into triangles from their first corners (T x 3), and the face of each, if it
-/// is asked for.
-Triangles overlay_triangles(const Overlay& overlay, std::vector<int>* face_of_triangle = nullptr);
+/// An overlay in triangles.
+struct OverlayTriangles {
+  /// T x 3, vertices of the overlay.
+  Triangles triangles;
+
+  /// T: the face that each is of.
+  std::vector<int> face;
+};
+
+/// The faces divided into triangles from their first corners.
+OverlayTriangles overlay_triangles(const Overlay& overlay);
 
 }  // namespace orbitutte

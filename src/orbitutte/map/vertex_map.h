@@ -3,6 +3,7 @@
 // what they carry over.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "orbitutte/map/point_map.h"
