@@ -13,7 +13,7 @@ LAYERS = [PLAIN, "geometry", "mesh", "io", "inspect", "samples", "weights", "cut
           "embed", "report", "export", "page", "render"]
 ROOT_FILES = {"names": PLAIN, "types": PLAIN, "errors": PLAIN, "progress": PLAIN, "parallel": PLAIN, "memory": PLAIN, "options": PLAIN, "minimum": PLAIN,
               "version": PLAIN, "embed_types": "embed", "embed": "embed", "certified_map": "embed", "choose": "embed", "distortion_floor": "embed", "preparation": "embed", "warnings": "embed"}
-COMPOSING = {"map/surface_map", "map/surface_map_types", "map/map_sides"}  # the part of `map` that composes, as `embed` does
+COMPOSING = {"map/surface_map", "map/composed_map"}  # the part of `map` that composes, as `embed` does
 # The certificate shares no code with what it judges; only `embed` and `map` compose.
 NEVER = {("verify", layer) for layer in ("weights", "cut", "linear", "solve", "cones")} | {("map", "solve"), ("map", "linear")}
 SMALL = "orbitutte/embed_types.h"  # what programs include to name options and results

@@ -11,8 +11,10 @@
 #include "command_arguments.h"
 #include "command_files.h"
 #include "commands.h"
+#include "orbitutte/export/map_files.h"
 #include "orbitutte/io/file.h"
 #include "orbitutte/io/landmark_file.h"
+#include "orbitutte/map/composed_map.h"
 #include "orbitutte/map/surface_map.h"
 #include "orbitutte/orbifold/polygon.h"
 #include "orbitutte/report/embedding_file.h"
@@ -96,6 +98,13 @@ void add_embedding(const EmbedResult& result, const RunRecord& run, const std::a
   contents.emplace_back(names[1], report_json(result, run));
 }
 
+void write_composed(const std::string& folder, const ComposedMap& composed) {
+  write_vertex_map(in_folder(folder, "a_to_b.txt"), composed.a_to_b);
+  write_vertex_map(in_folder(folder, "b_to_a.txt"), composed.b_to_a);
+  write_overlay(in_folder(folder, "overlay_a.obj"), composed.overlay, composed.overlay_on_a);
+  write_overlay(in_folder(folder, "overlay_b.obj"), composed.overlay, composed.overlay_on_b);
+}
+
 void tell_warnings(const SurfaceMap& map) {
   for (const std::string& warning : map.warnings) tell("orbitutte: warning: {}\n", warning);
   for (const std::string& warning : map.a.warnings) tell("orbitutte: warning: A: {}\n", warning);
@@ -106,20 +115,21 @@ double conformality(const EmbedResult& result) {
   return result.minimum.energy / (2 * target_area(result.embedding.target));
 }
 
-void summarize(const SurfaceMap& map, const std::optional<MapFigures>& figures) {
+void summarize(const SurfaceMap& map, const std::optional<ComposedMap>& composed) {
   const Target& target = map.target();
   tell("{} landmarks, onto {} ({}); energy over twice the area {:.4g} and {:.4g}, where 1 is conformal\n",
        map.landmarks.size(), target.signature,
        target.has_free_tile ? fmt::format("a {} tile", name_of(map.map_class.tile)) : "its only tile",
        conformality(map.a), conformality(map.b));
-  if (figures) {
-    tell("the overlay has {} vertices and {} faces\n", figures->overlay_vertices, figures->overlay_faces);
+  if (composed) {
+    tell("the overlay has {} vertices and {} faces\n", composed->overlay.vertex_count(),
+         composed->overlay.face_count());
     tell(
         "symmetric Dirichlet energy: median {:.4g}, where 1 is an isometry; area within a factor of 4 on "
         "{:.1f} %\n",
-        figures->distortion.symmetric_dirichlet.median, 100 * figures->distortion.within_4);
+        composed->distortion.symmetric_dirichlet.median, 100 * composed->distortion.within_4);
   }
-  if (is_certified(map, figures)) tell("certified: bijective\n");
+  if (is_certified(map, composed)) tell("certified: bijective\n");
 }
 
 void explain(char name, const EmbedResult& result) {
@@ -130,8 +140,25 @@ void explain(char name, const EmbedResult& result) {
     if (!check.passed) tell("  {}: {}\n", check.name, check.detail);
 }
 
-ExitCode exit_code(const SurfaceMap& map, const std::optional<MapFigures>& figures) {
-  if (is_certified(map, figures)) return succeeded;
+// Nothing if an embedding is not certified.
+std::optional<ComposedMap> composed_map(const Surface& a, const Surface& b, const SurfaceMap& map) {
+  if (!map.is_bijective()) return std::nullopt;
+  try {
+    return compose(a, b, map);
+  } catch (const Error& error) {
+    tell("orbitutte: both embeddings are certified, but they cannot be laid over each other: {}\n",
+         error.what());
+    return std::nullopt;
+  }
+}
+
+void explain(const OverlayCertificate& certificate) {
+  for (const Check& check : certificate.checks)
+    if (!check.passed) tell("orbitutte: the overlay does not hold: {}: {}\n", check.name, check.detail);
+}
+
+ExitCode exit_code(const SurfaceMap& map, const std::optional<ComposedMap>& composed) {
+  if (is_certified(map, composed)) return succeeded;
   const bool converged = map.a.minimum.termination == Termination::converged &&
                          map.b.minimum.termination == Termination::converged;
   return converged ? not_certified : not_converged;
@@ -154,14 +181,16 @@ int map_command(const MapArguments& arguments) {
   line.clear();
   tell_warnings(map);
 
-  std::optional<MapFigures> figures;
+  const Stopwatch composing;
+  const std::optional<ComposedMap> composed = composed_map(*a.input.surface, *b.input.surface, map);
   Timings timings = map.timings;
+  timings.emplace_back("compose", composing.seconds());
   timings.emplace_back("total", total.seconds());
   for (MappedInput* const side : {&a, &b}) {
     side->run.total_seconds = total.seconds();
     side->run.peak_memory_bytes = peak_memory_bytes();
   }
-  const std::string json = map_json(map, figures, timings);
+  const std::string json = map_json(map, composed, timings);
   if (!arguments.output.empty()) {
     Contents contents;
     add_embedding(map.a, a.run, {"a.ply", "a.json"}, contents);
@@ -169,12 +198,14 @@ int map_command(const MapArguments& arguments) {
     contents.emplace_back("map.json", json);
     make_folder(arguments.output);
     for (const auto& [name, bytes] : contents) write_file(in_folder(arguments.output, name), bytes);
+    if (composed) write_composed(arguments.output, *composed);
   }
   if (arguments.json) fmt::print("{}", json);
-  if (!arguments.quiet) summarize(map, figures);
+  if (!arguments.quiet) summarize(map, composed);
   explain('A', map.a);
   explain('B', map.b);
-  return exit_code(map, figures);
+  if (composed) explain(composed->certificate);
+  return exit_code(map, composed);
 }
 
 }  // namespace orbitutte::cli

@@ -44,43 +44,43 @@ Json timings_json(const Timings& timings) {
   return result;
 }
 
-Json overlay_json(const MapFigures& figures) {
+Json overlay_json(const ComposedMap& composed) {
   Json checks = Json::array();
-  for (const Check& check : figures.certificate.checks)
+  for (const Check& check : composed.certificate.checks)
     checks.push_back({{"name", check.name},
                       {"passed", check.passed},
                       {"value", number(check.value)},
                       {"bound", number(check.bound)}});
-  return {{"vertices", figures.overlay_vertices},
-          {"faces", figures.overlay_faces},
-          {"euler_characteristic", figures.certificate.euler_characteristic},
-          {"holds", figures.certificate.holds},
+  return {{"vertices", composed.overlay.vertex_count()},
+          {"faces", composed.overlay.face_count()},
+          {"euler_characteristic", composed.certificate.euler_characteristic},
+          {"holds", composed.certificate.holds},
           {"checks", std::move(checks)}};
 }
 
 }  // namespace
 
-bool is_certified(const SurfaceMap& map, const std::optional<MapFigures>& figures) {
-  return map.is_bijective() && figures && figures->certificate.holds;
+bool is_certified(const SurfaceMap& map, const std::optional<ComposedMap>& composed) {
+  return map.is_bijective() && composed && composed->certificate.holds;
 }
 
-std::string map_json(const SurfaceMap& map, const std::optional<MapFigures>& figures,
+std::string map_json(const SurfaceMap& map, const std::optional<ComposedMap>& composed,
                      const Timings& timings) {
   Json json = {
       {"schema", "orbitutte.map/1"},
       {"landmarks", landmarks_json(map.landmarks)},
       {"target", target_json(map)},
-      {"bijective", is_certified(map, figures)},
-      {"landmark_error", figures ? number(figures->landmark_error) : Json()},
-      {"symmetric_dirichlet", figures ? number(figures->distortion.symmetric_dirichlet.mean) : Json()}};
-  if (figures) {
-    const MapDistortion& distortion = figures->distortion;
+      {"bijective", is_certified(map, composed)},
+      {"landmark_error", composed ? number(composed->landmark_error) : Json()},
+      {"symmetric_dirichlet", composed ? number(composed->distortion.symmetric_dirichlet.mean) : Json()}};
+  if (composed) {
+    const MapDistortion& distortion = composed->distortion;
     json["distortion"] = {{"median", number(distortion.symmetric_dirichlet.median)},
                           {"percentile_90", number(distortion.symmetric_dirichlet.percentile_90)},
                           {"within_4", distortion.within_4},
                           {"degenerate", distortion.degenerate}};
   }
-  json["overlay"] = figures ? overlay_json(*figures) : Json();
+  json["overlay"] = composed ? overlay_json(*composed) : Json();
   json["warnings"] = map.warnings;
   json["timings"] = timings_json(timings);
   return json.dump(1) + "\n";

@@ -5,26 +5,17 @@
 #include <optional>
 #include <string>
 
-#include "orbitutte/map/map_distortion.h"
-#include "orbitutte/map/overlay_certificate.h"
+#include "orbitutte/map/composed_map.h"
 #include "orbitutte/map/surface_map.h"
 
 namespace orbitutte {
 
-/// What is known of a map beyond its embeddings: of the overlay, which only certified embeddings have.
-struct MapFigures {
-  int overlay_vertices = 0, overlay_faces = 0;
-  OverlayCertificate certificate;
-  MapDistortion distortion;
-
-  /// The largest distance between a landmark's image and its partner, in square roots of B's area.
-  double landmark_error = 0;
-};
-
-/// Is the map proved to be one to one: both embeddings are, and the overlay holds?
-bool is_certified(const SurfaceMap& map, const std::optional<MapFigures>& figures);
+/// Is the map proved to be one to one: are both embeddings certified, and does the overlay hold? Nothing is
+/// composed unless they are.
+bool is_certified(const SurfaceMap& map, const std::optional<ComposedMap>& composed);
 
 /// `timings` are those of the whole command. Ends with a line break.
-std::string map_json(const SurfaceMap& map, const std::optional<MapFigures>& figures, const Timings& timings);
+std::string map_json(const SurfaceMap& map, const std::optional<ComposedMap>& composed,
+                     const Timings& timings);
 
 }  // namespace orbitutte

@@ -13,6 +13,7 @@
 #include "orbitutte/orbifold/braid.h"
 #include "orbitutte/orbifold/cone_target.h"
 #include "orbitutte/orbifold/free_tile.h"
+#include "orbitutte/parallel.h"
 #include "orbitutte/solve/conformal_metric.h"
 #include "orbitutte/solve/development.h"
 #include "orbitutte/solve/edge_words.h"
@@ -537,8 +538,7 @@ Points start_on_polygon(const GluingProblem& problem, const Target& target, cons
 // From the doubled polygon, through tiles of less area.
 class AreaContinuation {
  public:
-  AreaContinuation(const GluingProblem& problem, const WordGraph& graph)
-      : problem_(problem), graph_(graph) {}
+  AreaContinuation(const GluingProblem& problem, const WordGraph& graph) : problem_(problem), graph_(graph) {}
 
   Minimum run(const LbfgsOptions& options, const Stages& stage) const {
     Minimum minimum;
@@ -595,6 +595,24 @@ struct Sharing {
   std::vector<const ShapeSearch*> searches;
 };
 
+// Positions that are about harmonic on the tile of these cones, from any. Far from them a factor serves for
+// some iterations only.
+Points approached(const ShapeSearch& search, const Points& cones, const Points& start,
+                  const LbfgsOptions& options) {
+  constexpr int most_rounds = 20, few_iterations = 8, most_iterations = 40;
+  LbfgsOptions within = options;
+  within.tolerance = std::max(options.tolerance, 1e-5);
+  within.max_iterations = std::min(options.max_iterations, most_iterations);
+  within.callback = {};
+  Minimum minimum;
+  minimum.positions = start;
+  for (int round = 0; round < most_rounds; ++round) {
+    minimum = search.harmonic(cones, minimum.positions, within).minimum;
+    if (minimum.iterations <= few_iterations) break;
+  }
+  return minimum.positions;
+}
+
 }  // namespace
 
 Minimum curved_map(const GluingProblem& problem, const LbfgsOptions& options, const Stages& stage) {
@@ -625,8 +643,11 @@ std::vector<Minimum> maps_sharing_a_tile(const std::vector<TileSharer>& sharers,
                                          const LbfgsOptions& options, const Stages& stage) {
   const Sharing sharing(sharers);
   const LbfgsOptions within = tightened(options);
+  std::vector<Points> x(start.x.size());
+  parallel_for(static_cast<int>(x.size()),
+               [&](int s) { x[s] = approached(*sharing.searches[s], start.cones, start.x[s], within); });
   ShapeDescent descent(sharing.searches, within, stage);
-  return start.is_tile_held ? descent.stay(start.cones, start.x) : descent.run(start.cones, start.x);
+  return start.is_tile_held ? descent.stay(start.cones, x) : descent.run(start.cones, x);
 }
 
 }  // namespace orbitutte

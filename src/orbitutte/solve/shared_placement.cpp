@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -138,15 +139,50 @@ std::array<TiledPositions, 2> first_tiles(const ProblemPair& problems, const Lbf
   return tiles;
 }
 
+// The isometry that takes points to others best (k x 3 each), of those that take one of them to its partner.
+Isometry alignment_of(Space space, const Points& from, const Points& to) {
+  Isometry best;
+  double least = std::numeric_limits<double>::infinity();
+  for (Eigen::Index centre = 0; centre < from.rows(); ++centre) {
+    const Isometry from_origin = space.to_origin(to.row(centre)).inverse(),
+                   to_origin = space.to_origin(from.row(centre));
+    std::complex<double> sum = 0;
+    for (Eigen::Index k = 0; k < from.rows(); ++k) {
+      const Eigen::Vector2d p = Space::conformal(to_origin * Vector3(from.row(k))),
+                            q = Space::conformal(from_origin.inverse() * Vector3(to.row(k)));
+      sum += std::complex<double>(q.x(), q.y()) * std::complex<double>(p.x(), -p.y());
+    }
+    const Isometry candidate = from_origin * space.rotation(Space::origin(), std::arg(sum)) * to_origin;
+    double off = 0;
+    for (Eigen::Index k = 0; k < from.rows(); ++k) {
+      const double distance = space.distance(space.retract(candidate * Vector3(from.row(k))), to.row(k));
+      off += distance * distance;
+    }
+    if (off < least) least = off, best = candidate;
+  }
+  return best;
+}
+
+// Positions moved so that the cones lie as near as can be to where they are to be.
+Points aligned(Space space, const TiledPositions& own, const Points& cones) {
+  Points result = alignment_of(space, own.cones, cones).on_rows(own.x);
+  retract_points(space, result);
+  return result;
+}
+
 std::array<Placement, 2> place_on_curved_tile(const ProblemPair& problems, const SharingOptions& options,
                                               Stages& stage) {
   const std::array<TiledPositions, 2> own =
       stage("initialize", [&] { return first_tiles(problems, options.lbfgs); });
   const Braid to_second = inverse(chosen_class(options, {{own[0].cones, own[1].cones}}));
   const std::vector<TileSharer> sharers = {{problems[0], {}}, {problems[1], to_second}};
-  const SharedStart start = options.is_tile_regular
-                                ? SharedStart{polygon_tile(problems[0]).cones, {own[0].x, own[1].x}, true}
-                                : SharedStart{own[0].cones, {own[0].x, own[1].x}, false};
+  const Moduli moduli = moduli_of(problems[0].get().target, problems[0].get().cut);
+  const Space space = moduli.space();
+  const Points cones = options.is_tile_regular ? polygon_tile(problems[0]).cones : own[0].cones;
+  const SharedStart start = {
+      cones,
+      {aligned(space, own[0], cones), aligned(space, own[1], braided(moduli, cones, to_second))},
+      options.is_tile_regular};
   std::vector<Minimum> minima =
       stage("optimize", [&] { return maps_sharing_a_tile(sharers, start, options.lbfgs, stage); });
   std::array<Placement, 2> placed;
@@ -156,10 +192,9 @@ std::array<Placement, 2> place_on_curved_tile(const ProblemPair& problems, const
     positions.row(problem.cut.marks.front()) = closing_position(problem.target, problem.cut, positions);
     placed[s] = placed_at(problem, std::move(minima[s]));
   }
-  const Moduli moduli = moduli_of(problems[0].get().target, problems[0].get().cut);
-  const Points cones = placed[0].minimum.positions(problems[0].get().cut.marks, Eigen::all);
+  const Points found = placed[0].minimum.positions(problems[0].get().cut.marks, Eigen::all);
   if (!to_second.empty())
-    placed[1] = moved(problems[1], motions(moduli, cones, to_second).front().inverse(), placed[1]);
+    placed[1] = moved(problems[1], motions(moduli, found, to_second).front().inverse(), placed[1]);
   placed[0].frame = placed[1].frame = frame_of_marks(problems[0], placed[0].minimum.positions);
   return placed;
 }
