@@ -213,7 +213,8 @@ class Mapping {
 
   std::array<Placement, 2> placed(const ProblemPair& problems) {
     if (!target_.has_free_tile) return placed_alone(problems);
-    if (options_.tile == TileShape::shared) {
+    // The shapes of more landmarks lie too far out in the hyperbolic plane for a search.
+    if (options_.tile == TileShape::shared && (places_.count() <= most_compared || is_flat())) {
       try {
         std::array<Placement, 2> shared = placed_together(problems, TileShape::shared);
         if (is_converged(shared)) return shared;
@@ -240,6 +241,8 @@ class Mapping {
   }
 
   std::array<Placement, 2> placed_together(const ProblemPair& problems, TileShape shape) {
+    if (shape == TileShape::regular && target_.topology != Topology::sphere)
+      throw ArgumentError("the tile of a disk has no regular shape; take the shared one (--tile shared)");
     map_.map_class.tile = shape;
     SharingOptions options;
     options.is_tile_regular = shape == TileShape::regular;
@@ -247,6 +250,8 @@ class Mapping {
     if (has_classes()) options.choose_class = [&](const OwnTiles& tiles) { return chosen_class(tiles); };
     return place_together(problems, options, stage_);
   }
+
+  bool is_flat() const { return target_.space == Space::plane(); }
 
   bool has_classes() const {
     return target_.topology == Topology::sphere && places_.count() <= most_compared;

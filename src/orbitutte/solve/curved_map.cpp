@@ -408,7 +408,8 @@ class ShapeDescent {
                                        const Eigen::VectorXd& step) const {
     const std::optional<Points> cones = searches_.front()->moved_cones(tile.maps.front(), step);
     if (!cones) return std::nullopt;
-    const LbfgsOptions options = within(std::min(loosest, 1e-4 * tile.steepest()));
+    // So many vertices may be off that their sum would show in the slope.
+    const LbfgsOptions options = within(std::min(loosest, 1e-6 * tile.steepest()));
     SharedTile next;
     for (std::size_t s = 0; s < searches_.size(); ++s) {
       const HarmonicTile& map = tile.maps[s];

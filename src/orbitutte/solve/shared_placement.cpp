@@ -47,6 +47,12 @@ LbfgsOptions telling(const LbfgsOptions& options, const Stages& stage) {
   return result;
 }
 
+// The cones of the doubled polygon.
+Points polygon_of(const Moduli& moduli) {
+  const Points polygon = moduli.doubled_polygon();
+  return moduli.closed(polygon).value_or(polygon);
+}
+
 // The plane.
 
 // What the maps of one surface onto all of its tiles are made from.
@@ -77,10 +83,9 @@ struct FlatSurface {
   }
 };
 
-// The doubled polygon of so many cones, in the order of the marks.
+// The doubled polygon, in the order of the marks.
 Eigen::VectorXcd regular_shape(const GluingProblem& problem) {
-  const Moduli moduli = moduli_of(problem.target, problem.cut);
-  const Points polygon = moduli.closed(moduli.doubled_polygon()).value_or(moduli.doubled_polygon());
+  const Points polygon = polygon_of(moduli_of(problem.target, problem.cut));
   Eigen::VectorXcd shape(polygon.rows());
   for (Eigen::Index k = 0; k < shape.size(); ++k) shape[k] = {polygon(k, 0), polygon(k, 1)};
   return shape;
@@ -131,11 +136,17 @@ std::array<Placement, 2> place_in_plane(const ProblemPair& problems, const Shari
 // Curved spaces.
 
 // On two threads, so that neither tells of its progress.
-std::array<TiledPositions, 2> first_tiles(const ProblemPair& problems, const LbfgsOptions& options) {
+std::array<TiledPositions, 2> own_tiles(const ProblemPair& problems, const LbfgsOptions& options) {
   const ProgressCallback nobody;
   std::array<Timings, 2> timings;
   std::array<TiledPositions, 2> tiles;
   parallel_for(2, [&](int s) { tiles[s] = own_tile(problems[s], options, Stages(nobody, timings[s])); });
+  return tiles;
+}
+
+std::array<TiledPositions, 2> polygon_tiles(const ProblemPair& problems) {
+  std::array<TiledPositions, 2> tiles;
+  parallel_for(2, [&](int s) { tiles[s] = polygon_tile(problems[s]); });
   return tiles;
 }
 
@@ -172,17 +183,21 @@ Points aligned(Space space, const TiledPositions& own, const Points& cones) {
 
 std::array<Placement, 2> place_on_curved_tile(const ProblemPair& problems, const SharingOptions& options,
                                               Stages& stage) {
-  const std::array<TiledPositions, 2> own =
-      stage("initialize", [&] { return first_tiles(problems, options.lbfgs); });
-  const Braid to_second = inverse(chosen_class(options, {{own[0].cones, own[1].cones}}));
-  const std::vector<TileSharer> sharers = {{problems[0], {}}, {problems[1], to_second}};
   const Moduli moduli = moduli_of(problems[0].get().target, problems[0].get().cut);
-  const Space space = moduli.space();
-  const Points cones = options.is_tile_regular ? polygon_tile(problems[0]).cones : own[0].cones;
-  const SharedStart start = {
-      cones,
-      {aligned(space, own[0], cones), aligned(space, own[1], braided(moduli, cones, to_second))},
-      options.is_tile_regular};
+  std::array<TiledPositions, 2> first;
+  Braid to_second;
+  if (!options.is_tile_regular || options.choose_class) {
+    first = stage("initialize", [&] { return own_tiles(problems, options.lbfgs); });
+    to_second = inverse(chosen_class(options, {{first[0].cones, first[1].cones}}));
+  }
+  if (options.is_tile_regular && to_second.empty())
+    first = stage("initialize", [&] { return polygon_tiles(problems); });
+  const Points cones = options.is_tile_regular ? polygon_of(moduli) : first[0].cones;
+  const std::vector<TileSharer> sharers = {{problems[0], {}}, {problems[1], to_second}};
+  const SharedStart start = {cones,
+                             {aligned(moduli.space(), first[0], cones),
+                              aligned(moduli.space(), first[1], braided(moduli, cones, to_second))},
+                             options.is_tile_regular};
   std::vector<Minimum> minima =
       stage("optimize", [&] { return maps_sharing_a_tile(sharers, start, options.lbfgs, stage); });
   std::array<Placement, 2> placed;
