@@ -142,8 +142,13 @@ class ClassSearch {
 
   IsotopyClass run() {
     constexpr int most_steps = 60;
+    constexpr double much_nearer = 0.6;
+    const Place first = here_;
     for (int step = 0; step < most_steps && advance(); ++step) continue;
-    return {here_.braid, here_.distance, next_distance()};
+    const double found = here_.distance;
+    if (found > much_nearer * first.distance) here_ = first;
+    const double next = next_distance();
+    return {here_.braid, here_.distance, found < here_.distance ? std::min(found, next) : next};
   }
 
  private:

@@ -30,26 +30,10 @@ constexpr int most_tours = 24;
 // The most landmarks for which classes are compared.
 constexpr int most_compared = 8;
 
-// Landmarks in the order of the marks of their target.
-struct MarkedPair {
-  Target target;
-  std::vector<Landmark> marks;
-
-  std::vector<int> vertices(int side) const {
-    std::vector<int> result;
-    for (const Landmark& landmark : marks) result.push_back(side == 0 ? landmark.a : landmark.b);
-    return result;
-  }
-};
-
 // One of the two surfaces on the way to its embedding. The parts refer to each other.
 struct Side {
-  Side(const Surface& the_surface, const MarkedPair& pair, int number, const EmbedOptions& the_options)
-      : surface(the_surface),
-        options(the_options),
-        prepared(prepare(surface, options)),
-        target(pair.target),
-        vertices(pair.vertices(number)) {}
+  Side(const Surface& the_surface, const Target& the_target, const EmbedOptions& the_options)
+      : surface(the_surface), options(the_options), prepared(prepare(surface, options)), target(the_target) {}
   Side(const Side&) = delete;
   Side& operator=(const Side&) = delete;
 
@@ -59,6 +43,8 @@ struct Side {
   EmbedOptions options;
   PreparedSurface prepared;
   Target target;
+
+  /// In the order of the target's marks.
   std::vector<int> vertices;
   EmbeddingCache cache = EmbeddingCache(Kept::order);
   CutMesh cut;
@@ -79,12 +65,12 @@ EmbedOptions quiet(EmbedOptions options) {
 }
 
 // The landmarks inside in the order of a tour, then those on the boundary.
-MarkedPair in_order(const Target& target, const std::vector<Landmark>& landmarks,
-                    const LandmarkPlaces& places, const std::vector<int>& tour) {
-  MarkedPair pair = {target, {}};
-  for (const int k : tour) pair.marks.push_back(landmarks[places.inside[k]]);
-  for (const int k : places.on_boundary) pair.marks.push_back(landmarks[k]);
-  return pair;
+std::vector<Landmark> in_order(const std::vector<Landmark>& landmarks, const LandmarkPlaces& places,
+                               const std::vector<int>& tour) {
+  std::vector<Landmark> marks;
+  for (const int k : tour) marks.push_back(landmarks[places.inside[k]]);
+  for (const int k : places.on_boundary) marks.push_back(landmarks[k]);
+  return marks;
 }
 
 // Where tours begin on A: at the first landmark on the boundary, if there is one.
@@ -120,12 +106,16 @@ class Mapping {
         stage_(options.embed.progress, map_.timings) {
     map_.landmarks = landmarks;
     map_.map_class.tile = options.tile;
+    // The shapes of more landmarks lie too far out in the hyperbolic plane for a search.
+    if (places_.count() > most_compared && target_.has_free_tile && !is_flat())
+      map_.map_class.tile = TileShape::regular;
   }
 
   SurfaceMap run() {
-    cut();
+    find_tours();
     embed_both({options_.embed.weights.kind, options_.embed.weights.kind});
-    if (!is_bijective()) try_other_weights();
+    if (!is_bijective() && is_converged()) try_other_weights();
+    warn_of_classes();
     map_.a = std::move(sides_[0]->result);
     map_.b = std::move(sides_[1]->result);
     return std::move(map_);
@@ -133,34 +123,45 @@ class Mapping {
 
  private:
   using Weights = std::array<WeightKind, 2>;
+  using Problems = std::array<std::optional<GluingProblem>, 2>;
 
-  // Along the first tour that does not shut itself off on either surface.
-  void cut() {
-    std::vector<std::vector<int>> tours;
+  // The tour that was asked for comes first.
+  void find_tours() {
     stage_("tour", [&] {
       std::vector<int> inside;
       for (const int k : places_.inside) inside.push_back(map_.landmarks[k].a);
-      tours = short_tours(*surfaces_[0], inside, start_of_tours(map_.landmarks, places_), most_tours);
-      if (!options_.tour.empty()) tours.insert(tours.begin(), asked_tour(options_.tour, places_));
+      tours_ = short_tours(*surfaces_[0], inside, start_of_tours(map_.landmarks, places_), most_tours);
+      if (!options_.tour.empty()) tours_.insert(tours_.begin(), asked_tour(options_.tour, places_));
     });
-    stage_("cut", [&] {
-      for (std::size_t k = 0; k < tours.size(); ++k) {
-        try {
-          cut_along(tours[k]);
-          return;
-        } catch (const MeshError&) {
-          if (k + 1 == tours.size()) throw;
-        }
-      }
-    });
+    for (int s = 0; s < 2; ++s)
+      sides_[s] = std::make_unique<Side>(*surfaces_[s], target_, quiet(options_.embed));
+    cut_along_next(0);
   }
 
-  void cut_along(const std::vector<int>& tour) {
-    const MarkedPair pair = in_order(target_, map_.landmarks, places_, tour);
-    for (int s = 0; s < 2; ++s)
-      sides_[s] = std::make_unique<Side>(*surfaces_[s], pair, s, quiet(options_.embed));
+  void cut_along(std::size_t tour) {
     const std::array<CutOptions, 2> cuts = {options_.cut_a, options_.cut_b};
-    parallel_for(2, [&](int s) { sides_[s]->cut = cut_side(*sides_[s], cuts[s]); });
+    const std::vector<Landmark> marks = in_order(map_.landmarks, places_, tours_[tour]);
+    stage_("cut", [&] {
+      parallel_for(2, [&](int s) {
+        Side& side = *sides_[s];
+        side.vertices.clear();
+        for (const Landmark& mark : marks) side.vertices.push_back(s == 0 ? mark.a : mark.b);
+        side.cut = cut_side(side, cuts[s]);
+      });
+    });
+    tour_ = tour;
+  }
+
+  // Along the first tour, from `tour` on, that does not shut itself off on either surface.
+  void cut_along_next(std::size_t tour) {
+    for (; tour < tours_.size(); ++tour) {
+      try {
+        cut_along(tour);
+        return;
+      } catch (const MeshError&) {
+        if (tour + 1 == tours_.size()) throw;
+      }
+    }
   }
 
   bool is_bijective() const {
@@ -196,12 +197,69 @@ class Mapping {
         side.result.weights = find_weights(side.request(), side.cache.weights);
       });
     });
-    std::array<std::optional<GluingProblem>, 2> problems;
+    Problems problems;
+    state_problems(problems);
+    if (has_classes()) find_class(problems);
+    finish_both(pair_of(problems), placed(pair_of(problems)));
+  }
+
+  void state_problems(Problems& problems) const {
     for (int s = 0; s < 2; ++s) {
       const Side& side = *sides_[s];
       problems[s].emplace(gluing_problem(side.request(), side.result.weights, side.cut, side.cache));
     }
-    finish_both({*problems[0], *problems[1]}, placed({*problems[0], *problems[1]}));
+  }
+
+  static ProblemPair pair_of(const Problems& problems) { return {*problems[0], *problems[1]}; }
+
+  // Compares the tiles that both surfaces have of their own. Where the cut of B is twisted against that of A,
+  // other tours are tried: maps from twisted cuts lie further out in the hyperbolic plane, where digits are
+  // lost.
+  void find_class(Problems& problems) {
+    constexpr std::size_t most_tries = 6;
+    compare(problems);
+    const std::size_t first = tour_, end = std::min(tours_.size(), first + most_tries);
+    std::size_t best = first, fewest = sharing_.braid.size(), last = first;
+    for (std::size_t tour = first + 1; is_twisted() && tour < end; ++tour) {
+      last = tour;
+      if (!compare_along(tour, problems) || sharing_.braid.size() >= fewest) continue;
+      best = tour;
+      fewest = sharing_.braid.size();
+    }
+    if (last != best) compare_along(best, problems);
+  }
+
+  // False if the tour shuts itself off.
+  bool compare_along(std::size_t tour, Problems& problems) {
+    try {
+      cut_along(tour);
+      state_problems(problems);
+      compare(problems);
+      return true;
+    } catch (const MeshError&) {
+      return false;
+    }
+  }
+
+  bool is_twisted() const { return !is_flat() && !sharing_.braid.empty(); }
+
+  void compare(const Problems& problems) {
+    sharing_.own = own_tiles(pair_of(problems), lbfgs(), stage_);
+    const IsotopyClass found = stage_("class", [&] { return class_of(sharing_.own); });
+    sharing_.braid = found.braid;
+    map_.map_class.distance = found.distance;
+    map_.map_class.next_distance = found.next_distance;
+    map_.map_class.half_twists = static_cast<int>(found.braid.size());
+  }
+
+  IsotopyClass class_of(const std::array<TiledPositions, 2>& own) const {
+    if (!is_flat()) return isotopy_class(moduli_of(target_, sides_[0]->cut), own[0].cones, own[1].cones);
+    const auto complex = [](const Points& cones) {
+      Eigen::VectorXcd result(cones.rows());
+      for (Eigen::Index k = 0; k < cones.rows(); ++k) result[k] = {cones(k, 0), cones(k, 1)};
+      return result;
+    };
+    return isotopy_class_of_four(complex(own[0].cones), complex(own[1].cones));
   }
 
   LbfgsOptions lbfgs() const {
@@ -213,26 +271,32 @@ class Mapping {
 
   std::array<Placement, 2> placed(const ProblemPair& problems) {
     if (!target_.has_free_tile) return placed_alone(problems);
-    // The shapes of more landmarks lie too far out in the hyperbolic plane for a search.
-    if (options_.tile == TileShape::shared && (places_.count() <= most_compared || is_flat())) {
-      try {
-        std::array<Placement, 2> shared = placed_together(problems, TileShape::shared);
-        if (is_converged(shared)) return shared;
-        map_.warnings.push_back(
-            "the shape of the shared tile did not converge: a regular tile was taken, which makes the map "
-            "less even");
-      } catch (const MeshError& error) {
-        map_.warnings.push_back(fmt::format(
-            "no shared tile was found ({}): a regular tile was taken, which makes the map less even",
-            error.what()));
-      }
+    if (map_.map_class.tile == TileShape::shared) {
+      if (std::optional<std::array<Placement, 2>> shared = placed_on_shared_tile(problems)) return *shared;
+      map_.map_class.tile = TileShape::regular;
     }
-    return placed_together(problems, TileShape::regular);
+    return placed_together(problems);
   }
 
-  static bool is_converged(const std::array<Placement, 2>& placed) {
-    return placed[0].minimum.termination == Termination::converged &&
-           placed[1].minimum.termination == Termination::converged;
+  // Nothing, but a warning, if the shape of the tile is not found.
+  std::optional<std::array<Placement, 2>> placed_on_shared_tile(const ProblemPair& problems) {
+    std::string reason = "it did not converge";
+    try {
+      std::array<Placement, 2> placed = placed_together(problems);
+      if (placed[0].minimum.termination == Termination::converged &&
+          placed[1].minimum.termination == Termination::converged)
+        return placed;
+    } catch (const MeshError& error) {
+      reason = error.what();
+    }
+    map_.warnings.push_back(fmt::format(
+        "no shared tile was found: {}; a regular one was taken, which makes the map less even", reason));
+    return std::nullopt;
+  }
+
+  bool is_converged() const {
+    return sides_[0]->result.minimum.termination == Termination::converged &&
+           sides_[1]->result.minimum.termination == Termination::converged;
   }
 
   // Onto the tile that the target has.
@@ -240,44 +304,21 @@ class Mapping {
     return {place(problems[0], lbfgs(), stage_), place(problems[1], lbfgs(), stage_)};
   }
 
-  std::array<Placement, 2> placed_together(const ProblemPair& problems, TileShape shape) {
-    if (shape == TileShape::regular && target_.topology != Topology::sphere)
+  std::array<Placement, 2> placed_together(const ProblemPair& problems) {
+    sharing_.is_tile_regular = map_.map_class.tile == TileShape::regular;
+    if (sharing_.is_tile_regular && target_.topology != Topology::sphere)
       throw ArgumentError("the tile of a disk has no regular shape; take the shared one (--tile shared)");
-    map_.map_class.tile = shape;
-    SharingOptions options;
-    options.is_tile_regular = shape == TileShape::regular;
-    options.lbfgs = lbfgs();
-    if (has_classes()) options.choose_class = [&](const OwnTiles& tiles) { return chosen_class(tiles); };
-    return place_together(problems, options, stage_);
+    sharing_.lbfgs = lbfgs();
+    return place_together(problems, sharing_, stage_);
   }
 
   bool is_flat() const { return target_.space == Space::plane(); }
 
   bool has_classes() const {
-    return target_.topology == Topology::sphere && places_.count() <= most_compared;
-  }
-
-  Braid chosen_class(const OwnTiles& tiles) {
-    const IsotopyClass found = stage_("class", [&] { return class_of(tiles); });
-    map_.map_class.distance = found.distance;
-    map_.map_class.next_distance = found.next_distance;
-    map_.map_class.half_twists = static_cast<int>(found.braid.size());
-    return found.braid;
-  }
-
-  IsotopyClass class_of(const OwnTiles& tiles) const {
-    if (target_.space != Space::plane())
-      return isotopy_class(moduli_of(target_, sides_[0]->cut), tiles.cones[0], tiles.cones[1]);
-    const auto complex = [](const Points& cones) {
-      Eigen::VectorXcd result(cones.rows());
-      for (Eigen::Index k = 0; k < cones.rows(); ++k) result[k] = {cones(k, 0), cones(k, 1)};
-      return result;
-    };
-    return isotopy_class_of_four(complex(tiles.cones[0]), complex(tiles.cones[1]));
+    return target_.has_free_tile && target_.topology == Topology::sphere && places_.count() <= most_compared;
   }
 
   void finish_both(const ProblemPair& problems, const std::array<Placement, 2>& placed) {
-    warn_of_classes();
     // The map stays in its frame, which both surfaces have: more digits come before turning it.
     const std::vector<Remedy> remedies = {with_faces_repaired, with_more_digits, with_limbs_resolved};
     for (int s = 0; s < 2; ++s) {
@@ -313,6 +354,9 @@ class Mapping {
   SurfaceMap map_;
   Stages stage_;
   Sides sides_;
+  std::vector<std::vector<int>> tours_;
+  std::size_t tour_ = 0;
+  SharingOptions sharing_;
 };
 
 // Without landmarks: both onto the whole sphere, B turned so that the scales of both agree best.

@@ -17,7 +17,6 @@
 #include "orbitutte/solve/conformal_metric.h"
 #include "orbitutte/solve/development.h"
 #include "orbitutte/solve/edge_words.h"
-#include "orbitutte/solve/initial_embedding.h"
 #include "orbitutte/solve/laplacian_solver.h"
 #include "orbitutte/solve/moduli_energy.h"
 #include "orbitutte/solve/tangent_system.h"
@@ -502,14 +501,14 @@ Points corners_of_polygon(const GluingProblem& problem, const Moduli& moduli) {
 }
 
 // On the sphere, the harmonic map to R^3 that is glued like the tile, its cones held, moved to the sphere.
-// In the hyperbolic plane, where the energy of maps onto one tile is convex, the start is a matter of speed.
+// The operator of that is indefinite in the hyperbolic plane, where the energy of maps onto one tile is
+// convex: there the start is a matter of speed alone.
 Points first_map(const GluingProblem& problem, const Target& target, const GluedEdges& glued,
                  const Points& corners) {
+  if (!target.space.is_closed()) return corners;
   const Tile tile = tile_through(target, problem.cut, corners);
   const BoundaryConditions boundary = glue(problem.cut, tile, target);
   const LaplacianSolver laplacian(problem.cut, glued, problem.weights, boundary, problem.laplacian);
-  if (!target.space.is_closed())
-    return initial_embedding(problem.surface, problem.cut, tile, boundary, laplacian);
   Points x = Points::Zero(corners.rows(), 3);
   for (const int v : problem.cut.marks) x.row(v) = corners.row(v);
   Points pull = Points::Zero(corners.rows(), 3);
@@ -536,6 +535,24 @@ Points start_on_polygon(const GluingProblem& problem, const Target& target, cons
   return first_map(problem, target, energy.glued(corners(cones, Eigen::all)), corners);
 }
 
+// Positions that are about harmonic on the tile of these cones, from any. Far from them a factor serves for
+// some iterations only.
+Points approached(const ShapeSearch& search, const Points& cones, const Points& start,
+                  const LbfgsOptions& options) {
+  constexpr int most_rounds = 20, few_iterations = 8, most_iterations = 40;
+  LbfgsOptions within = options;
+  within.tolerance = std::max(options.tolerance, 1e-5);
+  within.max_iterations = std::min(options.max_iterations, most_iterations);
+  within.callback = {};
+  Minimum minimum;
+  minimum.positions = start;
+  for (int round = 0; round < most_rounds; ++round) {
+    minimum = search.harmonic(cones, minimum.positions, within).minimum;
+    if (minimum.iterations <= few_iterations) break;
+  }
+  return minimum.positions;
+}
+
 // From the doubled polygon, through tiles of less area.
 class AreaContinuation {
  public:
@@ -551,6 +568,7 @@ class AreaContinuation {
       LbfgsOptions within = options;
       if (area < free_tile_area(problem_.target)) within.tolerance = std::max(options.tolerance, 1e-4);
       const Points cones = cones_of(minimum.positions, search.moduli());
+      if (!target.space.is_closed()) minimum.positions = approached(search, cones, minimum.positions, within);
       minimum = ShapeDescent({&search}, within, stage).run(cones, {minimum.positions}).front();
     }
     return minimum;
@@ -595,24 +613,6 @@ struct Sharing {
   std::vector<std::unique_ptr<ShapeSearch>> owned;
   std::vector<const ShapeSearch*> searches;
 };
-
-// Positions that are about harmonic on the tile of these cones, from any. Far from them a factor serves for
-// some iterations only.
-Points approached(const ShapeSearch& search, const Points& cones, const Points& start,
-                  const LbfgsOptions& options) {
-  constexpr int most_rounds = 20, few_iterations = 8, most_iterations = 40;
-  LbfgsOptions within = options;
-  within.tolerance = std::max(options.tolerance, 1e-5);
-  within.max_iterations = std::min(options.max_iterations, most_iterations);
-  within.callback = {};
-  Minimum minimum;
-  minimum.positions = start;
-  for (int round = 0; round < most_rounds; ++round) {
-    minimum = search.harmonic(cones, minimum.positions, within).minimum;
-    if (minimum.iterations <= few_iterations) break;
-  }
-  return minimum.positions;
-}
 
 }  // namespace
 

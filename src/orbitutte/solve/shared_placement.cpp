@@ -26,10 +26,6 @@ Placement placed_at(const GluingProblem& problem, Minimum minimum) {
   return placed;
 }
 
-Braid chosen_class(const SharingOptions& options, const OwnTiles& tiles) {
-  return options.choose_class ? options.choose_class(tiles) : Braid();
-}
-
 // Takes the canonical frame to that of the positions, which has the first mark at its origin.
 Isometry frame_of_marks(const GluingProblem& problem, const Points& positions) {
   const Space space = problem.target.space;
@@ -104,14 +100,16 @@ Isometry translation_from(const Vector3& p) {
   return Space::plane().isometry(matrix);
 }
 
+std::array<std::unique_ptr<FlatSurface>, 2> flat_surfaces(const ProblemPair& problems) {
+  std::array<std::unique_ptr<FlatSurface>, 2> sides;
+  parallel_for(2, [&](int s) { sides[s] = std::make_unique<FlatSurface>(problems[s].get()); });
+  return sides;
+}
+
 std::array<Placement, 2> place_in_plane(const ProblemPair& problems, const SharingOptions& options,
                                         Stages& stage) {
-  std::array<std::unique_ptr<FlatSurface>, 2> sides;
-  stage("factorize", [&] {
-    parallel_for(2, [&](int s) { sides[s] = std::make_unique<FlatSurface>(problems[s].get()); });
-  });
-  const OwnTiles own = {{sides[0]->own_cones(), sides[1]->own_cones()}};
-  const Braid to_second = inverse(chosen_class(options, own));
+  const auto sides = stage("factorize", [&] { return flat_surfaces(problems); });
+  const Braid to_second = inverse(options.braid);
   const int count = static_cast<int>(problems[0].get().cut.marks.size());
   const std::vector<Eigen::MatrixXcd> changes = {Eigen::MatrixXcd::Identity(count, count),
                                                  braid_matrix(count, to_second)};
@@ -136,7 +134,7 @@ std::array<Placement, 2> place_in_plane(const ProblemPair& problems, const Shari
 // Curved spaces.
 
 // On two threads, so that neither tells of its progress.
-std::array<TiledPositions, 2> own_tiles(const ProblemPair& problems, const LbfgsOptions& options) {
+std::array<TiledPositions, 2> own_curved_tiles(const ProblemPair& problems, const LbfgsOptions& options) {
   const ProgressCallback nobody;
   std::array<Timings, 2> timings;
   std::array<TiledPositions, 2> tiles;
@@ -184,14 +182,9 @@ Points aligned(Space space, const TiledPositions& own, const Points& cones) {
 std::array<Placement, 2> place_on_curved_tile(const ProblemPair& problems, const SharingOptions& options,
                                               Stages& stage) {
   const Moduli moduli = moduli_of(problems[0].get().target, problems[0].get().cut);
-  std::array<TiledPositions, 2> first;
-  Braid to_second;
-  if (!options.is_tile_regular || options.choose_class) {
-    first = stage("initialize", [&] { return own_tiles(problems, options.lbfgs); });
-    to_second = inverse(chosen_class(options, {{first[0].cones, first[1].cones}}));
-  }
-  if (options.is_tile_regular && to_second.empty())
-    first = stage("initialize", [&] { return polygon_tiles(problems); });
+  const Braid to_second = inverse(options.braid);
+  const std::array<TiledPositions, 2> first =
+      options.is_tile_regular && to_second.empty() ? polygon_tiles(problems) : options.own;
   const Points cones = options.is_tile_regular ? polygon_of(moduli) : first[0].cones;
   const std::vector<TileSharer> sharers = {{problems[0], {}}, {problems[1], to_second}};
   const SharedStart start = {cones,
@@ -214,12 +207,23 @@ std::array<Placement, 2> place_on_curved_tile(const ProblemPair& problems, const
   return placed;
 }
 
+bool is_flat(const ProblemPair& problems) { return problems[0].get().target.space == Space::plane(); }
+
 }  // namespace
+
+std::array<TiledPositions, 2> own_tiles(const ProblemPair& problems, const LbfgsOptions& options,
+                                        Stages& stage) {
+  return stage("initialize", [&]() -> std::array<TiledPositions, 2> {
+    if (!is_flat(problems)) return own_curved_tiles(problems, options);
+    const auto sides = flat_surfaces(problems);
+    return {{{sides[0]->own_cones(), {}}, {sides[1]->own_cones(), {}}}};
+  });
+}
 
 std::array<Placement, 2> place_together(const ProblemPair& problems, const SharingOptions& options,
                                         Stages& stage) {
-  const bool is_flat = problems[0].get().target.space == Space::plane();
-  return is_flat ? place_in_plane(problems, options, stage) : place_on_curved_tile(problems, options, stage);
+  return is_flat(problems) ? place_in_plane(problems, options, stage)
+                           : place_on_curved_tile(problems, options, stage);
 }
 
 }  // namespace orbitutte

@@ -13,23 +13,22 @@ namespace orbitutte {
 /// that of the marks.
 using ProblemPair = std::array<std::reference_wrapper<const GluingProblem>, 2>;
 
-/// Own conformal tiles of two surfaces, as far as a class of maps between them is chosen by them.
-struct OwnTiles {
-  /// The cones (k x 3), as the boundary of each cut mesh meets them.
-  std::array<Points, 2> cones;
-};
-
-/// The braid that takes the cones of the second tile to the places in which they correspond to those of the
-/// first.
-using ChooseClass = std::function<Braid(const OwnTiles&)>;
+/// The own conformal tile of each surface, as own_tile has it; in the plane its cones alone. Throws as
+/// curved_map does.
+std::array<TiledPositions, 2> own_tiles(const ProblemPair& problems, const LbfgsOptions& options,
+                                        Stages& stage);
 
 /// How two surfaces share a tile.
 struct SharingOptions {
   /// Is it the tile that depends on the target alone, a doubled polygon?
   bool is_tile_regular = false;
 
-  /// Without it, the braid is empty.
-  ChooseClass choose_class;
+  /// Takes the cones of the second surface's own tile to the places in which they correspond to those of the
+  /// first.
+  Braid braid;
+
+  /// From which the search begins; not used in the plane, nor for a regular tile and an empty braid.
+  std::array<TiledPositions, 2> own;
   LbfgsOptions lbfgs;
 };
 
