@@ -12,8 +12,10 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
+#include <type_traits>
 #include <utility>
 
 #include "orbitutte/geometry/precise_isometry.h"
@@ -71,16 +73,15 @@ std::optional<int> sign_in_doubles(const NearPoint& p, const NearPoint& q, const
 template <typename Real>
 struct DigitPoint {
   Vector3Of<Real> x;
-  double error = 0;
+  Real error = 0;
 };
 
-// What products of a few numbers of so many bits lose.
+// What products of a few numbers lose: all but some of their bits are right.
 template <typename Real>
-constexpr double digit_error = 0;
-template <>
-constexpr double digit_error<Precise> = 0x1p-310;
-template <>
-constexpr double digit_error<MostPrecise> = 0x1p-1060;  // what doubles can say; there are twice as many bits
+Real digit_error() {
+  constexpr int lost_bits = 12;
+  return ldexp(Real(1), lost_bits - std::numeric_limits<Real>::digits);
+}
 
 template <typename Real>
 Real size_of(const Vector3Of<Real>& v) {
@@ -90,9 +91,9 @@ Real size_of(const Vector3Of<Real>& v) {
 // The sign of det[p q r], or 0 if it may be any.
 template <typename Real>
 int sign_with_digits(const DigitPoint<Real>& p, const DigitPoint<Real>& q, const DigitPoint<Real>& r) {
-  const double error = 20 * (p.error + q.error + r.error + digit_error<Real>);
   const Real value = p.x.dot(q.x.cross(r.x)),
-             bound = Real(error) * size_of<Real>(p.x) * size_of<Real>(q.x) * size_of<Real>(r.x);
+             error = 20 * (p.error + q.error + r.error + digit_error<Real>()),
+             bound = error * size_of<Real>(p.x) * size_of<Real>(q.x) * size_of<Real>(r.x);
   if (abs(value) <= bound) return 0;
   return value > 0 ? 1 : -1;
 }
@@ -131,7 +132,7 @@ class PointSource {
       x = at.surface->sites.exact(at.site);
       if (at.element != ElementTable::identity) x = (elements_.exact(at.element) * x).eval();
     }
-    return {x, digit_error<Real>};
+    return {x, digit_error<Real>()};
   }
 
   int sign(const MovedSite& p, const MovedSite& q, const MovedSite& r) const {
@@ -150,7 +151,7 @@ class PointSource {
     const Vector3Of<Real> point = of_edge.cross(of_line);
     const Real side = space_.curvature() > 0 ? Real(point.dot(sum)) : point.z(),
                terms = size_of<Real>(a) * size_of<Real>(b) * size_of<Real>(c) * size_of<Real>(d);
-    const double error = 100 * digit_error<Real> * static_cast<double>(Real(terms / size_of<Real>(point)));
+    const Real error = 100 * digit_error<Real>() * terms / size_of<Real>(point);
     return {side < 0 ? Vector3Of<Real>(-point) : point, error};
   }
 
@@ -625,14 +626,16 @@ class OverlayExaminer {
     return here;
   }
 
-  std::optional<Vector3> point_of(int side, int f, int v) const {
+  // An image on the target, and by how much the rounding of coordinates may move it: in triangles of the size
+  // of a hemisphere they cancel.
+  std::optional<NearPoint> point_of(int side, int f, int v) const {
     const std::optional<Vector3> coordinates = coordinates_in(side, f, v);
     if (!coordinates || !coordinates->allFinite() || coordinates->minCoeff() < 0 ||
         std::abs(coordinates->sum() - 1) > 1e-9)
       return std::nullopt;
     Vector3 sum = Vector3::Zero();
     for (int k = 0; k < 3; ++k) sum += (*coordinates)[k] * points_.near(corner_of_parent(side, f, k)).x;
-    return embeddings_[0]->space().retract(sum);
+    return NearPoint{embeddings_[0]->space().retract(sum), 1e-14 / std::min(1.0, sum.norm())};
   }
 
   void examine_positions() {
@@ -640,8 +643,10 @@ class OverlayExaminer {
     Findings findings("positions");
     for (int f = 0; f < face_count(); ++f) {
       for (const int v : corners(f)) {
-        const std::optional<Vector3> on_a = point_of(0, f, v), on_b = point_of(1, f, v);
-        if (!on_a || !on_b || !((*on_a - *on_b).norm() <= bound * std::max(1.0, on_a->norm())))
+        const std::optional<NearPoint> on_a = point_of(0, f, v), on_b = point_of(1, f, v);
+        if (!on_a || !on_b ||
+            !((on_a->x - on_b->x).norm() <=
+              bound * std::max(1.0, on_a->x.norm()) + on_a->error + on_b->error))
           findings.add("vertex {} has different images on the target from A and from B", v);
       }
     }
