@@ -234,7 +234,8 @@ class Development {
     const std::vector<int> wrong = parallel_select(result_.triangle_count(), is_wrong);
     if (wrong.empty()) return;
     throw MeshError(fmt::format(
-        "triangle {} of {} is not positive on the target, nor are {} others; certify the embedding first",
+        "triangle {} of {} is not positive on the target, nor are {} others: it is turned over, or so thin "
+        "that the rounding of the seams turns it over",
         wrong.front(), name_, wrong.size() - 1));
   }
 

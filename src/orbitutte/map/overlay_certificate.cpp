@@ -12,8 +12,10 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
+#include <type_traits>
 #include <utility>
 
 #include "orbitutte/geometry/precise_isometry.h"
@@ -67,32 +69,34 @@ std::optional<int> sign_in_doubles(const NearPoint& p, const NearPoint& q, const
   return std::nullopt;
 }
 
+// A point with more digits, and by how much it may be off, relative to its largest coordinate.
 template <typename Real>
-struct Smallest;
-template <>
-struct Smallest<Precise> {
-  static constexpr int exponent = -240;
-};
-template <>
-struct Smallest<MostPrecise> {
-  static constexpr int exponent = -1900;
+struct DigitPoint {
+  Vector3Of<Real> x;
+  Real error = 0;
 };
 
+// What products of a few numbers lose: all but some of their bits are right.
 template <typename Real>
-int sign_with_digits(const Vector3Of<Real>& p, const Vector3Of<Real>& q, const Vector3Of<Real>& r) {
-  const auto size = [](const Vector3Of<Real>& v) {
-    return Real(Real(abs(v[0])) + Real(abs(v[1])) + Real(abs(v[2])));
-  };
-  const Real value = p.dot(q.cross(r));
-  if (abs(value) <= ldexp(Real(size(p) * size(q) * size(r)), Smallest<Real>::exponent)) return 0;
-  return value > 0 ? 1 : -1;
+Real digit_error() {
+  constexpr int lost_bits = 12;
+  return ldexp(Real(1), lost_bits - std::numeric_limits<Real>::digits);
 }
 
-// A surface of the pair, as the certificate asks for it.
-struct Parent {
-  const DevelopedSurface& surface;
-  const Embedding& embedding;
-};
+template <typename Real>
+Real size_of(const Vector3Of<Real>& v) {
+  return std::max({Real(abs(v[0])), Real(abs(v[1])), Real(abs(v[2]))});
+}
+
+// The sign of det[p q r], or 0 if it may be any.
+template <typename Real>
+int sign_with_digits(const DigitPoint<Real>& p, const DigitPoint<Real>& q, const DigitPoint<Real>& r) {
+  const Real value = p.x.dot(q.x.cross(r.x)),
+             error = 20 * (p.error + q.error + r.error + digit_error<Real>()),
+             bound = error * size_of<Real>(p.x) * size_of<Real>(q.x) * size_of<Real>(r.x);
+  if (abs(value) <= bound) return 0;
+  return value > 0 ? 1 : -1;
+}
 
 // The corner of a triangle of a parent, moved by an element.
 struct MovedSite {
@@ -119,33 +123,36 @@ class PointSource {
   }
 
   template <typename Real>
-  Vector3Of<Real> with_digits(const MovedSite& at) const {
+  DigitPoint<Real> with_digits(const MovedSite& at) const {
+    Vector3Of<Real> x;
     if constexpr (std::is_same_v<Real, Precise>) {
-      return at.element == ElementTable::identity
-                 ? at.surface->sites.precise(at.site)
-                 : Vector3Of<Real>(elements_.precise(at.element) * at.surface->sites.precise(at.site));
+      x = at.surface->sites.precise(at.site);
+      if (at.element != ElementTable::identity) x = (elements_.precise(at.element) * x).eval();
     } else {
-      return at.element == ElementTable::identity
-                 ? at.surface->sites.exact(at.site)
-                 : Vector3Of<Real>(elements_.exact(at.element) * at.surface->sites.exact(at.site));
+      x = at.surface->sites.exact(at.site);
+      if (at.element != ElementTable::identity) x = (elements_.exact(at.element) * x).eval();
     }
+    return {x, digit_error<Real>()};
   }
 
   int sign(const MovedSite& p, const MovedSite& q, const MovedSite& r) const {
     if (const std::optional<int> sign = sign_in_doubles(near(p), near(q), near(r))) return *sign;
-    if (has_offsets_) return sign_of<MostPrecise>(p, q, r);
-    return sign_of<Precise>(p, q, r);
+    const int sign = sign_of<Precise>(p, q, r);
+    return sign != 0 || !has_offsets_ ? sign : sign_of<MostPrecise>(p, q, r);
   }
 
   // Where the line through two points crosses the edge between two others, on the side of the edge.
   template <typename Real>
-  Vector3Of<Real> crossing(const std::array<MovedSite, 2>& edge, const std::array<MovedSite, 2>& line) const {
-    const Vector3Of<Real> a = with_digits<Real>(edge[0]), b = with_digits<Real>(edge[1]),
-                          c = with_digits<Real>(line[0]), d = with_digits<Real>(line[1]);
+  DigitPoint<Real> crossing(const std::array<MovedSite, 2>& edge,
+                            const std::array<MovedSite, 2>& line) const {
+    const Vector3Of<Real> a = with_digits<Real>(edge[0]).x, b = with_digits<Real>(edge[1]).x,
+                          c = with_digits<Real>(line[0]).x, d = with_digits<Real>(line[1]).x;
     const Vector3Of<Real> of_edge = a.cross(b), of_line = c.cross(d), sum = a + b;
     const Vector3Of<Real> point = of_edge.cross(of_line);
-    const Real side = space_.curvature() > 0 ? Real(point.dot(sum)) : point.z();
-    return side < 0 ? Vector3Of<Real>(-point) : point;
+    const Real side = space_.curvature() > 0 ? Real(point.dot(sum)) : point.z(),
+               terms = size_of<Real>(a) * size_of<Real>(b) * size_of<Real>(c) * size_of<Real>(d);
+    const Real error = 100 * digit_error<Real>() * terms / size_of<Real>(point);
+    return {side < 0 ? Vector3Of<Real>(-point) : point, error};
   }
 
  private:
@@ -479,35 +486,51 @@ class OverlayExaminer {
   bool is_convex(int f) const {
     const int count = static_cast<int>(corners(f).size());
     if (count < 3 || count > 6) return false;
-    for (int k = 0; k < count; ++k)
-      if (sign_of_corners(f, {k, (k + 1) % count, (k + 2) % count}) <= 0) return false;
-    for (int k = 2; k + 1 < count; ++k)
-      if (sign_of_corners(f, {0, k, k + 1}) <= 0) return false;
+    std::vector<std::array<int, 3>> open;
+    for (int k = 0; k < count; ++k) open.push_back({k, (k + 1) % count, (k + 2) % count});
+    for (int k = 2; k + 1 < count; ++k) open.push_back({0, k, k + 1});
+    if (!is_positive_in_doubles(f, open)) return false;
+    if (!is_positive_with_digits<Precise>(f, open)) return false;
+    if (points_.has_offsets() && !is_positive_with_digits<MostPrecise>(f, open)) return false;
+    return open.empty();
+  }
+
+  // Is no triangle of these corners negative? Those that are positive for sure are left out of the list.
+  bool is_positive_in_doubles(int f, std::vector<std::array<int, 3>>& open) const {
+    std::array<NearPoint, 6> near;
+    for (std::size_t k = 0; k < corners(f).size(); ++k) near[k] = near_corner(f, corners(f)[k]);
+    std::vector<std::array<int, 3>> rest;
+    for (const auto& k : open) {
+      const std::optional<int> sign = sign_in_doubles(near[k[0]], near[k[1]], near[k[2]]);
+      if (sign && *sign < 0) return false;
+      if (!sign) rest.push_back(k);
+    }
+    open = rest;
     return true;
   }
 
-  int sign_of_corners(int f, const std::array<int, 3>& k) const {
-    std::array<NearPoint, 3> near;
-    for (int i = 0; i < 3; ++i) near[i] = near_corner(f, corners(f)[k[i]]);
-    if (const std::optional<int> sign = sign_in_doubles(near[0], near[1], near[2])) return *sign;
-    return points_.has_offsets() ? sign_with_all_digits<MostPrecise>(f, k)
-                                 : sign_with_all_digits<Precise>(f, k);
+  template <typename Real>
+  bool is_positive_with_digits(int f, std::vector<std::array<int, 3>>& open) const {
+    if (open.empty()) return true;
+    std::array<DigitPoint<Real>, 6> x;
+    for (std::size_t k = 0; k < corners(f).size(); ++k) x[k] = corner_with_digits<Real>(f, corners(f)[k]);
+    std::vector<std::array<int, 3>> rest;
+    for (const auto& k : open) {
+      const int sign = sign_with_digits<Real>(x[k[0]], x[k[1]], x[k[2]]);
+      if (sign < 0) return false;
+      if (sign == 0) rest.push_back(k);
+    }
+    open = rest;
+    return true;
   }
 
   template <typename Real>
-  int sign_with_all_digits(int f, const std::array<int, 3>& k) const {
-    std::array<Vector3Of<Real>, 3> x;
-    for (int i = 0; i < 3; ++i) x[i] = corner_with_digits<Real>(f, corners(f)[k[i]]);
-    return sign_with_digits<Real>(x[0], x[1], x[2]);
-  }
-
-  template <typename Real>
-  Vector3Of<Real> corner_with_digits(int f, int v) const {
+  DigitPoint<Real> corner_with_digits(int f, int v) const {
     for (int side = 0; side < 2; ++side)
       if (const int k = corner_index(side, f, v); k >= 0)
         return points_.with_digits<Real>(corner_of_parent(side, f, k));
     const int on_a = edge_index(0, f, v), on_b = edge_index(1, f, v);
-    if (on_a < 0 || on_b < 0) return Vector3Of<Real>::Zero();
+    if (on_a < 0 || on_b < 0) return {Vector3Of<Real>::Zero(), 1};
     return points_.crossing<Real>(edge_of_parent(0, f, on_a), edge_of_parent(1, f, on_b));
   }
 
@@ -603,14 +626,16 @@ class OverlayExaminer {
     return here;
   }
 
-  std::optional<Vector3> point_of(int side, int f, int v) const {
+  // An image on the target, and by how much the rounding of coordinates may move it: in triangles of the size
+  // of a hemisphere they cancel.
+  std::optional<NearPoint> point_of(int side, int f, int v) const {
     const std::optional<Vector3> coordinates = coordinates_in(side, f, v);
     if (!coordinates || !coordinates->allFinite() || coordinates->minCoeff() < 0 ||
         std::abs(coordinates->sum() - 1) > 1e-9)
       return std::nullopt;
     Vector3 sum = Vector3::Zero();
     for (int k = 0; k < 3; ++k) sum += (*coordinates)[k] * points_.near(corner_of_parent(side, f, k)).x;
-    return embeddings_[0]->space().retract(sum);
+    return NearPoint{embeddings_[0]->space().retract(sum), 1e-14 / std::min(1.0, sum.norm())};
   }
 
   void examine_positions() {
@@ -618,8 +643,10 @@ class OverlayExaminer {
     Findings findings("positions");
     for (int f = 0; f < face_count(); ++f) {
       for (const int v : corners(f)) {
-        const std::optional<Vector3> on_a = point_of(0, f, v), on_b = point_of(1, f, v);
-        if (!on_a || !on_b || !((*on_a - *on_b).norm() <= bound * std::max(1.0, on_a->norm())))
+        const std::optional<NearPoint> on_a = point_of(0, f, v), on_b = point_of(1, f, v);
+        if (!on_a || !on_b ||
+            !((on_a->x - on_b->x).norm() <=
+              bound * std::max(1.0, on_a->x.norm()) + on_a->error + on_b->error))
           findings.add("vertex {} has different images on the target from A and from B", v);
       }
     }
