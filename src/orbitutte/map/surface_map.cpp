@@ -199,7 +199,8 @@ class Mapping {
     });
     Problems problems;
     state_problems(problems);
-    if (has_classes()) find_class(problems);
+    // Other weights change neither the class nor much of the tiles.
+    if (has_classes() && sharing_.own[0].cones.size() == 0) find_class(problems);
     finish_both(pair_of(problems), placed(pair_of(problems)));
   }
 
