@@ -12,7 +12,8 @@ PLAIN = "plain values"  # files at the root of src/orbitutte that every layer ma
 LAYERS = [PLAIN, "geometry", "mesh", "io", "inspect", "samples", "weights", "cut", "orbifold", "linear", "solve", "verify", "cones", "quotient", "map",
           "embed", "report", "export", "page", "render"]
 ROOT_FILES = {"names": PLAIN, "types": PLAIN, "errors": PLAIN, "progress": PLAIN, "parallel": PLAIN, "memory": PLAIN, "options": PLAIN, "minimum": PLAIN,
-              "version": PLAIN, "embed_types": "embed", "embed": "embed", "choose": "embed", "distortion_floor": "embed", "preparation": "embed", "warnings": "embed"}
+              "version": PLAIN, "embed_types": "embed", "embed": "embed", "certified_map": "embed", "choose": "embed", "distortion_floor": "embed", "preparation": "embed", "warnings": "embed"}
+COMPOSING = {"map/surface_map", "map/composed_map"}  # the part of `map` that composes, as `embed` does
 # The certificate shares no code with what it judges; only `embed` and `map` compose.
 NEVER = {("verify", layer) for layer in ("weights", "cut", "linear", "solve", "cones")} | {("map", "solve"), ("map", "linear")}
 SMALL = "orbitutte/embed_types.h"  # what programs include to name options and results
@@ -23,7 +24,7 @@ def layer_of(path):
     """`path` is relative to src/orbitutte."""
     parts = pathlib.PurePosixPath(path).parts
     if len(parts) > 1:
-        return parts[0]
+        return "embed" if path.split(".")[0] in COMPOSING else parts[0]
     stem = parts[0].split(".")[0]
     return ROOT_FILES.get(stem, f"unknown root file {stem}")
 

@@ -11,6 +11,7 @@
 #include "orbitutte/choose.h"
 #include "orbitutte/export/texture_chart.h"
 #include "orbitutte/export/tiling.h"
+#include "orbitutte/map/surface_map.h"
 #include "orbitutte/mesh/edge_weights.h"
 #include "orbitutte/options.h"
 #include "orbitutte/render/render.h"
@@ -106,6 +107,16 @@ struct RepairArguments {
   bool drop_flat = false, json = false;
 };
 int repair_command(const RepairArguments& arguments);
+
+struct MapArguments {
+  std::string a, b, landmarks, output, tour;
+  std::string weights = name_of(WeightKind::standard), tile = name_of(TileShape::shared);
+  double clamp = 0.01, tolerance = 1e-9;
+  std::uint64_t cut_seed_a = 0, cut_seed_b = 0;
+  int max_iterations = 2000, threads = 0;
+  bool quiet = false, json = false;
+};
+int map_command(const MapArguments& arguments);
 
 struct SampleArguments {
   std::string output, shape = name_of(SampleShape::figure);

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 
 #include "command_arguments.h"
 #include "commands.h"
@@ -22,52 +19,11 @@
 #include "orbitutte/report/choices.h"
 #include "orbitutte/report/embedding_file.h"
 #include "orbitutte/report/report.h"
+#include "run.h"
 #include "standard_streams.h"
 
 namespace orbitutte::cli {
 namespace {
-
-class Stopwatch {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-long long peak_memory_bytes() {
-  rusage usage = {};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<long long>(usage.ru_maxrss) * 1024;
-}
-
-// One line that is written again and again, on a terminal only.
-class ProgressLine {
- public:
-  explicit ProgressLine(bool quiet) : shown_(!quiet && isatty(STDERR_FILENO)) {}
-  ~ProgressLine() { clear(); }
-  ProgressLine(const ProgressLine&) = delete;
-  ProgressLine& operator=(const ProgressLine&) = delete;
-
-  void show(const Progress& progress) const {
-    if (!shown_) return;
-    if (progress.stage == "optimize" && progress.energy > 0) {
-      tell("\r\033[Koptimize: iteration {}, energy {:.9g}, gradient {:.1e}", progress.iteration,
-           progress.energy, progress.gradient_norm);
-    } else {
-      tell("\r\033[K{} ...", progress.stage);
-    }
-  }
-
-  void clear() const {
-    if (shown_) tell("\r\033[K");
-  }
-
- private:
-  bool shown_;
-};
 
 // That angles are given where they are needed, and nowhere else.
 void require_fitting_angles(const EmbedArguments& arguments) {
@@ -175,31 +131,6 @@ EmbedOptions options_from(const EmbedArguments& arguments) {
   options.max_iterations = arguments.max_iterations;
   options.threads = arguments.threads;
   return options;
-}
-
-struct Input {
-  std::shared_ptr<const Surface> surface;
-  std::vector<std::string> warnings;  // of the reader
-};
-
-// Reads the mesh, and records what the report says about its file.
-Input read_input(const std::string& path, RunRecord& run) {
-  const Stopwatch reading;
-  mesh_format(path);  // refuses what has no known ending before it is read
-  const std::string bytes = read_file(path);
-  run.mesh_path = path;
-  run.input_sha256 = sha256(bytes);
-  PolygonMesh mesh = parse_mesh_file(path, bytes);
-  std::vector<std::string> warnings = std::move(mesh.warnings);
-  run.read_seconds = reading.seconds();
-  const Stopwatch judging;
-  try {
-    Surface surface = make_surface(std::move(mesh));
-    run.validate_seconds = judging.seconds();
-    return {std::make_shared<const Surface>(std::move(surface)), std::move(warnings)};
-  } catch (const MeshError& error) {
-    throw MeshError(fmt::format("{}: {}", path, error.what()));
-  }
 }
 
 std::string group_text(const Target& target) {

@@ -114,7 +114,10 @@ class Command {
 
 template <typename Arguments>
 void read_mesh_of(Command<Arguments>& command) {
-  command.input("mesh", command->mesh, "the mesh", "The mesh: OBJ, OFF, PLY, STL, VTK, GIfTI or FreeSurfer, plain or with .gz")->required();
+  command
+      .input("mesh", command->mesh, "the mesh",
+             "The mesh: OBJ, OFF, PLY, STL, VTK, GIfTI or FreeSurfer, plain or with .gz")
+      ->required();
 }
 
 // The two files that `embed` writes.
@@ -384,6 +387,39 @@ void add_repair(CLI::App& app, int& code) {
   command.runs(repair_command, code);
 }
 
+void add_map(CLI::App& app, int& code) {
+  Command<MapArguments> command(
+      app, "map", "Map one surface to another so that landmarks correspond, one to one, and certify it");
+  command.input("a", command->a, "surface A", "Surface A: OBJ, OFF, PLY or STL")->required();
+  command.input("b", command->b, "surface B", "Surface B, of the same topology")->required();
+  command.option(
+      "--landmarks", command->landmarks,
+      "Vertices that correspond, counted from 0: a file with two columns, of A and of B, or a list such as "
+      "12:7,300:512,48:9; without it, a guess between two spheres");
+  command.option("-o,--output", command->output,
+                 "Write the files of the map into this folder, which is made if it is not there");
+  command
+      .option("--tile", command->tile,
+              "The shape of the tile that both surfaces are mapped onto: shared, that for which the map is "
+              "most even, or regular")
+      ->capture_default_str();
+  command.option("--tour", command->tour,
+                 "The order in which cuts lead through the landmarks inside, counted from 0; the shortest is "
+                 "taken if this is not given");
+  command.option("--weights", command->weights, "As of embed")->capture_default_str();
+  command.option("--clamp", command->clamp, "As of embed")->capture_default_str();
+  command.option("--cut-seed-a", command->cut_seed_a, "Another number gives another cut of A, the same map")
+      ->capture_default_str();
+  command.option("--cut-seed-b", command->cut_seed_b, "The same of B")->capture_default_str();
+  command.option("--tolerance", command->tolerance, "As of embed")->capture_default_str();
+  command.option("--max-iterations", command->max_iterations, "As of embed")->capture_default_str();
+  command.option("--threads", command->threads, "Use so many threads; 0: one for every core")
+      ->capture_default_str();
+  command.flag("--quiet", command->quiet, "Print no progress and no summary");
+  command.flag("--json", command->json, "Print map.json on standard output");
+  command.runs(map_command, code);
+}
+
 void add_sample(CLI::App& app, int& code) {
   Command<SampleArguments> command(app, "sample", "Make a mesh to try things on");
   command
@@ -428,6 +464,7 @@ void add_commands(CLI::App& app, int& code) {
   add_report(app, code);
   add_compare(app, code);
   add_repair(app, code);
+  add_map(app, code);
   add_sample(app, code);
 }
 

@@ -4,161 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
 
+#include "orbitutte/certified_map.h"
 #include "orbitutte/cones/extremities.h"
-#include "orbitutte/inspect/weak_places.h"
-#include "orbitutte/orbifold/free_tile.h"
 #include "orbitutte/parallel.h"
 #include "orbitutte/preparation.h"
 #include "orbitutte/quotient/quotient.h"
-#include "orbitutte/solve/remedies.h"
 #include "orbitutte/verify/energy.h"
 #include "orbitutte/warnings.h"
 
 namespace orbitutte {
 namespace {
-
-// What did not converge is not certified.
-void refuse(Certificate& certificate, const Minimum& minimum, double tolerance) {
-  certificate.bijective = false;
-  certificate.checks.push_back(
-      {"converged", false, minimum.gradient_norm, tolerance, "the optimiser stopped before it converged"});
-}
-
-// The gluing problem of the surface that is cut.
-GluingProblem gluing_problem(const EmbedRequest& request, const EdgeWeights& weights, const CutMesh& cut,
-                             const EmbeddingCache& cache) {
-  const Surface& surface = request.prepared.surface;
-  const Tile tile = request.target.has_free_tile ? any_tile(request.target, cut)
-                                                 : basic_tile(request.target, cut.arrangement);  // appendix A
-  return {surface,
-          cut,
-          request.target,
-          weights,
-          {request.options.laplacian, cache.laplacians},
-          tile,
-          boundary_conditions(surface, cut, tile, request.target, request.options.spread)};
-}
-
-// The minimum that was placed, as an embedding.
-Embedding embedding_of(const GluingProblem& problem, const SpreadMap& map) {
-  const CutMesh& cut = problem.cut;
-  const BoundaryConditions& boundary = map.placed.boundary;
-  return {problem.target,    map.placed.frame, map.positions,  cut.F,
-          cut.source_vertex, boundary.seams,   boundary.cones, problem.surface.polygons_on(cut.F, cut.turned),
-          map.offsets};
-}
-
-void append(const std::vector<std::string>& more, std::vector<std::string>& warnings) {
-  warnings.insert(warnings.end(), more.begin(), more.end());
-}
-
-// Puts the map into the result, with its certificate.
-void take(const GluingProblem& problem, const SpreadMap& map, EmbedResult& result) {
-  result.embedding = embedding_of(problem, map);
-  result.moved_vertices = map.moved_vertices;
-  result.certificate = certify(problem.surface, result.embedding);
-}
-
-using Remedy = std::function<std::optional<SpreadMap>(const GluingProblem&, const Placement&)>;
-
-// A map that was placed, and what is tried, in this order, if it is no bijection in doubles.
-struct PlacedMap {
-  const Placement& placed;
-  std::vector<Remedy> remedies = {with_faces_repaired, with_tips_unrolled, with_limbs_resolved,
-                                  with_more_digits};
-};
-
-// Takes what the remedy finds if it is a bijection.
-bool helps(const Remedy& remedy, const GluingProblem& problem, const Placement& placed, EmbedResult& result) {
-  const std::optional<SpreadMap> map = remedy(problem, placed);
-  if (!map) return false;
-  EmbedResult mended;
-  take(problem, *map, mended);
-  if (!mended.certificate.bijective) return false;
-  result.embedding = std::move(mended.embedding);
-  result.moved_vertices = std::move(mended.moved_vertices);
-  result.certificate = std::move(mended.certificate);
-  result.minimum.positions = map->placed.minimum.positions;
-  result.minimum.energy = energy_of(problem, map->placed);
-  return true;
-}
-
-// What else is known of the map in the result.
-void judge(const EmbedRequest& request, EmbedResult& result) {
-  const Surface& surface = request.prepared.surface;
-  if (!result.certificate.bijective && result.weights.triangulation)
-    result.intrinsic_certificate =
-        certify_intrinsic(surface, result.embedding, *result.weights.triangulation);
-  result.distortion = measure_distortion(surface, result.embedding);
-  if (result.minimum.termination == Termination::converged) return;
-  refuse(result.certificate, result.minimum, request.options.tolerance);
-  if (result.intrinsic_certificate)
-    refuse(*result.intrinsic_certificate, result.minimum, request.options.tolerance);
-}
-
-std::vector<int> faces_that_must_collapse(const EmbedRequest& request, const GluingProblem& problem,
-                                          const Placement& placed) {
-  const auto mirrors = mirrors_of(placed.tile, placed.boundary, problem.cut.source_vertex);
-  return collapsing_faces(problem.surface.faces(), mirrors, request.cones);
-}
-
-// Ears alone are rounded outward; what else must collapse cannot be helped.
-bool is_hopeless(const std::vector<int>& collapsing, const std::vector<Ear>& ears) {
-  return static_cast<int>(collapsing.size()) > count_faces(ears);
-}
-
-// Warnings about the map in the result.
-std::vector<std::string> warnings_of(const EmbedRequest& request, const GluingProblem& problem,
-                                     const Placement& placed, const EmbedResult& result) {
-  std::vector<std::string> warnings = warnings_about(result.weights, ears_of(problem, placed));
-  append(request.prepared.warnings, warnings);
-  append(warnings_of_collapse(problem.surface.faces(), result.collapsing_faces,
-                              result.certificate.nonpositive_faces),
-         warnings);
-  return warnings;
-}
-
-// The first remedy that makes the map a bijection is taken. Faces that must become arcs are beyond all
-// remedies; to look for them takes longer than to try the first.
-void mend(const EmbedRequest& request, const GluingProblem& problem, const PlacedMap& map,
-          EmbedResult& result) {
-  const auto is_mended = [&](const Remedy& remedy) { return helps(remedy, problem, map.placed, result); };
-  if (is_mended(map.remedies.front())) return;
-  std::vector<int> collapsing = faces_that_must_collapse(request, problem, map.placed);
-  if (is_hopeless(collapsing, ears_of(problem, map.placed)))
-    result.collapsing_faces = std::move(collapsing);
-  else
-    std::any_of(map.remedies.begin() + 1, map.remedies.end(), is_mended);
-}
-
-// From the map that was placed to the result: certified, mended where it is no bijection, and measured.
-void finish(const EmbedRequest& request, const GluingProblem& problem, const PlacedMap& map, Stages& stage,
-            EmbedResult& result) {
-  const Surface& surface = request.prepared.surface;
-  const Placement& placed = map.placed;
-  const bool has_converged = placed.minimum.termination == Termination::converged;
-  const auto needs_mending = [&] { return has_converged && !result.certificate.bijective; };
-  stage("certify", [&] {
-    // A map that turns faces over is mended before it is certified.
-    const SpreadMap spread = spread_map(problem, placed);
-    if (!has_converged || !turns_faces_over(problem, spread)) take(problem, spread, result);
-    if (!needs_mending()) judge(request, result);
-  });
-  if (needs_mending()) {
-    stage("mend", [&] { mend(request, problem, map, result); });
-    stage("certify", [&] {
-      if (result.certificate.checks.empty()) take(problem, spread_map(problem, placed), result);
-      judge(request, result);
-    });
-  }
-
-  result.warnings = warnings_of(request, problem, placed, result);
-  result.topology = surface.topology;
-  result.unreferenced_vertices = surface.unreferenced_vertices;
-  result.zero_area_faces = surface.zero_area_faces;
-}
 
 // The method, from the surface to the certificate.
 EmbedResult embed_once(const EmbedRequest& request, EmbeddingCache& cache) {
@@ -179,13 +35,6 @@ EmbedResult embed_once(const EmbedRequest& request, EmbeddingCache& cache) {
   result.minimum = placed.minimum;
   finish(request, problem, {placed}, stage, result);
   return result;
-}
-
-// Weights that are tried, in this order, where the standard ones give no bijection.
-std::vector<WeightKind> other_weights(const Surface& surface) {
-  if (surface.has_polygons()) return {WeightKind::uniform};
-  if (surface.zero_area_faces > 0) return {WeightKind::mean_value, WeightKind::uniform};  // no cotangents
-  return {WeightKind::cotan, WeightKind::mean_value, WeightKind::uniform};
 }
 
 // Were so many vertices moved, or is so much of the surface sheared, that the weights are at fault, and not a

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <unordered_map>
+#include <utility>
 
 #include "orbitutte/cut/one_sided_loop.h"
 #include "orbitutte/parallel.h"
@@ -380,6 +381,75 @@ void check_order_on_boundary(const CutMesh& cut, const std::vector<int>& marks, 
   check_order_met(arrangement, {marks.begin() + inner_marks, marks.end()});
 }
 
+void check_marks_of_tree(const Surface& surface, const std::vector<int>& marks, int inner_marks,
+                         const std::vector<char>& on_boundary) {
+  check_marks(marks,
+              outgoing_halfedges(surface.triangles, surface.connectivity.opposite, surface.vertex_count()));
+  const bool is_closed = std::find(on_boundary.begin(), on_boundary.end(), 1) == on_boundary.end();
+  if (marks.size() < (is_closed ? 2 : 1))
+    throw MeshError(fmt::format("a cut through {} marked vertices; mark more", marks.size()));
+  if (!is_closed) check_marks_of_disk(marks, inner_marks, on_boundary);
+}
+
+// The marks of a cut, of which the first lie inside.
+struct CutMarks {
+  const std::vector<int>& all;
+  int inner = 0;
+};
+
+// Opens the surface along the edges of a tree that joins the marks inside, and, on a disk, the boundary.
+CutMesh cut_along_edges(const Surface& surface, const CutMarks& marks, const std::vector<int>& edges,
+                        const std::vector<char>& on_boundary) {
+  const bool is_closed = std::find(on_boundary.begin(), on_boundary.end(), 1) == on_boundary.end();
+  OpenedMesh opened = opened_along(edges, surface);
+  std::vector<int> all_marks = marks.all;
+  if (!is_closed && marks.inner == static_cast<int>(marks.all.size()))
+    all_marks.push_back(end_of_tree(surface, edges, on_boundary));
+  const int start = is_closed ? boundary_halfedge(all_marks[0], opened)
+                              : first_halfedge_at(all_marks[marks.inner], surface, opened);
+  const std::vector<int> walk = boundary_walk(start, opened);
+  CutMesh cut = split_along_boundary(walk, std::move(opened));
+  cut.marks = all_marks;
+  cut.arrangement = order_met(cut.boundary, cut.source_vertex, cut.marks);
+  if (!is_closed) check_order_on_boundary(cut, marks.all, marks.inner);
+  cut.sides = sides_of_tree(walk, surface, cut.marks, on_boundary);
+  return cut;
+}
+
+// A path that never meets itself, nor marks before it comes to them.
+class Tour {
+ public:
+  Tour(EdgeGraph graph, const std::vector<int>& marks) : graph_(std::move(graph)) {
+    graph_.dead_end.assign(graph_.vertex_count(), 0);
+    for (const int v : marks) block(v);
+  }
+
+  // No path passes through the vertex from now on.
+  void block(int v) { graph_.dead_end[v] = 1; }
+
+  void go(int from, int to) { go_to_nearest(from, {to}); }
+
+  // Takes the shortest path that is left. Where vertices of the tour shut it off, nothing is.
+  void go_to_nearest(int from, const std::vector<int>& to) {
+    graph_.dead_end[from] = 0;
+    const Path path = shortest_path(graph_, from, to);
+    if (path.empty())
+      throw MeshError(fmt::format(
+          "the cut through the marked vertices before {} leaves no edge path on from there; mark them in "
+          "another order, or make the mesh finer",
+          from));
+    for (std::size_t k = 1; k < path.size(); ++k)
+      edges_.push_back(edge_between(graph_, path[k - 1], path[k]));
+    for (const int v : path) block(v);
+  }
+
+  const std::vector<int>& edges() const { return edges_; }
+
+ private:
+  EdgeGraph graph_;
+  std::vector<int> edges_;
+};
+
 }  // namespace
 
 EdgeGraph edge_length_graph(const Surface& surface) {
@@ -431,32 +501,31 @@ CutMesh cut_to_disk(const Surface& surface, const std::vector<int>& marks, int i
 
 CutMesh cut_along_tree(const Surface& surface, const std::vector<int>& marks, int inner_marks,
                        const CutOptions& options) {
-  const std::vector<int>& opposite = surface.connectivity.opposite;
-  const std::vector<int> outgoing = outgoing_halfedges(surface.triangles, opposite, surface.vertex_count());
-  check_marks(marks, outgoing);
   const std::vector<char> on_boundary = surface.boundary_vertices();
+  check_marks_of_tree(surface, marks, inner_marks, on_boundary);
   const std::vector<int> outer = vertices_on(on_boundary);
   const bool is_closed = outer.empty();
-  if (marks.size() < (is_closed ? 2 : 1))
-    throw MeshError(fmt::format("a cut through {} marked vertices; mark more", marks.size()));
-  if (!is_closed) check_marks_of_disk(marks, inner_marks, on_boundary);
-
   const std::vector<int> inner(marks.begin() + (is_closed ? 1 : 0), marks.begin() + inner_marks);
-  const std::vector<int> edges =
-      tree_of_marks(surface, is_closed ? std::vector{marks[0]} : outer, inner, options);
-  OpenedMesh opened = opened_along(edges, surface);
-  std::vector<int> all_marks = marks;
-  if (!is_closed && inner_marks == static_cast<int>(marks.size()))
-    all_marks.push_back(end_of_tree(surface, edges, on_boundary));
-  const int start = is_closed ? boundary_halfedge(marks[0], opened)
-                              : first_halfedge_at(all_marks[inner_marks], surface, opened);
-  const std::vector<int> walk = boundary_walk(start, opened);
-  CutMesh cut = split_along_boundary(walk, std::move(opened));
-  cut.marks = all_marks;
-  cut.arrangement = order_met(cut.boundary, cut.source_vertex, cut.marks);
-  if (!is_closed) check_order_on_boundary(cut, marks, inner_marks);
-  cut.sides = sides_of_tree(walk, surface, cut.marks, on_boundary);
-  return cut;
+  return cut_along_edges(surface, {marks, inner_marks},
+                         tree_of_marks(surface, is_closed ? std::vector{marks[0]} : outer, inner, options),
+                         on_boundary);
+}
+
+CutMesh cut_along_tour(const Surface& surface, const std::vector<int>& marks, int inner_marks,
+                       const CutOptions& options) {
+  const std::vector<char> on_boundary = surface.boundary_vertices();
+  check_marks_of_tree(surface, marks, inner_marks, on_boundary);
+  EdgeGraph graph = edge_length_graph(surface);
+  perturb_lengths(graph, options.seed);
+  Tour tour(std::move(graph), marks);
+  for (int v = 0; v < surface.vertex_count(); ++v)
+    if (on_boundary[v]) tour.block(v);
+  const bool is_closed = vertices_on(on_boundary).empty();
+  const bool has_corner = inner_marks < static_cast<int>(marks.size());
+  if (!is_closed && has_corner && inner_marks > 0) tour.go(marks[inner_marks], marks[0]);
+  if (!is_closed && !has_corner) tour.go_to_nearest(marks[0], vertices_on(on_boundary));
+  for (int k = 1; k < inner_marks; ++k) tour.go(marks[k - 1], marks[k]);
+  return cut_along_edges(surface, {marks, inner_marks}, tour.edges(), on_boundary);
 }
 
 }  // namespace orbitutte

@@ -70,6 +70,14 @@ CutMesh cut_to_disk(const Surface& surface, const std::vector<int>& marks, int i
 CutMesh cut_along_tree(const Surface& surface, const std::vector<int>& marks, int inner_marks,
                        const CutOptions& options = {});
 
+/// The same along a tour: from the first mark on the boundary, if there is one, through the marks inside in
+/// their order, each joined to the one before by the shortest path that meets none of the others. Two
+/// surfaces that are cut along a tour through corresponding marks have the same sides. If no mark of a disk
+/// is on the boundary, the tour begins where the boundary is nearest to the first. Throws MeshError if the
+/// tour shuts itself off.
+CutMesh cut_along_tour(const Surface& surface, const std::vector<int>& marks, int inner_marks,
+                       const CutOptions& options = {});
+
 /// The edges with their lengths in space. Every length is increased by a tiny one, so that paths have few
 /// edges even if edges have length zero. Paths may pass through any vertex: no vertex is a dead end.
 EdgeGraph edge_length_graph(const Surface& surface);

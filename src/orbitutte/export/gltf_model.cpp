@@ -48,6 +48,18 @@ struct GltfModel::State {
     return model.accessors.back();
   }
 
+  // Numbers for animations.
+  int add_scalars(const std::vector<float>& values) {
+    const std::size_t start = bytes.size();
+    for (const float value : values) append_little_endian(bytes, value);
+    const int view = add_view(start, 0, 0);
+    tinygltf::Accessor& accessor =
+        add_accessor(view, values.size(), TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_SCALAR);
+    accessor.minValues = {*std::min_element(values.begin(), values.end())};
+    accessor.maxValues = {*std::max_element(values.begin(), values.end())};
+    return last_accessor();
+  }
+
   int last_accessor() const { return static_cast<int>(model.accessors.size()) - 1; }
 };
 
@@ -129,6 +141,26 @@ void GltfModel::add_primitive(const std::map<std::string, int>& attributes, int 
   primitive.material = material;
   primitive.mode = TINYGLTF_MODE_TRIANGLES;
   state_->mesh.primitives.push_back(primitive);
+}
+
+void GltfModel::add_morph_target(const std::map<std::string, int>& displacements) {
+  state_->mesh.primitives.back().targets.push_back(displacements);
+  state_->mesh.weights.push_back(0);
+}
+
+void GltfModel::animate_morph(const std::vector<float>& times, const std::vector<float>& weights) {
+  tinygltf::AnimationSampler sampler;
+  sampler.input = state_->add_scalars(times);
+  sampler.output = state_->add_scalars(weights);
+  sampler.interpolation = "LINEAR";
+  tinygltf::AnimationChannel channel;
+  channel.sampler = 0;
+  channel.target_node = 0;
+  channel.target_path = "weights";
+  tinygltf::Animation animation;
+  animation.samplers.push_back(sampler);
+  animation.channels.push_back(channel);
+  state_->model.animations.push_back(animation);
 }
 
 std::string GltfModel::bytes() const {

@@ -43,6 +43,13 @@ class GltfModel {
   /// Triangles whose vertices have attributes such as {"POSITION", accessor}.
   void add_primitive(const std::map<std::string, int>& attributes, int indices, int material);
 
+  /// Adds a morph target to the last primitive: attributes such as {"POSITION", accessor of displacements}.
+  void add_morph_target(const std::map<std::string, int>& displacements);
+
+  /// Lets the weight of the only morph target follow these values at these times (seconds, ascending), linear
+  /// in between.
+  void animate_morph(const std::vector<float>& times, const std::vector<float>& weights);
+
   /// The GLB file.
   std::string bytes() const;
 

@@ -2,6 +2,7 @@
 #include "orbitutte/orbifold/varying_marks.h"
 
 #include <Eigen/Geometry>
+#include <utility>
 
 namespace orbitutte {
 namespace {
@@ -118,6 +119,15 @@ VaryingPoint VaryingMarks::next_corner(int corner) const {
 VaryingPoint VaryingMarks::last_corner(int corner) const {
   const int last = marks_.corner_before(corner);
   return points_[last].seen_through(marks_.product_up_to_corner(last, rotations_, identity()).inverse());
+}
+
+void VaryingMarks::carry(int moved, int other, const VaryingIsometry& motion) {
+  const VaryingIsometry by = motion;  // it may be one of the rotations that change
+  std::swap(points_[moved], points_[other]);
+  std::swap(rotations_[moved], rotations_[other]);
+  points_[other] = points_[other].seen_through(by);
+  points_[other].position = space_.retract(points_[other].position);
+  rotations_[other] = by * rotations_[other] * by.inverse();
 }
 
 // The reflection r moves as exp(v) r exp(-v), and leaves v as it is, turned around: exp(2 v) r.

@@ -21,6 +21,13 @@ class VaryingMarks {
   /// The marks themselves.
   const std::vector<VaryingPoint>& points() const { return points_; }
 
+  /// About the cones; the identity in place of corners.
+  const std::vector<VaryingIsometry>& rotations() const { return rotations_; }
+
+  /// Carries the cone in place `moved` by an isometry. From then on it is met in place `other`, and the cone
+  /// there in its own.
+  void carry(int moved, int other, const VaryingIsometry& motion);
+
   /// Moduli::generators.
   std::vector<VaryingIsometry> generators() const;
 

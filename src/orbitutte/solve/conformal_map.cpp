@@ -166,41 +166,109 @@ Forms<Eigen::MatrixXd> real_parts(const Forms<HermitianForm>& forms) {
   return {forms.area.real(), forms.energy.real(), forms.energy_at_great_cones.real()};
 }
 
-// The sum of the maps with these coefficients, moved so that the first mark lies at the origin, and scaled.
-Points combined_map(const std::vector<ShapeMap>& maps, const Eigen::VectorXcd& coefficients, double scale,
-                    int first_mark) {
-  const auto place = [&](int v) {
-    PlaneNumber sum = 0;
-    for (std::size_t j = 0; j < maps.size(); ++j)
-      sum += coefficients[static_cast<Eigen::Index>(j)] * in_plane(maps[j].positions.row(v));
-    return sum;
+// Of the surfaces' forms in one basis, each in the coordinates c' = change c.
+template <typename Matrix>
+Forms<Matrix> sum_of_forms(const std::vector<Forms<Matrix>>& forms, const std::vector<Matrix>& changes) {
+  Forms<Matrix> sum;
+  const auto add = [](const Matrix& form, const Matrix& change, Matrix& to) {
+    if (form.size() == 0) return;
+    const Matrix changed = change.adjoint() * form * change;
+    to = to.size() == 0 ? changed : Matrix(to + changed);
   };
-  const PlaneNumber origin = place(first_mark);
-  Points positions(maps.front().positions.rows(), 3);
-  parallel_ranges(static_cast<int>(positions.rows()), [&](int begin, int end) {
-    for (int v = begin; v < end; ++v) {
-      const PlaneNumber z = scale * (place(v) - origin);
-      positions.row(v) << z.real(), z.imag(), 1;
-    }
-  });
-  return positions;
+  for (std::size_t s = 0; s < forms.size(); ++s) {
+    add(forms[s].area, changes[s], sum.area);
+    add(forms[s].energy, changes[s], sum.energy);
+    add(forms[s].energy_at_great_cones, changes[s], sum.energy_at_great_cones);
+  }
+  return sum;
+}
+
+// Of shapes, one a column, in the basis: real where shapes may not be turned.
+HermitianForm coordinates_in(const TileShapes& shapes, const Eigen::MatrixXcd& columns) {
+  const HermitianForm products = shapes.basis.adjoint() * columns;
+  if (shapes.may_be_turned) return products;
+  return products.real().cast<PlaneNumber>();
 }
 
 }  // namespace
 
-Points conformal_map(const GluingProblem& problem, const LaplacianSolver& laplacian) {
-  const TileShapes shapes = tile_shapes(problem.target, problem.cut);
+struct ConformalShapes::State {
+  const GluingProblem& problem;
+  TileShapes shapes;
   std::vector<ShapeMap> maps;
-  for (Eigen::Index j = 0; j < shapes.basis.cols(); ++j)
-    maps.push_back(map_of_shape(problem, laplacian, shapes.basis.col(j)));
-  Forms<HermitianForm> forms = {area_form(problem.cut, maps), energy_form(maps, problem.weights.w), {}};
+  Forms<HermitianForm> forms;
+};
+
+ConformalShapes::ConformalShapes(const GluingProblem& problem, const LaplacianSolver& laplacian)
+    : state_(std::make_unique<State>(State{problem, tile_shapes(problem.target, problem.cut), {}, {}})) {
+  std::vector<ShapeMap>& maps = state_->maps;
+  for (Eigen::Index j = 0; j < state_->shapes.basis.cols(); ++j)
+    maps.push_back(map_of_shape(problem, laplacian, state_->shapes.basis.col(j)));
+  state_->forms = {area_form(problem.cut, maps), energy_form(maps, problem.weights.w), {}};
+  if (conformal_eigenvalues(problem.target) > 1)
+    state_->forms.energy_at_great_cones =
+        energy_form(maps, weights_at_great_cones(problem, maps.front().glued));
+}
+
+ConformalShapes::~ConformalShapes() = default;
+ConformalShapes::ConformalShapes(ConformalShapes&&) noexcept = default;
+
+Eigen::VectorXcd ConformalShapes::own_shape() const {
+  return shared_shape({this}, {Eigen::MatrixXcd::Identity(shapes().basis.rows(), shapes().basis.rows())});
+}
+
+const TileShapes& ConformalShapes::shapes() const { return state_->shapes; }
+
+Eigen::VectorXcd ConformalShapes::scaled(const Eigen::VectorXcd& shape) const {
+  const Eigen::VectorXcd coefficients = coordinates_in(shapes(), shape);
+  const double area = coefficients.dot(state_->forms.area * coefficients).real();
+  return std::sqrt(target_area(state_->problem.target) / area) * shape;
+}
+
+// The origin of the shape stays where it is: a sum of maps moves with the sum of its marks.
+Points ConformalShapes::map_onto(const Eigen::VectorXcd& shape) const {
+  const std::vector<ShapeMap>& maps = state_->maps;
+  const auto marks = static_cast<double>(shape.size());
+  const PlaneNumber middle = shape.sum() / marks;
+  const Eigen::VectorXcd coefficients = coordinates_in(shapes(), (shape.array() - middle).matrix());
+  Points positions(maps.front().positions.rows(), 3);
+  parallel_ranges(static_cast<int>(positions.rows()), [&](int begin, int end) {
+    for (int v = begin; v < end; ++v) {
+      PlaneNumber sum = middle;
+      for (std::size_t j = 0; j < maps.size(); ++j)
+        sum += coefficients[static_cast<Eigen::Index>(j)] * in_plane(maps[j].positions.row(v));
+      positions.row(v) << sum.real(), sum.imag(), 1;
+    }
+  });
+  for (std::size_t k = 0; k < state_->problem.cut.marks.size(); ++k) {
+    const PlaneNumber mark = shape[static_cast<Eigen::Index>(k)];
+    positions.row(state_->problem.cut.marks[k]) << mark.real(), mark.imag(), 1;
+  }
+  return positions;
+}
+
+Eigen::VectorXcd shared_shape(const std::vector<const ConformalShapes*>& surfaces,
+                              const std::vector<Eigen::MatrixXcd>& changes) {
+  const TileShapes& shapes = surfaces.front()->shapes();
+  const GluingProblem& problem = surfaces.front()->state_->problem;
+  std::vector<Forms<HermitianForm>> forms;
+  std::vector<HermitianForm> in_basis;
+  for (std::size_t s = 0; s < surfaces.size(); ++s) {
+    forms.push_back(surfaces[s]->state_->forms);
+    in_basis.push_back(coordinates_in(surfaces[s]->shapes(), changes[s] * shapes.basis));
+  }
+  const Forms<HermitianForm> sum = sum_of_forms(forms, in_basis);
   const int conformal = conformal_eigenvalues(problem.target);
-  if (conformal > 1)
-    forms.energy_at_great_cones = energy_form(maps, weights_at_great_cones(problem, maps.front().glued));
-  const Eigen::VectorXcd best = shapes.may_be_turned ? best_combination(forms, conformal)
-                                                     : best_combination(real_parts(forms), conformal);
-  const double area = best.dot(forms.area * best).real();
-  return combined_map(maps, best, std::sqrt(target_area(problem.target) / area), problem.cut.marks.front());
+  const Eigen::VectorXcd best =
+      shapes.may_be_turned ? best_combination(sum, conformal) : best_combination(real_parts(sum), conformal);
+  return surfaces.front()->scaled(shapes.basis * best);
+}
+
+Points conformal_map(const GluingProblem& problem, const LaplacianSolver& laplacian) {
+  const ConformalShapes shapes(problem, laplacian);
+  Eigen::VectorXcd shape = shapes.own_shape();
+  shape.array() -= PlaneNumber(shape[0]);
+  return shapes.map_onto(shape);
 }
 
 }  // namespace orbitutte

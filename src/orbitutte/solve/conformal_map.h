@@ -3,6 +3,10 @@
 // the map is conformal.
 #pragma once
 
+#include <memory>
+#include <vector>
+
+#include "orbitutte/orbifold/free_tile.h"
 #include "orbitutte/solve/placement.h"
 
 namespace orbitutte {
@@ -24,5 +28,40 @@ namespace orbitutte {
 ///
 /// problem: its tile is any of the target's. laplacian: of this problem.
 Points conformal_map(const GluingProblem& problem, const LaplacianSolver& laplacian);
+
+/// The harmonic maps onto the tiles of a basis of shapes. A shape is the complex numbers x + iy of the marks,
+/// in the order of CutMesh::marks.
+class ConformalShapes {
+ public:
+  /// Solves the Laplacian once for each shape. `problem` must outlive this.
+  ConformalShapes(const GluingProblem& problem, const LaplacianSolver& laplacian);
+  ~ConformalShapes();
+  ConformalShapes(ConformalShapes&&) noexcept;
+
+  /// That of conformal_map, its size such that the tile has the area of the target.
+  Eigen::VectorXcd own_shape() const;
+
+  const TileShapes& shapes() const;
+
+  /// The shape in the size at which the tile has the area of the target.
+  Eigen::VectorXcd scaled(const Eigen::VectorXcd& shape) const;
+
+  /// The harmonic map onto the tile of a shape without closing defects: positions of the input vertices (n x
+  /// 3).
+  Points map_onto(const Eigen::VectorXcd& shape) const;
+
+  friend Eigen::VectorXcd shared_shape(const std::vector<const ConformalShapes*>& surfaces,
+                                       const std::vector<Eigen::MatrixXcd>& changes);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// The shape of the tile that several surfaces are mapped onto with the least sum of their energies: by the
+/// sum of their forms S, since their forms A are the same. Where its marks lie at p, those of surface s lie
+/// at changes[s] * p. The targets of all are the same, and so are the places of the marks in their cuts.
+Eigen::VectorXcd shared_shape(const std::vector<const ConformalShapes*>& surfaces,
+                              const std::vector<Eigen::MatrixXcd>& changes);
 
 }  // namespace orbitutte

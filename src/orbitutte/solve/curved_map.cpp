@@ -11,12 +11,13 @@
 #include <numbers>
 
 #include "orbitutte/linear/dissection.h"
+#include "orbitutte/orbifold/braid.h"
 #include "orbitutte/orbifold/cone_target.h"
 #include "orbitutte/orbifold/free_tile.h"
+#include "orbitutte/parallel.h"
 #include "orbitutte/solve/conformal_metric.h"
 #include "orbitutte/solve/development.h"
 #include "orbitutte/solve/edge_words.h"
-#include "orbitutte/solve/initial_embedding.h"
 #include "orbitutte/solve/laplacian_solver.h"
 #include "orbitutte/solve/moduli_energy.h"
 #include "orbitutte/solve/tangent_system.h"
@@ -59,31 +60,39 @@ double paired(const Points& covectors, const Points& vectors) {
   return covectors.cwiseProduct(vectors).sum();
 }
 
-// The edges of the energy as words, with their weights: those of the problem, and their mirror images.
-struct WeightedWords {
-  explicit WeightedWords(const GluingProblem& problem)
-      : edges(edge_words(problem.surface, problem.weights.triangulation.get(), problem.cut)) {
+// The words of a surface's edges, with their weights, those of the problem and their mirror images; and a
+// dissection of their graph.
+struct WordGraph {
+  explicit WordGraph(const GluingProblem& problem)
+      : edges(edge_words(problem.surface, problem.weights.triangulation.get(), problem.cut)),
+        dissection(dissect(
+            vertex_neighbors(connectivity_of_weights(problem).edges, problem.surface.vertex_count()))) {
     weights.w = edges.weights(problem.weights.w);
+  }
+
+  static const Connectivity& connectivity_of_weights(const GluingProblem& problem) {
+    const IntrinsicTriangulation* triangulation = problem.weights.triangulation.get();
+    return triangulation ? triangulation->connectivity : problem.surface.connectivity;
   }
 
   EdgeWords edges;
   EdgeWeights weights;
+  Dissection dissection;
 };
 
-// What the search over shapes is about.
-struct ShapeProblem {
+// A surface, and what it is mapped onto.
+struct TileSurface {
   const GluingProblem& problem;
   const Target& target;
-  const WeightedWords& words;
-  const Dissection& dissection;
+  const WordGraph& graph;
 };
 
 // Everything that belongs to one tile. The parts refer to each other.
 struct TileSystem {
-  TileSystem(const ShapeProblem& shapes, GluedEdges edges, const Points& x)
-      : boundary(glue(shapes.problem.cut, tile_through(shapes.target, shapes.problem.cut, x), shapes.target)),
+  TileSystem(const TileSurface& of, GluedEdges edges, const Points& x)
+      : boundary(glue(of.problem.cut, tile_through(of.target, of.problem.cut, x), of.target)),
         glued(std::move(edges)),
-        energy(glued, shapes.words.weights, boundary) {}
+        energy(glued, of.graph.weights, boundary) {}
   TileSystem(const TileSystem&) = delete;
   TileSystem& operator=(const TileSystem&) = delete;
 
@@ -94,6 +103,7 @@ struct TileSystem {
 
 // A tile, the harmonic map onto it, and how its energy changes with its shape.
 struct HarmonicTile {
+  // Of the tile that is shared, before the surface's braid.
   Points cones;
   std::unique_ptr<TileSystem> system;
 
@@ -110,7 +120,6 @@ struct HarmonicTile {
   Eigen::VectorXd slope;
 
   const Points& x() const { return minimum.positions; }
-  double steepest() const { return slope.size() > 0 ? slope.cwiseAbs().maxCoeff() : 0; }
 };
 
 // The energy as a function of the shape to second order, and what the positions do meanwhile.
@@ -126,18 +135,16 @@ struct ShapeModel {
   }
 };
 
-// Where a search begins: the cones of a tile, and positions of all vertices.
-struct ShapeStart {
-  Points cones, x;
-};
-
-// The search over the shapes of one target.
+// The search over the shapes of one target, as one surface sees it.
 class ShapeSearch {
  public:
-  explicit ShapeSearch(const ShapeProblem& shapes)
-      : shapes_(shapes),
-        moduli_(moduli_of(shapes.target, shapes.problem.cut)),
-        energy_(moduli_, shapes.words.edges, shapes.words.weights.w, cones_as_met(shapes.problem.cut)) {}
+  ShapeSearch(const TileSharer& sharer, const Target& target, const WordGraph& graph)
+      : problem_(sharer.problem),
+        target_(target),
+        braid_(sharer.braid),
+        graph_(graph),
+        moduli_(moduli_of(target, problem_.cut)),
+        energy_(moduli_, graph.edges, graph.weights.w, cones_as_met(problem_.cut)) {}
 
   const Moduli& moduli() const { return moduli_; }
 
@@ -150,7 +157,7 @@ class ShapeSearch {
   }
 
   // The same from a tile whose shape is so far away: nearby its factor serves once more.
-  HarmonicTile harmonic_beside(const HarmonicTile& from, double distance, const ShapeStart& start,
+  HarmonicTile harmonic_beside(const HarmonicTile& from, double distance, const TiledPositions& start,
                                const LbfgsOptions& options) const {
     HarmonicTile tile = started(start.cones, start.x);
     tile.held = from.held;
@@ -178,7 +185,7 @@ class ShapeSearch {
   }
 
   // Is the energy there about as small as that of a conformal map?
-  bool is_good(const ShapeStart& start) const {
+  bool is_good(const TiledPositions& start) const {
     constexpr double largest_conformality = 1.5;
     const HarmonicTile tile = started(start.cones, start.x);
     const double energy = tile.system->energy.evaluate(tile.x()).energy;
@@ -186,7 +193,8 @@ class ShapeSearch {
   }
 
   ShapeModel model(const HarmonicTile& tile) const {
-    const ModuliEnergy::Curvature curvature = energy_.curvature(tile.x(), tile.cones, tile.basis);
+    const ModuliEnergy::Curvature curvature =
+        energy_.curvature(tile.x(), met(tile.cones, tile.basis, Order::second));
     ShapeModel model = {{tile.slope, curvature.energy + bending(tile)}, {}};
     model.responses = tile.hessian->beside(tangent_problem(*tile.system), tile.x()).solve(curvature.gradient);
     for (Points& response : model.responses) response *= -1;
@@ -202,9 +210,17 @@ class ShapeSearch {
   }
 
  private:
+  // Where the boundary of this surface's cut mesh meets the cones.
+  Points own(const Points& cones) const { return braided(moduli_, cones, braid_); }
+
+  // The same of cones that move along directions.
+  VaryingMarks met(const Points& cones, const Eigen::MatrixXd& directions, Order order) const {
+    return braided(moduli_.varying(cones, directions, order), braid_);
+  }
+
   TangentProblem tangent_problem(const TileSystem& system) const {
-    return {system.glued, shapes_.words.weights.w, system.boundary, shapes_.dissection,
-            shapes_.problem.laplacian.options.backend};
+    return {system.glued, graph_.weights.w, system.boundary, graph_.dissection,
+            problem_.laplacian.options.backend};
   }
 
   // Does a tile's factor precondition that of another one so far away? Where the map took many iterations, it
@@ -220,8 +236,9 @@ class ShapeSearch {
   HarmonicTile started(const Points& cones, const Points& start) const {
     HarmonicTile tile;
     tile.cones = cones;
-    Points& x = tile.minimum.positions = energy_.with_cones(start, cones);
-    tile.system = std::make_unique<TileSystem>(shapes_, energy_.glued(cones), x);
+    const Points met = own(cones);
+    Points& x = tile.minimum.positions = energy_.with_cones(start, met);
+    tile.system = std::make_unique<TileSystem>(TileSurface{problem_, target_, graph_}, energy_.glued(met), x);
     tile.system->boundary.make_feasible(x);
     return tile;
   }
@@ -238,43 +255,81 @@ class ShapeSearch {
       const Eigen::MatrixXd Q = factors.householderQ();
       tile.basis = tile.basis * Q.rightCols(tile.basis.cols() - tile.held.cols());
     }
-    tile.slope = tile.basis.transpose() * energy_.cone_gradient(tile.x(), tile.cones);
+    tile.slope = energy_.cone_gradient(tile.x(), met(tile.cones, tile.basis, Order::first));
   }
 
   // What the closing adds to the second derivative: tiles that close bend away from geodesic steps, across
   // the steps that keep them closed, where the energy has a slope, a combination of those of the closing.
   Eigen::MatrixXd bending(const HarmonicTile& tile) const {
-    const Eigen::VectorXd slope = energy_.cone_gradient(tile.x(), tile.cones);
+    const Eigen::Index steps = 2 * moduli_.mark_count();
+    const Eigen::VectorXd slope = energy_.cone_gradient(
+        tile.x(), met(tile.cones, Eigen::MatrixXd::Identity(steps, steps), Order::first));
     const Eigen::MatrixXd across = moduli_.closing_jacobian(tile.cones).transpose();
     const Eigen::VectorXd multipliers = -across.completeOrthogonalDecomposition().solve(slope);
     return moduli_.varying(tile.cones, tile.basis, Order::second).closing_curvature(multipliers);
   }
 
-  const ShapeProblem& shapes_;
+  const GluingProblem& problem_;
+  const Target& target_;
+  Braid braid_;
+  const WordGraph& graph_;
   Moduli moduli_;
   ModuliEnergy energy_;
 };
 
-// The trust region's steps through the shapes.
+// The harmonic maps of all surfaces onto one tile.
+struct SharedTile {
+  std::vector<HarmonicTile> maps;
+
+  const Points& cones() const { return maps.front().cones; }
+
+  double energy() const {
+    double sum = 0;
+    for (const HarmonicTile& map : maps) sum += map.minimum.energy;
+    return sum;
+  }
+
+  // Of the energy, along the basis.
+  Eigen::VectorXd slope() const {
+    Eigen::VectorXd sum = maps.front().slope;
+    for (std::size_t s = 1; s < maps.size(); ++s) sum += maps[s].slope;
+    return sum;
+  }
+
+  double steepest() const {
+    const Eigen::VectorXd all = slope();
+    return all.size() > 0 ? all.cwiseAbs().maxCoeff() : 0;
+  }
+};
+
+// The energy of all maps to second order, and what the positions of each do meanwhile.
+struct SharedModel {
+  QuadraticModel energy;
+  std::vector<ShapeModel> of_maps;
+};
+
+// The trust region's steps through the shapes, of one surface or of several that share the tile.
 class ShapeDescent {
  public:
-  ShapeDescent(const ShapeSearch& search, const LbfgsOptions& options, const Stages& stage)
-      : search_(search), options_(options), stage_(stage) {}
+  ShapeDescent(std::vector<const ShapeSearch*> searches, const LbfgsOptions& options, const Stages& stage)
+      : searches_(std::move(searches)), options_(options), stage_(stage) {}
 
-  HarmonicTile run(const ShapeStart& start) {
-    HarmonicTile tile = search_.harmonic(start.cones, start.x, within(loosest));
-    search_.hold_flat_directions(tile);
+  // From the cones of a tile and positions of each surface; a minimum for each.
+  std::vector<Minimum> run(const Points& cones, const std::vector<Points>& starts) {
+    SharedTile tile = first_tile(cones, starts);
+    // Tiles that are shared have no great cones.
+    if (searches_.size() == 1) searches_.front()->hold_flat_directions(tile.maps.front());
     add_row(tile, 0);
     for (int step = 0; step < most_steps && tile.steepest() > slope_tolerance(); ++step)
       if (!advance(tile)) break;
-    HarmonicTile last = search_.harmonic_beside(tile, 0, {tile.cones, tile.x()}, within(options_.tolerance));
-    last.minimum.shapes = std::move(rows_);
-    last.minimum.iterations += iterations_;
-    last.minimum.evaluations += evaluations_;
-    const bool is_shape_found = last.steepest() <= std::max(1000 * slope_tolerance(), 1e-6);
-    if (!is_shape_found && last.minimum.termination == Termination::converged)
-      last.minimum.termination = Termination::max_iterations;
-    return last;
+    return finished(tile);
+  }
+
+  // The same without a step: onto the tile of these cones.
+  std::vector<Minimum> stay(const Points& cones, const std::vector<Points>& starts) {
+    const SharedTile tile = first_tile(cones, starts);
+    add_row(tile, 0);
+    return minima(last_tile(tile));
   }
 
  private:
@@ -295,22 +350,76 @@ class ShapeDescent {
     return options;
   }
 
-  void add_row(const HarmonicTile& tile, double length) {
-    rows_.push_back({tile.minimum.energy, tile.steepest(), length});
-    iterations_ += tile.minimum.iterations;
-    evaluations_ += tile.minimum.evaluations;
+  SharedTile first_tile(const Points& cones, const std::vector<Points>& starts) const {
+    SharedTile tile;
+    for (std::size_t s = 0; s < searches_.size(); ++s)
+      tile.maps.push_back(searches_[s]->harmonic(cones, starts[s], within(loosest)));
+    return tile;
+  }
+
+  // The same tile, its maps up to the tolerance that is asked for.
+  SharedTile last_tile(const SharedTile& tile) const {
+    SharedTile last;
+    for (std::size_t s = 0; s < searches_.size(); ++s)
+      last.maps.push_back(searches_[s]->harmonic_beside(tile.maps[s], 0, {tile.cones(), tile.maps[s].x()},
+                                                        within(options_.tolerance)));
+    return last;
+  }
+
+  std::vector<Minimum> minima(const SharedTile& last) const {
+    std::vector<Minimum> result;
+    for (const HarmonicTile& map : last.maps) {
+      result.push_back(map.minimum);
+      result.back().shapes = rows_;
+      result.back().iterations += iterations_;
+      result.back().evaluations += evaluations_;
+    }
+    return result;
+  }
+
+  std::vector<Minimum> finished(const SharedTile& tile) const {
+    const SharedTile last = last_tile(tile);
+    std::vector<Minimum> result = minima(last);
+    const bool is_shape_found = last.steepest() <= std::max(1000 * slope_tolerance(), 1e-6);
+    for (Minimum& minimum : result)
+      if (!is_shape_found && minimum.termination == Termination::converged)
+        minimum.termination = Termination::max_iterations;
+    return result;
+  }
+
+  void add_row(const SharedTile& tile, double length) {
+    rows_.push_back({tile.energy(), tile.steepest(), length});
+    for (const HarmonicTile& map : tile.maps) {
+      iterations_ += map.minimum.iterations;
+      evaluations_ += map.minimum.evaluations;
+    }
+  }
+
+  SharedModel model(const SharedTile& tile) const {
+    SharedModel model;
+    for (std::size_t s = 0; s < searches_.size(); ++s) {
+      model.of_maps.push_back(searches_[s]->model(tile.maps[s]));
+      const QuadraticModel& energy = model.of_maps.back().energy;
+      if (s == 0) {
+        model.energy = energy;
+      } else {
+        model.energy.gradient += energy.gradient;
+        model.energy.hessian += energy.hessian;
+      }
+    }
+    return model;
   }
 
   // One accepted step; false if there is none.
-  bool advance(HarmonicTile& tile) {
+  bool advance(SharedTile& tile) {
     constexpr int most_trials = 12;
-    const ShapeModel model = search_.model(tile);
+    const SharedModel model = this->model(tile);
     for (int trial = 0; trial < most_trials; ++trial) {
       const Eigen::VectorXd step = trust_region_step(model.energy, radius_);
       const double promised = -model.energy(step), length = step.norm();
-      std::optional<HarmonicTile> next = tile_after(tile, model, step);
+      std::optional<SharedTile> next = tile_after(tile, model, step);
       if (next && is_better(tile, *next, promised)) {
-        adapt_radius((tile.minimum.energy - next->minimum.energy) / promised, length);
+        adapt_radius((tile.energy() - next->energy()) / promised, length);
         tile = std::move(*next);
         add_row(tile, length);
         return true;
@@ -321,28 +430,32 @@ class ShapeDescent {
     return false;
   }
 
-  std::optional<HarmonicTile> tile_after(const HarmonicTile& tile, const ShapeModel& model,
-                                         const Eigen::VectorXd& step) const {
-    const std::optional<Points> cones = search_.moved_cones(tile, step);
+  std::optional<SharedTile> tile_after(const SharedTile& tile, const SharedModel& model,
+                                       const Eigen::VectorXd& step) const {
+    const std::optional<Points> cones = searches_.front()->moved_cones(tile.maps.front(), step);
     if (!cones) return std::nullopt;
-    Points x;
-    move_points(search_.moduli().space(), tile.x(), model.response(step), 1, x);
-    if (!x.allFinite()) x = tile.x();
-    return search_.harmonic_beside(tile, step.norm(), {*cones, x},
-                                   within(std::min(loosest, 1e-4 * tile.steepest())));
+    // So many vertices may be off that their sum would show in the slope.
+    const LbfgsOptions options = within(std::min(loosest, 1e-6 * tile.steepest()));
+    SharedTile next;
+    for (std::size_t s = 0; s < searches_.size(); ++s) {
+      const HarmonicTile& map = tile.maps[s];
+      Points x;
+      move_points(searches_[s]->moduli().space(), map.x(), model.of_maps[s].response(step), 1, x);
+      if (!x.allFinite()) x = map.x();
+      next.maps.push_back(searches_[s]->harmonic_beside(map, step.norm(), {*cones, x}, options));
+    }
+    return next;
   }
 
   // Where rounding hides the change of the energy, by its slope.
-  bool is_better(const HarmonicTile& from, const HarmonicTile& to, double promised) const {
+  static bool is_better(const SharedTile& from, const SharedTile& to, double promised) {
     constexpr double least_share = 0.05;
     if (is_hidden(from, promised)) return to.steepest() < 0.5 * from.steepest();
-    return from.minimum.energy - to.minimum.energy > least_share * promised;
+    return from.energy() - to.energy() > least_share * promised;
   }
 
   // Is a change of the energy hidden by rounding?
-  static bool is_hidden(const HarmonicTile& tile, double change) {
-    return change <= 1e-12 * tile.minimum.energy;
-  }
+  static bool is_hidden(const SharedTile& tile, double change) { return change <= 1e-12 * tile.energy(); }
 
   void adapt_radius(double share, double length) {
     constexpr double widest = 2;
@@ -350,7 +463,7 @@ class ShapeDescent {
     if (share < 0.25) radius_ = length / 2;
   }
 
-  const ShapeSearch& search_;
+  std::vector<const ShapeSearch*> searches_;
   const LbfgsOptions& options_;
   const Stages& stage_;
   double radius_ = 0.5;
@@ -382,7 +495,7 @@ Points cones_when_met(const CutMesh& cut, const Points& positions) {
 }
 
 // The surface with its discretely conformal metric, developed; nothing where its triangles have none.
-std::optional<ShapeStart> developed_start(const GluingProblem& problem, const Dissection& dissection) {
+std::optional<TiledPositions> developed_start(const GluingProblem& problem, const Dissection& dissection) {
   constexpr double largest_defect = 0.5;
   const Space space = problem.target.space;
   const ConformalMetric metric =
@@ -394,7 +507,7 @@ std::optional<ShapeStart> developed_start(const GluingProblem& problem, const Di
   const std::optional<Points> cones =
       moduli_of(problem.target, problem.cut).closed(cones_when_met(problem.cut, positions));
   if (!cones) return std::nullopt;
-  return ShapeStart{*cones, positions.topRows(problem.surface.vertex_count())};
+  return TiledPositions{*cones, positions.topRows(problem.surface.vertex_count())};
 }
 
 // Positions of the corners of the first tile: the cones of the doubled polygon, and for all other vertices
@@ -417,14 +530,14 @@ Points corners_of_polygon(const GluingProblem& problem, const Moduli& moduli) {
 }
 
 // On the sphere, the harmonic map to R^3 that is glued like the tile, its cones held, moved to the sphere.
-// In the hyperbolic plane, where the energy of maps onto one tile is convex, the start is a matter of speed.
+// The operator of that is indefinite in the hyperbolic plane, where the energy of maps onto one tile is
+// convex: there the start is a matter of speed alone.
 Points first_map(const GluingProblem& problem, const Target& target, const Points& corners) {
+  if (!target.space.is_closed()) return corners;
   const Tile tile = tile_through(target, problem.cut, corners);
   const BoundaryConditions boundary = glue(problem.cut, tile, target);
   const GluedEdges glued = glued_along(problem, boundary);
   const LaplacianSolver laplacian(problem.cut, glued, problem.weights, boundary, problem.laplacian);
-  if (!target.space.is_closed())
-    return initial_embedding(problem.surface, problem.cut, tile, boundary, laplacian);
   Points x = Points::Zero(corners.rows(), 3);
   for (const int v : problem.cut.marks) x.row(v) = corners.row(v);
   Points pull = Points::Zero(corners.rows(), 3);
@@ -442,24 +555,46 @@ Points first_map(const GluingProblem& problem, const Target& target, const Point
   return x;
 }
 
+// The first map onto the tile of the polygon with an inscribed circle.
+Points start_on_polygon(const GluingProblem& problem, const Target& target, const Moduli& moduli) {
+  return first_map(problem, target, corners_of_polygon(problem, moduli));
+}
+
+// Positions that are about harmonic on the tile of these cones, from any. Far from them a factor serves for
+// some iterations only.
+Points approached(const ShapeSearch& search, const Points& cones, const Points& start,
+                  const LbfgsOptions& options) {
+  constexpr int most_rounds = 20, few_iterations = 8, most_iterations = 40;
+  LbfgsOptions within = options;
+  within.tolerance = std::max(options.tolerance, 1e-5);
+  within.max_iterations = std::min(options.max_iterations, most_iterations);
+  within.callback = {};
+  Minimum minimum;
+  minimum.positions = start;
+  for (int round = 0; round < most_rounds; ++round) {
+    minimum = search.harmonic(cones, minimum.positions, within).minimum;
+    if (minimum.iterations <= few_iterations) break;
+  }
+  return minimum.positions;
+}
+
 // From the polygon with an inscribed circle, through tiles of less area.
 class AreaContinuation {
  public:
-  AreaContinuation(const GluingProblem& problem, const WeightedWords& words, const Dissection& dissection)
-      : problem_(problem), words_(words), dissection_(dissection) {}
+  AreaContinuation(const GluingProblem& problem, const WordGraph& graph) : problem_(problem), graph_(graph) {}
 
   Minimum run(const LbfgsOptions& options, const Stages& stage) const {
     Minimum minimum;
     for (const double area : areas_on_the_way(problem_.target)) {
       const Target target = with_area(problem_.target, area);
-      const ShapeProblem shapes = {problem_, target, words_, dissection_};
-      const ShapeSearch search(shapes);
+      const ShapeSearch search({problem_, {}}, target, graph_);
       if (minimum.positions.size() == 0)
-        minimum.positions = first_map(problem_, target, corners_of_polygon(problem_, search.moduli()));
+        minimum.positions = start_on_polygon(problem_, target, search.moduli());
       LbfgsOptions within = options;
       if (area < free_tile_area(problem_.target)) within.tolerance = std::max(options.tolerance, 1e-4);
-      const ShapeStart start = {cones_of(minimum.positions, search.moduli()), minimum.positions};
-      minimum = ShapeDescent(search, within, stage).run(start).minimum;
+      const Points cones = cones_of(minimum.positions, search.moduli());
+      if (!target.space.is_closed()) minimum.positions = approached(search, cones, minimum.positions, within);
+      minimum = ShapeDescent({&search}, within, stage).run(cones, {minimum.positions}).front();
     }
     return minimum;
   }
@@ -473,26 +608,71 @@ class AreaContinuation {
   }
 
   const GluingProblem& problem_;
-  const WeightedWords& words_;
-  const Dissection& dissection_;
+  const WordGraph& graph_;
+};
+
+// The developed surface, if its map is about conformal.
+std::optional<TiledPositions> good_start(const GluingProblem& problem, const WordGraph& graph) {
+  std::optional<TiledPositions> start = developed_start(problem, graph.dissection);
+  if (start && !ShapeSearch({problem, {}}, problem.target, graph).is_good(*start)) start.reset();
+  return start;
+}
+
+// So that other cuts give the same lengths to ten times the tolerance.
+LbfgsOptions tightened(LbfgsOptions options) {
+  options.tolerance *= 0.1;
+  return options;
+}
+
+// What belongs to surfaces that share a tile. The searches refer to the rest.
+struct Sharing {
+  explicit Sharing(const std::vector<TileSharer>& sharers) {
+    for (const TileSharer& sharer : sharers) {
+      graphs.push_back(std::make_unique<WordGraph>(sharer.problem));
+      owned.push_back(std::make_unique<ShapeSearch>(sharer, sharer.problem.target, *graphs.back()));
+      searches.push_back(owned.back().get());
+    }
+  }
+
+  std::vector<std::unique_ptr<WordGraph>> graphs;
+  std::vector<std::unique_ptr<ShapeSearch>> owned;
+  std::vector<const ShapeSearch*> searches;
 };
 
 }  // namespace
 
 Minimum curved_map(const GluingProblem& problem, const LbfgsOptions& options, const Stages& stage) {
-  const IntrinsicTriangulation* triangulation = problem.weights.triangulation.get();
-  const Connectivity& connectivity =
-      triangulation ? triangulation->connectivity : problem.surface.connectivity;
-  const WeightedWords words(problem);
-  const Dissection dissection = dissect(vertex_neighbors(connectivity.edges, problem.surface.vertex_count()));
-  LbfgsOptions within = options;
-  within.tolerance *= 0.1;  // so that other cuts give the same lengths to ten times the tolerance
-  if (const std::optional<ShapeStart> start = developed_start(problem, dissection)) {
-    const ShapeProblem shapes = {problem, problem.target, words, dissection};
-    const ShapeSearch search(shapes);
-    if (search.is_good(*start)) return ShapeDescent(search, within, stage).run(*start).minimum;
+  const WordGraph graph(problem);
+  const LbfgsOptions within = tightened(options);
+  if (const std::optional<TiledPositions> start = good_start(problem, graph)) {
+    const ShapeSearch search({problem, {}}, problem.target, graph);
+    return ShapeDescent({&search}, within, stage).run(start->cones, {start->x}).front();
   }
-  return AreaContinuation(problem, words, dissection).run(within, stage);
+  return AreaContinuation(problem, graph).run(within, stage);
+}
+
+TiledPositions own_tile(const GluingProblem& problem, const LbfgsOptions& options, const Stages& stage) {
+  const WordGraph graph(problem);
+  if (std::optional<TiledPositions> start = good_start(problem, graph)) return std::move(*start);
+  Points x = AreaContinuation(problem, graph).run(options, stage).positions;
+  return {x(cones_as_met(problem.cut), Eigen::all), x};
+}
+
+TiledPositions polygon_tile(const GluingProblem& problem) {
+  const Moduli moduli = moduli_of(problem.target, problem.cut);
+  const Points x = start_on_polygon(problem, problem.target, moduli);
+  return {x(cones_as_met(problem.cut), Eigen::all), x};
+}
+
+std::vector<Minimum> maps_sharing_a_tile(const std::vector<TileSharer>& sharers, const SharedStart& start,
+                                         const LbfgsOptions& options, const Stages& stage) {
+  const Sharing sharing(sharers);
+  const LbfgsOptions within = tightened(options);
+  std::vector<Points> x(start.x.size());
+  parallel_for(static_cast<int>(x.size()),
+               [&](int s) { x[s] = approached(*sharing.searches[s], start.cones, start.x[s], within); });
+  ShapeDescent descent(sharing.searches, within, stage);
+  return start.is_tile_held ? descent.stay(start.cones, x) : descent.run(start.cones, x);
 }
 
 }  // namespace orbitutte

@@ -16,6 +16,12 @@ Vector3 gradient_of_squared_distance(Curvature<k> curvature, const Vector3& p, c
   return -2 * curvature.distance(p, q).over_sn * curvature.tangent(p, q - p);
 }
 
+Points positions_of(const VaryingMarks& marks) {
+  Points result(static_cast<Eigen::Index>(marks.points().size()), 3);
+  for (Eigen::Index k = 0; k < result.rows(); ++k) result.row(k) = marks.points()[k].position.transpose();
+  return result;
+}
+
 }  // namespace
 
 ModuliEnergy::ModuliEnergy(const Moduli& moduli, const EdgeWords& edges, Eigen::VectorXd w,
@@ -92,10 +98,10 @@ std::vector<VaryingIsometry> ModuliEnergy::varying_transforms(const VaryingMarks
 
 // Where q = g x_j moves by the infinitesimal isometry w, d^2 changes by <u, J (w x q)> = w . (q x u), u the
 // gradient by q. So each g needs one sum of moments q x u.
-Eigen::VectorXd ModuliEnergy::cone_gradient(const Points& x, const Points& cones) const {
-  const Points all = with_cones(x, cones);
+Eigen::VectorXd ModuliEnergy::cone_gradient(const Points& x, const VaryingMarks& marks) const {
+  const Points cones = positions_of(marks), all = with_cones(x, cones);
   const std::vector<VaryingIsometry> varying =
-      varying_transforms(moduli_.varying(cones), 2 * moduli_.mark_count(), Order::first);
+      varying_transforms(marks, marks.points().front().motion.parameters(), Order::first);
   std::vector<Isometry> transform;
   for (const VaryingIsometry& g : varying) transform.push_back(g.value);
   Eigen::Matrix3Xd moments = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(transform.size()));
@@ -109,10 +115,18 @@ Eigen::VectorXd ModuliEnergy::cone_gradient(const Points& x, const Points& cones
       if (const int k = cone_at_[edge.j]; k >= 0) at_cones.row(k) += transform[edge.t].inverse_matrix() * u;
     });
   });
-  Eigen::VectorXd result = moduli_.coordinates(cones, at_cones);
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(marks.points().front().motion.parameters());
+  const Eigen::RowVector3d metric(1, 1, moduli_.space().curvature());
+  for (Eigen::Index k = 0; k < cones.rows(); ++k)
+    result += marks.points()[k].motion.velocities(cones.row(k)).transpose() *
+              at_cones.row(k).cwiseProduct(metric).transpose();
   for (std::size_t t = 0; t < varying.size(); ++t)
     result += varying[t].motion.first.transpose() * moments.col(static_cast<Eigen::Index>(t));
   return result;
+}
+
+Eigen::VectorXd ModuliEnergy::cone_gradient(const Points& x, const Points& cones) const {
+  return cone_gradient(x, moduli_.varying(cones));
 }
 
 VaryingMotion ModuliEnergy::motion_along(const GluedEdge& edge, const VaryingIsometry& transform,
@@ -187,12 +201,10 @@ class MovingEdge {
 
 }  // namespace
 
-ModuliEnergy::Curvature ModuliEnergy::curvature(const Points& x, const Points& cones,
-                                                const Eigen::MatrixXd& directions) const {
-  const Points all = with_cones(x, cones);
-  const Eigen::Index count = directions.cols();
+ModuliEnergy::Curvature ModuliEnergy::curvature(const Points& x, const VaryingMarks& marks) const {
+  const Points all = with_cones(x, positions_of(marks));
+  const Eigen::Index count = marks.points().front().motion.parameters();
   const Space space = moduli_.space();
-  const VaryingMarks marks = moduli_.varying(cones, directions, Order::second);
   const std::vector<VaryingIsometry> transform = varying_transforms(marks, count, Order::second);
   Curvature result = {Eigen::MatrixXd::Zero(count, count),
                       std::vector<Points>(count, Points::Zero(x.rows(), 3))};

@@ -33,7 +33,10 @@ class ModuliEnergy {
   /// The derivative of E by steps of the cones (2k numbers: Moduli), all other x being held.
   Eigen::VectorXd cone_gradient(const Points& x, const Points& cones) const;
 
-  /// Second derivatives by steps of the cones along geodesics, in q directions.
+  /// The same by the parameters of cones that move.
+  Eigen::VectorXd cone_gradient(const Points& x, const VaryingMarks& marks) const;
+
+  /// Second derivatives by q parameters of cones that move.
   struct Curvature {
     /// q x q.
     Eigen::MatrixXd energy;
@@ -42,8 +45,13 @@ class ModuliEnergy {
     std::vector<Points> gradient;
   };
 
-  /// directions: 2k x q.
-  Curvature curvature(const Points& x, const Points& cones, const Eigen::MatrixXd& directions) const;
+  /// marks: known to second order.
+  Curvature curvature(const Points& x, const VaryingMarks& marks) const;
+
+  /// The same of steps along geodesics in q directions: 2k x q.
+  Curvature curvature(const Points& x, const Points& cones, const Eigen::MatrixXd& directions) const {
+    return curvature(x, moduli_.varying(cones, directions, Order::second));
+  }
 
  private:
   std::vector<Isometry> transforms(const Points& cones) const;

@@ -269,9 +269,12 @@ Points TangentSystem::precondition(const Points& gradient) const {
 }
 
 std::vector<Points> TangentSystem::solve(const std::vector<Points>& gradients) const {
+  constexpr int rounds = 2;  // the factor may be that of another map nearby
   std::vector<Points> results;
   for (std::size_t first = 0; first < gradients.size(); first += 3) {
-    const SinglePoints b = packed(gradients, first), y = refined(b, solved(b));
+    const SinglePoints b = packed(gradients, first);
+    SinglePoints y = solved(b);
+    for (int round = 0; round < rounds; ++round) y = refined(b, y);
     for (std::size_t c = first; c < std::min(first + 3, gradients.size()); ++c)
       results.push_back(unpacked(y, static_cast<Eigen::Index>(c - first)));
   }

@@ -52,7 +52,7 @@ class TangentSystem : public Preconditioner {
   /// far as the factor knows it.
   Points precondition(const Points& gradient) const override;
 
-  /// The same of several, refined once by the Hessian itself. Three of them take little longer than one.
+  /// The same of several, refined twice by the Hessian itself. Three of them take little longer than one.
   std::vector<Points> solve(const std::vector<Points>& gradients) const;
 
   /// Is it the second derivative that was factorised?

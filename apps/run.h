@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// What long commands share: reading what they record, clocks, and a line of progress.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "orbitutte/mesh/surface.h"
+#include "orbitutte/progress.h"
+#include "orbitutte/report/report.h"
+
+namespace orbitutte::cli {
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+long long peak_memory_bytes();
+
+/// One line that is written again and again, on a terminal only.
+class ProgressLine {
+ public:
+  explicit ProgressLine(bool quiet);
+  ~ProgressLine() { clear(); }
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  void show(const Progress& progress) const;
+  void clear() const;
+
+ private:
+  bool shown_;
+};
+
+struct Input {
+  std::shared_ptr<const Surface> surface;
+  /// Of the reader.
+  std::vector<std::string> warnings;
+};
+
+/// Reads the mesh, and records what the report says about its file. Messages begin with the path.
+Input read_input(const std::string& path, RunRecord& run);
+
+}  // namespace orbitutte::cli

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/map/composed_map.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "orbitutte/parallel.h"
+
+namespace orbitutte {
+namespace {
+
+double total_area(const Surface& surface) {
+  return parallel_sum(surface.triangle_count(), [&](int t) { return surface.area(t); });
+}
+
+double landmark_error(const Surface& b, const SurfaceMap& map, const VertexMap& a_to_b) {
+  double largest = 0;
+  for (const Landmark& landmark : map.landmarks) {
+    Vector3 image = Vector3::Zero();
+    for (int k = 0; k < 3; ++k)
+      image += a_to_b.images.barycentric(landmark.a, k) * Vector3(b.V.row(a_to_b.corners(landmark.a, k)));
+    largest = std::max(largest, (image - Vector3(b.V.row(landmark.b))).norm());
+  }
+  return largest / std::sqrt(total_area(b));
+}
+
+}  // namespace
+
+ComposedMap compose(const Surface& a, const Surface& b, const SurfaceMap& map) {
+  const Embedding &on_a = map.a.embedding, &on_b = map.b.embedding;
+  ComposedMap result;
+  parallel_for(3, [&](int task) {
+    if (task == 0) result.overlay = overlay(on_a, on_b);
+    if (task == 1) result.a_to_b = images_of_vertices(on_a, on_b);
+    if (task == 2) result.b_to_a = images_of_vertices(on_b, on_a);
+  });
+  result.certificate = certify(result.overlay, on_a, on_b);
+  result.overlay_on_a = positions_on(a.V, on_a, result.overlay.on_a);
+  result.overlay_on_b = positions_on(b.V, on_b, result.overlay.on_b);
+  result.distortion =
+      measure_map(overlay_triangles(result.overlay).triangles, result.overlay_on_a, result.overlay_on_b);
+  result.landmark_error = landmark_error(b, map, result.a_to_b);
+  return result;
+}
+
+}  // namespace orbitutte

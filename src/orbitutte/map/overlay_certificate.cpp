@@ -1,0 +1,734 @@
+// SPDX-License-Identifier: MIT
+// Why this is a proof: the faces are convex polygons, counterclockwise, each in one triangle of A and in one
+// of B, and go on across their edges as these do. So the map from the overlay to A is a local homeomorphism,
+// but perhaps at vertices, and since areas add up to that of every triangle it covers each once, and is one
+// at the vertices, too; the same holds for B.
+#include "orbitutte/map/overlay_certificate.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <type_traits>
+#include <utility>
+
+#include "orbitutte/geometry/precise_isometry.h"
+#include "orbitutte/map/developed_surface.h"
+#include "orbitutte/mesh/connectivity.h"
+#include "orbitutte/mesh/disjoint_sets.h"
+#include "orbitutte/parallel.h"
+
+namespace orbitutte {
+namespace {
+
+// Counts what is wrong, and keeps the first sentence about it.
+class Findings {
+ public:
+  explicit Findings(std::string name) : name_(std::move(name)) {}
+
+  template <typename... Arguments>
+  void add(fmt::format_string<Arguments...> text, Arguments&&... arguments) {
+    if (count_++ == 0) first_ = fmt::format(text, std::forward<Arguments>(arguments)...);
+  }
+
+  Check check() const { return {name_, count_ == 0, static_cast<double>(count_), 0, first_}; }
+
+ private:
+  std::string name_, first_;
+  long long count_ = 0;
+};
+
+// A point in doubles, by how much each coordinate may be off.
+struct NearPoint {
+  Vector3 x = Vector3::Zero();
+  double error = 0;
+};
+
+double largest_coordinate(const Vector3& v) { return v.cwiseAbs().maxCoeff(); }
+
+// The sign of det[p q r], or nothing if rounding may have changed it: with |p| the sum of the coordinates and
+// e the errors, the determinant p . (q - p) x (r - p) is off by no more than 2 |p| (|u| e_v + |v| e_u + e_u
+// e_v + 8 |u| |v| 2^-53) + 2 e_p |u| |v|.
+std::optional<int> sign_in_doubles(const NearPoint& p, const NearPoint& q, const NearPoint& r) {
+  constexpr double unit = 0x1p-53;
+  const Vector3 u = q.x - p.x, v = r.x - p.x;
+  const double of_u = largest_coordinate(u), of_v = largest_coordinate(v),
+               off_u = p.error + q.error + unit * of_u, off_v = p.error + r.error + unit * of_v,
+               sum = p.x.cwiseAbs().sum() + 3 * p.error;
+  const double bound = 2 * sum * (of_u * off_v + of_v * off_u + off_u * off_v + 8 * unit * of_u * of_v) +
+                       6 * p.error * of_u * of_v + 1e-290;
+  const double value = p.x.dot(u.cross(v));
+  if (value > bound) return 1;
+  if (value < -bound) return -1;
+  return std::nullopt;
+}
+
+// A point with more digits, and by how much it may be off, relative to its largest coordinate.
+template <typename Real>
+struct DigitPoint {
+  Vector3Of<Real> x;
+  Real error = 0;
+};
+
+// What products of a few numbers lose: all but some of their bits are right.
+template <typename Real>
+Real digit_error() {
+  constexpr int lost_bits = 12;
+  return ldexp(Real(1), lost_bits - std::numeric_limits<Real>::digits);
+}
+
+template <typename Real>
+Real size_of(const Vector3Of<Real>& v) {
+  return std::max({Real(abs(v[0])), Real(abs(v[1])), Real(abs(v[2]))});
+}
+
+// The sign of det[p q r], or 0 if it may be any.
+template <typename Real>
+int sign_with_digits(const DigitPoint<Real>& p, const DigitPoint<Real>& q, const DigitPoint<Real>& r) {
+  const Real value = p.x.dot(q.x.cross(r.x)),
+             error = 20 * (p.error + q.error + r.error + digit_error<Real>()),
+             bound = error * size_of<Real>(p.x) * size_of<Real>(q.x) * size_of<Real>(r.x);
+  if (abs(value) <= bound) return 0;
+  return value > 0 ? 1 : -1;
+}
+
+// The corner of a triangle of a parent, moved by an element.
+struct MovedSite {
+  const DevelopedSurface* surface;
+  int site;
+  int element;
+};
+
+// The points of one pair of triangles with as many digits as it takes.
+class PointSource {
+ public:
+  PointSource(const ElementTable& elements, Space space, bool has_offsets)
+      : elements_(elements), space_(space), has_offsets_(has_offsets) {}
+
+  bool has_offsets() const { return has_offsets_; }
+
+  NearPoint near(const MovedSite& at) const {
+    const Vector3 x = at.surface->sites.rough(at.site);
+    const double error = at.surface->sites.error(at.site);
+    if (at.element == ElementTable::identity) return {x, error};
+    const Matrix3& m = elements_.rough(at.element).matrix();
+    const double size = m.cwiseAbs().maxCoeff();
+    return {m * x, size * (3 * error + 0x1p-50 * x.cwiseAbs().sum())};
+  }
+
+  template <typename Real>
+  DigitPoint<Real> with_digits(const MovedSite& at) const {
+    Vector3Of<Real> x;
+    if constexpr (std::is_same_v<Real, Precise>) {
+      x = at.surface->sites.precise(at.site);
+      if (at.element != ElementTable::identity) x = (elements_.precise(at.element) * x).eval();
+    } else {
+      x = at.surface->sites.exact(at.site);
+      if (at.element != ElementTable::identity) x = (elements_.exact(at.element) * x).eval();
+    }
+    return {x, digit_error<Real>()};
+  }
+
+  int sign(const MovedSite& p, const MovedSite& q, const MovedSite& r) const {
+    if (const std::optional<int> sign = sign_in_doubles(near(p), near(q), near(r))) return *sign;
+    const int sign = sign_of<Precise>(p, q, r);
+    return sign != 0 || !has_offsets_ ? sign : sign_of<MostPrecise>(p, q, r);
+  }
+
+  // Where the line through two points crosses the edge between two others, on the side of the edge.
+  template <typename Real>
+  DigitPoint<Real> crossing(const std::array<MovedSite, 2>& edge,
+                            const std::array<MovedSite, 2>& line) const {
+    const Vector3Of<Real> a = with_digits<Real>(edge[0]).x, b = with_digits<Real>(edge[1]).x,
+                          c = with_digits<Real>(line[0]).x, d = with_digits<Real>(line[1]).x;
+    const Vector3Of<Real> of_edge = a.cross(b), of_line = c.cross(d), sum = a + b;
+    const Vector3Of<Real> point = of_edge.cross(of_line);
+    const Real side = space_.curvature() > 0 ? Real(point.dot(sum)) : point.z(),
+               terms = size_of<Real>(a) * size_of<Real>(b) * size_of<Real>(c) * size_of<Real>(d);
+    const Real error = 100 * digit_error<Real>() * terms / size_of<Real>(point);
+    return {side < 0 ? Vector3Of<Real>(-point) : point, error};
+  }
+
+ private:
+  template <typename Real>
+  int sign_of(const MovedSite& p, const MovedSite& q, const MovedSite& r) const {
+    return sign_with_digits<Real>(with_digits<Real>(p), with_digits<Real>(q), with_digits<Real>(r));
+  }
+
+  const ElementTable& elements_;
+  Space space_;
+  bool has_offsets_;
+};
+
+// An edge of the overlay as a face has it.
+struct DirectedEdge {
+  std::uint64_t ends;  // origin, target
+  int face;
+
+  int origin() const { return static_cast<int>(ends >> 32); }
+  int target() const { return static_cast<int>(ends & 0xffffffff); }
+  std::uint64_t reversed() const { return ends << 32 | ends >> 32; }
+};
+
+class OverlayExaminer {
+ public:
+  OverlayExaminer(const Overlay& overlay, const Embedding& a, const Embedding& b)
+      : overlay_(overlay),
+        embeddings_{&a, &b},
+        elements_(a.space()),
+        group_(a),
+        surfaces_{developed_surface(a, group_, elements_, "one surface"),
+                  developed_surface(b, group_, elements_, "the other surface")},
+        points_(elements_, a.space(), !a.offsets.empty() || !b.offsets.empty()) {}
+
+  OverlayCertificate run() {
+    if (examine_indices() && examine_placements()) {
+      list_edges();
+      examine_surface();
+      examine_vertices();
+      examine_parents();
+      examine_shapes();
+      examine_neighbours();
+      examine_positions();
+      examine_shares(0, "shares_of_a");
+      examine_shares(1, "shares_of_b");
+      examine_area();
+    }
+    result_.holds = std::all_of(result_.checks.begin(), result_.checks.end(),
+                                [](const Check& check) { return check.passed; });
+    return std::move(result_);
+  }
+
+ private:
+  int face_count() const { return overlay_.face_count(); }
+  std::span<const int> corners(int f) const { return FaceView(overlay_.faces)[f]; }
+  const DevelopedSurface& surface(int side) const { return surfaces_[side]; }
+  int parent(int side, int f) const { return side == 0 ? overlay_.parents[f].a : overlay_.parents[f].b; }
+  int element(int f) const { return element_of_[overlay_.parents[f].placement]; }
+  const SurfacePoints& places(int side) const { return side == 0 ? overlay_.on_a : overlay_.on_b; }
+
+  int vertex_on(int side, int v) const {
+    const OverlayVertex& vertex = overlay_.vertices[v];
+    return side == 0 ? vertex.a_vertex : vertex.b_vertex;
+  }
+  int halfedge_on(int side, int v) const {
+    const OverlayVertex& vertex = overlay_.vertices[v];
+    return side == 0 ? vertex.a_halfedge : vertex.b_halfedge;
+  }
+
+  void conclude(const Findings& findings) { result_.checks.push_back(findings.check()); }
+
+  // -- Claims that everything else relies on --
+
+  bool examine_indices() {
+    Findings findings("indices");
+    const auto count = static_cast<std::size_t>(overlay_.vertex_count());
+    for (int side = 0; side < 2; ++side)
+      if (places(side).triangle.size() != count || places(side).barycentric.rows() != overlay_.vertex_count())
+        findings.add("the vertices do not all have places on both surfaces");
+    if (overlay_.parents.size() != static_cast<std::size_t>(face_count()))
+      findings.add("the faces do not all have parents");
+    for (int v = 0; v < overlay_.vertex_count(); ++v) examine_vertex_indices(v, findings);
+    for (const int v : overlay_.faces.corners)
+      if (v < 0 || v >= overlay_.vertex_count()) findings.add("a face names the vertex {}", v);
+    for (std::size_t f = 0; f < overlay_.parents.size(); ++f) {
+      const OverlayFace& face = overlay_.parents[f];
+      if (face.a < 0 || face.a >= surface(0).triangle_count() || face.b < 0 ||
+          face.b >= surface(1).triangle_count() || face.placement < 0 ||
+          face.placement >= static_cast<int>(overlay_.placements.size()))
+        findings.add("face {} has no parents", f);
+    }
+    conclude(findings);
+    return findings.check().passed;
+  }
+
+  void examine_vertex_indices(int v, Findings& findings) {
+    for (int side = 0; side < 2; ++side) {
+      const int triangles = surface(side).triangle_count();
+      if (vertex_on(side, v) >= surface(side).vertex_count() || halfedge_on(side, v) >= 3 * triangles)
+        findings.add("vertex {} names a vertex or a half-edge that does not exist", v);
+      if (v >= static_cast<int>(places(side).triangle.size())) continue;
+      const int t = places(side).triangle[v];
+      if (t < 0 || t >= triangles) findings.add("vertex {} lies in no triangle", v);
+    }
+  }
+
+  bool examine_placements() {
+    Findings findings("placements");
+    const Isometry &of_a = embeddings_[0]->placement, &of_b = embeddings_[1]->placement;
+    const Space space = embeddings_[0]->space();
+    const Matrix3Of<MostPrecise> out = exact_isometry(space, of_a),
+                                 in = precise_inverse(space, exact_isometry(space, of_b));
+    for (std::size_t k = 0; k < overlay_.placements.size(); ++k) {
+      try {
+        element_of_.push_back(
+            elements_.add(out * group_.element(of_a.inverse() * overlay_.placements[k] * of_b) * in));
+      } catch (const ArgumentError& error) {
+        findings.add("placement {}: {}", k, error.what());
+      }
+    }
+    conclude(findings);
+    return findings.check().passed;
+  }
+
+  // -- The surface --
+
+  void list_edges() {
+    for (int f = 0; f < face_count(); ++f) {
+      int origin = corners(f).back();
+      for (const int v : corners(f)) {
+        edges_.push_back({static_cast<std::uint64_t>(origin) << 32 | static_cast<std::uint32_t>(v), f});
+        origin = v;
+      }
+    }
+    std::sort(edges_.begin(), edges_.end(), [](const DirectedEdge& x, const DirectedEdge& y) {
+      return x.ends != y.ends ? x.ends < y.ends : x.face < y.face;
+    });
+  }
+
+  // The edge with these ends, or nothing.
+  const DirectedEdge* find_edge(std::uint64_t ends) const {
+    const auto at = std::lower_bound(edges_.begin(), edges_.end(), ends,
+                                     [](const DirectedEdge& x, std::uint64_t y) { return x.ends < y; });
+    return at != edges_.end() && at->ends == ends ? &*at : nullptr;
+  }
+
+  void examine_surface() {
+    Findings findings("surface");
+    const bool is_disk = embeddings_[0]->target.topology == Topology::disk;
+    DisjointSets pieces(face_count());
+    long long boundary = 0;
+    std::vector<int> leaving(overlay_.vertex_count(), 0);
+    for (std::size_t k = 0; k < edges_.size(); ++k) {
+      const DirectedEdge& edge = edges_[k];
+      if (k > 0 && edges_[k - 1].ends == edge.ends)
+        findings.add("two faces run along the edge from {} to {}", edge.origin(), edge.target());
+      if (const DirectedEdge* const other = find_edge(edge.reversed())) {
+        pieces.unite(edge.face, other->face);
+        continue;
+      }
+      ++boundary;
+      if (++leaving[edge.origin()] > 1) findings.add("the boundary meets vertex {} twice", edge.origin());
+      if (!is_disk) findings.add("face {} has an edge without a neighbour", edge.face);
+    }
+    for (int f = 1; f < face_count(); ++f)
+      if (pieces.find(f) != pieces.find(0)) {
+        findings.add("face {} is not connected with face 0", f);
+        break;
+      }
+    examine_fans(findings);
+    conclude(findings);
+    const long long undirected = (static_cast<long long>(edges_.size()) + boundary) / 2;
+    result_.euler_characteristic = static_cast<int>(overlay_.vertex_count() - undirected + face_count());
+    const int expected = is_disk ? 1 : 2;
+    Findings characteristic("euler_characteristic");
+    if (result_.euler_characteristic != expected)
+      characteristic.add("it is {} and not {}", result_.euler_characteristic, expected);
+    conclude(characteristic);
+  }
+
+  // Are the faces around every vertex one fan? A turn around it from the edge of any face meets them all.
+  void examine_fans(Findings& findings) {
+    std::vector<int> faces(overlay_.vertex_count(), 0), met(overlay_.vertex_count(), 0);
+    std::vector<char> is_begun(overlay_.vertex_count(), 0);
+    for (const int v : overlay_.faces.corners) ++faces[v];
+    for (const DirectedEdge& edge : edges_) {
+      const int v = edge.origin();
+      const bool is_first = find_edge(edge.reversed()) == nullptr;
+      if (is_begun[v] == 2 || (is_begun[v] == 1 && !is_first)) continue;
+      is_begun[v] = is_first ? 2 : 1;
+      met[v] = faces_around(edge);
+    }
+    for (int v = 0; v < overlay_.vertex_count(); ++v)
+      if (met[v] != faces[v] || faces[v] == 0) findings.add("the faces around vertex {} are not one fan", v);
+  }
+
+  // Counterclockwise from the face on the left of an edge, until the same face or the boundary.
+  int faces_around(const DirectedEdge& first) const {
+    const int v = first.origin();
+    int count = 0;
+    const DirectedEdge* edge = &first;
+    do {
+      ++count;
+      const int before = corner_before(edge->face, v);
+      edge = find_edge(static_cast<std::uint64_t>(v) << 32 | static_cast<std::uint32_t>(before));
+    } while (edge && edge != &first && count <= face_count());
+    return count;
+  }
+
+  int corner_before(int f, int v) const {
+    int before = corners(f).back();
+    for (const int c : corners(f)) {
+      if (c == v) return before;
+      before = c;
+    }
+    return before;
+  }
+
+  // -- Vertices --
+
+  void examine_vertices() {
+    Findings findings("vertices"), landmarks("landmarks");
+    for (int side = 0; side < 2; ++side) {
+      std::vector<int> times(surface(side).vertex_count(), 0);
+      for (int v = 0; v < overlay_.vertex_count(); ++v)
+        if (const int of_input = vertex_on(side, v); of_input >= 0) ++times[of_input];
+      for (int v = 0; v < surface(side).vertex_count(); ++v)
+        if (times[v] != (surface(side).first_halfedge[v] >= 0 ? 1 : 0))
+          findings.add("vertex {} of {} is {} vertices of the overlay", v, side == 0 ? "A" : "B", times[v]);
+    }
+    std::vector<int> partner(surface(0).vertex_count(), -1);
+    for (const OverlayVertex& v : overlay_.vertices)
+      if (v.a_vertex >= 0) partner[v.a_vertex] = v.b_vertex;
+    for (std::size_t k = 0; k < embeddings_[0]->cones.size(); ++k) {
+      const int of_a = embeddings_[0]->cones[k].vertex, of_b = embeddings_[1]->cones[k].vertex;
+      if (partner[of_a] != of_b)
+        landmarks.add("the marked vertex {} of A does not lie on the marked vertex {} of B", of_a, of_b);
+    }
+    conclude(findings);
+    conclude(landmarks);
+  }
+
+  // -- Corners --
+
+  // A corner of a parent of face f, in the frame of its triangle of A.
+  MovedSite corner_of_parent(int side, int f, int k) const {
+    return {&surface(side), surface(side).site_of(3 * parent(side, f) + k),
+            side == 0 ? ElementTable::identity : element(f)};
+  }
+
+  // Which corner of the parent a vertex of the overlay is, or which of its edges it lies on (from corner k
+  // on); -1 for none.
+  int corner_index(int side, int f, int v) const {
+    if (vertex_on(side, v) < 0) return -1;
+    const int h = surface(side).corner_at(parent(side, f), vertex_on(side, v));
+    return h < 0 ? -1 : h % 3;
+  }
+  int edge_index(int side, int f, int v) const {
+    if (halfedge_on(side, v) < 0) return -1;
+    const int h = surface(side).halfedge_on(parent(side, f), surface(side).edge[halfedge_on(side, v)]);
+    return h < 0 ? -1 : h % 3;
+  }
+
+  std::array<MovedSite, 2> edge_of_parent(int side, int f, int k) const {
+    return {corner_of_parent(side, f, k), corner_of_parent(side, f, (k + 1) % 3)};
+  }
+
+  void examine_parents() {
+    Findings findings("parents");
+    const std::vector<int> wrong =
+        parallel_select(face_count(), [&](int f) { return !all_corners_belong(f); });
+    for (const int f : wrong)
+      findings.add("face {} has a corner that does not belong to both of its parents", f);
+    conclude(findings);
+  }
+
+  bool all_corners_belong(int f) const {
+    const std::span<const int> of_face = corners(f);
+    return std::all_of(of_face.begin(), of_face.end(), [&](int v) { return belongs(f, v); });
+  }
+
+  // A vertex of one parent is in the other, as it says: at a corner, on an edge, or inside. A crossing is on
+  // an edge of each.
+  bool belongs(int f, int v) const {
+    const std::array<int, 2> corner = {corner_index(0, f, v), corner_index(1, f, v)};
+    for (int side = 0; side < 2; ++side)
+      if ((vertex_on(side, v) >= 0) != (corner[side] >= 0)) return false;
+    if (corner[0] >= 0 && corner[1] >= 0) return is_same_point(f, corner[0], corner[1]);
+    if (corner[0] >= 0) return lies_as_claimed(f, v, 1, corner_of_parent(0, f, corner[0]));
+    if (corner[1] >= 0) return lies_as_claimed(f, v, 0, corner_of_parent(1, f, corner[1]));
+    const int on_a = edge_index(0, f, v), on_b = edge_index(1, f, v);
+    return on_a >= 0 && on_b >= 0 && do_cross(edge_of_parent(0, f, on_a), edge_of_parent(1, f, on_b));
+  }
+
+  // Both lie on one line through the origin of R^3, seen from two other points.
+  bool is_same_point(int f, int of_a, int of_b) const {
+    const MovedSite x = corner_of_parent(0, f, of_a), y = corner_of_parent(1, f, of_b);
+    for (int k = 1; k < 3; ++k)
+      if (points_.sign(x, y, corner_of_parent(0, f, (of_a + k) % 3)) != 0) return false;
+    return true;
+  }
+
+  // In the parent of a side: on the edge that it names, or inside if it names none.
+  bool lies_as_claimed(int f, int v, int side, const MovedSite& point) const {
+    const int on = edge_index(side, f, v);
+    if (halfedge_on(side, v) >= 0 && on < 0) return false;
+    for (int k = 0; k < 3; ++k) {
+      const auto edge = edge_of_parent(side, f, k);
+      if (points_.sign(edge[0], edge[1], point) != (k == on ? 0 : 1)) return false;
+    }
+    return true;
+  }
+
+  bool do_cross(const std::array<MovedSite, 2>& a, const std::array<MovedSite, 2>& b) const {
+    const int from = points_.sign(a[0], a[1], b[0]), to = points_.sign(a[0], a[1], b[1]),
+              before = points_.sign(b[0], b[1], a[0]), after = points_.sign(b[0], b[1], a[1]);
+    return from * to < 0 && before * after < 0;
+  }
+
+  // -- Shapes --
+
+  void examine_shapes() {
+    Findings findings("positive_faces");
+    result_.nonpositive_faces = parallel_select(face_count(), [&](int f) { return !is_convex(f); });
+    for (const int f : result_.nonpositive_faces)
+      findings.add("face {} is no convex polygon that is counterclockwise on the target", f);
+    conclude(findings);
+  }
+
+  // Every three corners that follow each other turn left, and so do the triangles from the first corner.
+  bool is_convex(int f) const {
+    const int count = static_cast<int>(corners(f).size());
+    if (count < 3 || count > 6) return false;
+    std::vector<std::array<int, 3>> open;
+    for (int k = 0; k < count; ++k) open.push_back({k, (k + 1) % count, (k + 2) % count});
+    for (int k = 2; k + 1 < count; ++k) open.push_back({0, k, k + 1});
+    if (!is_positive_in_doubles(f, open)) return false;
+    if (!is_positive_with_digits<Precise>(f, open)) return false;
+    if (points_.has_offsets() && !is_positive_with_digits<MostPrecise>(f, open)) return false;
+    return open.empty();
+  }
+
+  // Is no triangle of these corners negative? Those that are positive for sure are left out of the list.
+  bool is_positive_in_doubles(int f, std::vector<std::array<int, 3>>& open) const {
+    std::array<NearPoint, 6> near;
+    for (std::size_t k = 0; k < corners(f).size(); ++k) near[k] = near_corner(f, corners(f)[k]);
+    std::vector<std::array<int, 3>> rest;
+    for (const auto& k : open) {
+      const std::optional<int> sign = sign_in_doubles(near[k[0]], near[k[1]], near[k[2]]);
+      if (sign && *sign < 0) return false;
+      if (!sign) rest.push_back(k);
+    }
+    open = rest;
+    return true;
+  }
+
+  template <typename Real>
+  bool is_positive_with_digits(int f, std::vector<std::array<int, 3>>& open) const {
+    if (open.empty()) return true;
+    std::array<DigitPoint<Real>, 6> x;
+    for (std::size_t k = 0; k < corners(f).size(); ++k) x[k] = corner_with_digits<Real>(f, corners(f)[k]);
+    std::vector<std::array<int, 3>> rest;
+    for (const auto& k : open) {
+      const int sign = sign_with_digits<Real>(x[k[0]], x[k[1]], x[k[2]]);
+      if (sign < 0) return false;
+      if (sign == 0) rest.push_back(k);
+    }
+    open = rest;
+    return true;
+  }
+
+  template <typename Real>
+  DigitPoint<Real> corner_with_digits(int f, int v) const {
+    for (int side = 0; side < 2; ++side)
+      if (const int k = corner_index(side, f, v); k >= 0)
+        return points_.with_digits<Real>(corner_of_parent(side, f, k));
+    const int on_a = edge_index(0, f, v), on_b = edge_index(1, f, v);
+    if (on_a < 0 || on_b < 0) return {Vector3Of<Real>::Zero(), 1};
+    return points_.crossing<Real>(edge_of_parent(0, f, on_a), edge_of_parent(1, f, on_b));
+  }
+
+  // A crossing is (1 - s) a + s b with s = det[a c d]/(det[a c d] - det[b c d]): it is off by the error of s
+  // along the edge.
+  NearPoint near_corner(int f, int v) const {
+    for (int side = 0; side < 2; ++side)
+      if (const int k = corner_index(side, f, v); k >= 0) return points_.near(corner_of_parent(side, f, k));
+    const int on_a = edge_index(0, f, v), on_b = edge_index(1, f, v);
+    if (on_a < 0 || on_b < 0) return {Vector3::Zero(), 1};
+    const auto edge = edge_of_parent(0, f, on_a), line = edge_of_parent(1, f, on_b);
+    const NearPoint a = points_.near(edge[0]), b = points_.near(edge[1]), c = points_.near(line[0]),
+                    d = points_.near(line[1]);
+    const double of_a = a.x.dot((c.x - a.x).cross(d.x - a.x)), of_b = b.x.dot((c.x - b.x).cross(d.x - b.x)),
+                 sum = of_a - of_b, size = std::max({a.x.cwiseAbs().sum(), b.x.cwiseAbs().sum(), 1.0}),
+                 reach = std::max({largest_coordinate(c.x - a.x), largest_coordinate(d.x - a.x),
+                                   largest_coordinate(c.x - b.x), largest_coordinate(d.x - b.x)}),
+                 off = a.error + b.error + c.error + d.error + 0x1p-53 * reach,
+                 error = 40 * size * reach * (off + 0x1p-53 * reach);
+    const double length = largest_coordinate(b.x - a.x);
+    if (!(2 * error < std::abs(sum))) return {a.x, length + off};
+    const double s = of_a / sum;
+    return {(1 - s) * a.x + s * b.x, length * 4 * error / std::abs(sum) + a.error + b.error + 0x1p-51 * size};
+  }
+
+  // -- Neighbours --
+
+  void examine_neighbours() {
+    Findings findings("neighbours");
+    for (const DirectedEdge& edge : edges_) {
+      const DirectedEdge* const other = find_edge(edge.reversed());
+      if (!other) {
+        if (!is_on_boundary(edge)) findings.add("face {} ends where a surface goes on", edge.face);
+      } else if (edge.ends < other->ends && !fits(edge, other->face)) {
+        findings.add("faces {} and {} do not fit along the edge from {} to {}", edge.face, other->face,
+                     edge.origin(), edge.target());
+      }
+    }
+    conclude(findings);
+  }
+
+  // Does the vertex lie on this edge of the parent, its ends included?
+  bool is_on_edge(int side, int f, int v, int k) const {
+    const int corner = corner_index(side, f, v);
+    return corner >= 0 ? corner == k || corner == (k + 1) % 3 : edge_index(side, f, v) == k;
+  }
+
+  // The half-edge of the parent that an edge of the overlay lies on, or -1.
+  int halfedge_under(int side, const DirectedEdge& edge) const {
+    for (int k = 0; k < 3; ++k)
+      if (is_on_edge(side, edge.face, edge.origin(), k) && is_on_edge(side, edge.face, edge.target(), k))
+        return 3 * parent(side, edge.face) + k;
+    return -1;
+  }
+
+  bool is_on_boundary(const DirectedEdge& edge) const {
+    for (int side = 0; side < 2; ++side) {
+      const int h = halfedge_under(side, edge);
+      if (h < 0 || surface(side).opposite[h] >= 0) return false;
+    }
+    return true;
+  }
+
+  // The element of the triangle beyond the edges that are crossed: G_h^-1 G G_k.
+  bool fits(const DirectedEdge& edge, int other) {
+    const int h = halfedge_under(0, edge), k = halfedge_under(1, edge);
+    if (h < 0 && k < 0) return false;
+    int expected = element(edge.face);
+    for (int side = 0; side < 2; ++side) {
+      const int crossed = side == 0 ? h : k, o = crossed < 0 ? -1 : surface(side).opposite[crossed];
+      if (crossed >= 0 && o < 0) return false;
+      if (parent(side, other) != (crossed < 0 ? parent(side, edge.face) : o / 3)) return false;
+    }
+    if (h >= 0) expected = elements_.product(elements_.inverse(surface(0).beyond[h]), expected);
+    if (k >= 0) expected = elements_.product(expected, surface(1).beyond[k]);
+    return expected == element(other);
+  }
+
+  // -- Positions and areas --
+
+  // The coordinates of a vertex of the overlay in the parent of a face, from those in another triangle.
+  std::optional<Vector3> coordinates_in(int side, int f, int v) const {
+    const int stored = places(side).triangle[v];
+    const Vector3 there = places(side).barycentric.row(v);
+    if (stored == parent(side, f)) return there;
+    Vector3 here = Vector3::Zero();
+    for (int k = 0; k < 3; ++k) {
+      if (there[k] == 0) continue;
+      const int h = surface(side).corner_at(parent(side, f), surface(side).vertex_of(3 * stored + k));
+      if (h < 0) return std::nullopt;
+      here[h % 3] = there[k];
+    }
+    return here;
+  }
+
+  // An image on the target, and by how much the rounding of coordinates may move it: in triangles of the size
+  // of a hemisphere they cancel.
+  std::optional<NearPoint> point_of(int side, int f, int v) const {
+    const std::optional<Vector3> coordinates = coordinates_in(side, f, v);
+    if (!coordinates || !coordinates->allFinite() || coordinates->minCoeff() < 0 ||
+        std::abs(coordinates->sum() - 1) > 1e-9)
+      return std::nullopt;
+    Vector3 sum = Vector3::Zero();
+    for (int k = 0; k < 3; ++k) sum += (*coordinates)[k] * points_.near(corner_of_parent(side, f, k)).x;
+    return NearPoint{embeddings_[0]->space().retract(sum), 1e-14 / std::min(1.0, sum.norm())};
+  }
+
+  void examine_positions() {
+    constexpr double bound = 1e-9;
+    Findings findings("positions");
+    for (int f = 0; f < face_count(); ++f) {
+      for (const int v : corners(f)) {
+        const std::optional<NearPoint> on_a = point_of(0, f, v), on_b = point_of(1, f, v);
+        if (!on_a || !on_b ||
+            !((on_a->x - on_b->x).norm() <=
+              bound * std::max(1.0, on_a->x.norm()) + on_a->error + on_b->error))
+          findings.add("vertex {} has different images on the target from A and from B", v);
+      }
+    }
+    conclude(findings);
+  }
+
+  void examine_shares(int side, const char* name) {
+    constexpr double bound = 1e-9;
+    std::vector<double> sum(surface(side).triangle_count(), 0.0);
+    for (int f = 0; f < face_count(); ++f) sum[parent(side, f)] += share_of(side, f);
+    Findings findings(name);
+    for (int t = 0; t < static_cast<int>(sum.size()); ++t) {
+      const double off = std::abs(sum[t] - 1);
+      result_.max_share_error = std::max(result_.max_share_error, off);
+      if (!(off <= bound))
+        findings.add("the faces in triangle {} of {} have {} of its area", t, side == 0 ? "A" : "B", sum[t]);
+    }
+    conclude(findings);
+  }
+
+  // The area of the face over that of its parent: barycentric coordinates are affine.
+  double share_of(int side, int f) const {
+    double share = 0;
+    std::array<Vector3, 3> x;
+    for (std::size_t k = 0; k < corners(f).size(); ++k) {
+      const std::optional<Vector3> at = coordinates_in(side, f, corners(f)[k]);
+      if (!at) return std::numeric_limits<double>::quiet_NaN();
+      x[std::min<std::size_t>(k, 2)] = *at;
+      if (k < 2) continue;
+      share += x[0].dot(x[1].cross(x[2]));
+      x[1] = x[2];
+    }
+    return share;
+  }
+
+  double area_on_target(int f) const {
+    double area = 0;
+    const Space space = embeddings_[0]->space();
+    const Vector3 first = near_corner(f, corners(f)[0]).x;
+    for (std::size_t k = 2; k < corners(f).size(); ++k)
+      area += space.area(space.retract(first), space.retract(near_corner(f, corners(f)[k - 1]).x),
+                         space.retract(near_corner(f, corners(f)[k]).x));
+    return area;
+  }
+
+  void examine_area() {
+    constexpr double bound = 1e-8;
+    const double area = parallel_sum(face_count(), [&](int f) { return area_on_target(f); });
+    const Embedding& a = *embeddings_[0];
+    const double expected = parallel_sum(surface(0).triangle_count(), [&](int t) {
+      const auto corner = [&](int k) { return Vector3(a.positions.row(a.triangles(t, k))); };
+      return a.space().area(corner(0), corner(1), corner(2));
+    });
+    const double off = std::abs(area - expected) / expected;
+    result_.checks.push_back(
+        {"target_area", off <= bound, off, bound,
+         off <= bound
+             ? std::string()
+             : fmt::format("the faces have the area {} on the target, and A has {}", area, expected)});
+  }
+
+  const Overlay& overlay_;
+  std::array<const Embedding*, 2> embeddings_;
+  ElementTable elements_;
+  SharedGroup group_;
+  std::array<DevelopedSurface, 2> surfaces_;
+  PointSource points_;
+  std::vector<int> element_of_;  // of placements
+  std::vector<DirectedEdge> edges_;
+  OverlayCertificate result_;
+};
+
+}  // namespace
+
+OverlayCertificate certify(const Overlay& overlay, const Embedding& a, const Embedding& b) {
+  try {
+    return OverlayExaminer(overlay, a, b).run();
+  } catch (const Error& error) {
+    OverlayCertificate result;
+    result.checks.push_back({"embeddings", false, 0, 0, error.what()});
+    return result;
+  }
+}
+
+}  // namespace orbitutte

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/orbifold/braid.h"
+
+#include <Eigen/Geometry>
+#include <utility>
+
+namespace orbitutte {
+namespace {
+
+// The place of the cone that stays where it is, and of the one that is moved by the rotation about it.
+struct TwistedPlaces {
+  explicit TwistedPlaces(const HalfTwist& twist)
+      : centre(twist.place + (twist.is_forth ? 1 : 0)), moved(twist.place + (twist.is_forth ? 0 : 1)) {}
+
+  int centre, moved;
+};
+
+Points after_half_twist(const Moduli& moduli, const Points& cones, const HalfTwist& twist) {
+  const auto [centre, moved] = TwistedPlaces(twist);
+  const Space space = moduli.space();
+  const Isometry rotation = space.rotation(cones.row(centre), moduli.marks()[centre].angle);
+  const Isometry motion = twist.is_forth ? rotation.inverse() : rotation;
+  Points result = cones;
+  result.row(moved) = cones.row(centre);
+  result.row(centre) = space.retract(motion * Vector3(cones.row(moved))).transpose();
+  return result;
+}
+
+}  // namespace
+
+Braid inverse(const Braid& braid) {
+  Braid result(braid.rbegin(), braid.rend());
+  for (HalfTwist& twist : result) twist.is_forth = !twist.is_forth;
+  return result;
+}
+
+Braid product(const Braid& first, const Braid& second) {
+  Braid result = first;
+  for (const HalfTwist& twist : second) {
+    if (!result.empty() && result.back() == HalfTwist{twist.place, !twist.is_forth})
+      result.pop_back();
+    else
+      result.push_back(twist);
+  }
+  return result;
+}
+
+Braid full_twist(int first, int last, bool is_forth) {
+  Braid way;
+  for (int place = last - 1; place > first; --place) way.push_back({place, true});
+  const Braid back = inverse(way);
+  way.push_back({first, is_forth});
+  way.push_back({first, is_forth});
+  way.insert(way.end(), back.begin(), back.end());
+  return way;
+}
+
+Points braided(const Moduli& moduli, Points cones, const Braid& braid) {
+  for (const HalfTwist& twist : braid) cones = after_half_twist(moduli, cones, twist);
+  return cones;
+}
+
+std::vector<Isometry> motions(const Moduli& moduli, Points cones, const Braid& braid) {
+  std::vector<Isometry> result(cones.rows());
+  for (const HalfTwist& twist : braid) {
+    const auto [centre, moved] = TwistedPlaces(twist);
+    const Isometry rotation = moduli.space().rotation(cones.row(centre), moduli.marks()[centre].angle);
+    const Isometry motion = twist.is_forth ? rotation.inverse() : rotation;
+    cones = after_half_twist(moduli, cones, twist);
+    std::swap(result[moved], result[centre]);
+    result[centre] = motion * result[centre];
+  }
+  return result;
+}
+
+Eigen::MatrixXcd braid_matrix(int count, const Braid& braid) {
+  Eigen::MatrixXcd result = Eigen::MatrixXcd::Identity(count, count);
+  for (const HalfTwist& twist : braid) {
+    const auto [centre, moved] = TwistedPlaces(twist);
+    const Eigen::RowVectorXcd of_centre = result.row(centre), of_moved = result.row(moved);
+    result.row(moved) = of_centre;
+    result.row(centre) = 2.0 * of_centre - of_moved;
+  }
+  return result;
+}
+
+VaryingMarks braided(VaryingMarks marks, const Braid& braid) {
+  for (const HalfTwist& twist : braid) {
+    const auto [centre, moved] = TwistedPlaces(twist);
+    const VaryingIsometry& rotation = marks.rotations()[centre];
+    marks.carry(moved, centre, twist.is_forth ? rotation.inverse() : rotation);
+  }
+  return marks;
+}
+
+}  // namespace orbitutte

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+#include "orbitutte/map/surface_map.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "orbitutte/cones/extremities.h"
+#include "orbitutte/cut/cut.h"
+#include "orbitutte/inspect/recognition.h"
+#include "orbitutte/io/landmark_file.h"
+#include "sample_embeddings.h"
+#include "test_meshes.h"
+
+namespace orbitutte::surface_map_test {
+namespace {
+
+Mesh irregular_sphere() { return test::perturbed(test::icosphere(2), 0.03, 7); }
+
+// The same combinatorics, stretched and bent.
+Mesh stretched_sphere() {
+  Mesh mesh = irregular_sphere();
+  mesh.V.col(0) *= 1.3;
+  mesh.V.col(2).array() += 0.2 * mesh.V.col(0).array().square();
+  return mesh;
+}
+
+Mesh bent_disk() { return test::sample_mesh_for(parse_orbifold("*432")); }
+
+std::vector<Landmark> same_vertices(const std::vector<int>& vertices) {
+  std::vector<Landmark> landmarks;
+  for (const int v : vertices) landmarks.push_back({v, v});
+  return landmarks;
+}
+
+std::vector<Landmark> spread_landmarks(const Surface& surface, int inside, int on_boundary) {
+  return same_vertices(choose_extremities(surface, {inside, on_boundary}));
+}
+
+// The largest difference between the lengths of an edge in both embeddings.
+double difference(const Mesh& mesh, const EmbedResult& first, const EmbedResult& second) {
+  return (test::edge_lengths(mesh, first.embedding) - test::edge_lengths(mesh, second.embedding))
+      .cwiseAbs()
+      .maxCoeff();
+}
+
+std::string refusal(const Surface& a, const Surface& b, const std::vector<Landmark>& landmarks) {
+  try {
+    map_between(a, b, landmarks);
+  } catch (const MeshError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+class LandmarksOnSpheres : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Count, LandmarksOnSpheres, testing::Values(3, 4, 5, 6));
+
+TEST_P(LandmarksOnSpheres, GiveTwoCertifiedEmbeddingsIntoOneTile) {
+  const Surface a = make_surface(irregular_sphere()), b = make_surface(stretched_sphere());
+  const std::vector<Landmark> landmarks = spread_landmarks(a, GetParam(), 0);
+  const SurfaceMap map = map_between(a, b, landmarks);
+  EXPECT_TRUE(map.is_bijective());
+  const Points on_a = map.a.embedding.canonical_positions(), on_b = map.b.embedding.canonical_positions();
+  ASSERT_EQ(map.a.embedding.cones.size(), landmarks.size());
+  for (std::size_t k = 0; k < landmarks.size(); ++k) {
+    const int v = map.a.embedding.cones[k].vertex, w = map.b.embedding.cones[k].vertex;
+    EXPECT_EQ(v, w) << "landmarks of one mesh, in one order";
+    EXPECT_LT((on_a.row(v) - on_b.row(w)).norm(), 1e-9) << k;
+  }
+}
+
+TEST_P(LandmarksOnSpheres, MapASurfaceToItselfByTheIdentityWhicheverTheCuts) {
+  const Mesh mesh = irregular_sphere();
+  const Surface surface = make_surface(mesh);
+  MapOptions options;
+  options.cut_b.seed = 5;
+  const SurfaceMap map = map_between(surface, surface, spread_landmarks(surface, GetParam(), 0), options);
+  EXPECT_TRUE(map.is_bijective());
+  EXPECT_LT(difference(mesh, map.a, map.b), 1e-7);
+}
+
+TEST_P(LandmarksOnSpheres, AreMappedAlikeWhicheverTheTourOrWarned) {
+  if (GetParam() < 4) return;
+  const Mesh mesh = irregular_sphere();
+  const Surface a = make_surface(mesh), b = make_surface(stretched_sphere());
+  const std::vector<Landmark> landmarks = spread_landmarks(a, GetParam(), 0);
+  const SurfaceMap shortest = map_between(a, b, landmarks);
+  MapOptions options;
+  for (int k = 0; k < GetParam(); ++k)
+    options.tour.push_back((2 * k) % GetParam() + (2 * k >= GetParam() && GetParam() % 2 == 0));
+  const SurfaceMap other = map_between(a, b, landmarks, options);
+  EXPECT_TRUE(other.is_bijective());
+  if (!other.warnings.empty()) GTEST_SKIP() << other.warnings.front();
+  EXPECT_LT(difference(mesh, shortest.a, other.a), 1e-6)
+      << other.map_class.distance << " " << shortest.map_class.distance;
+  EXPECT_LT(difference(mesh, shortest.b, other.b), 1e-6);
+}
+
+TEST_P(LandmarksOnSpheres, MayHaveARegularTile) {
+  const Surface a = make_surface(irregular_sphere()), b = make_surface(stretched_sphere());
+  MapOptions options;
+  options.tile = TileShape::regular;
+  const SurfaceMap map = map_between(a, b, spread_landmarks(a, GetParam(), 0), options);
+  EXPECT_TRUE(map.is_bijective());
+}
+
+struct OnDisk {
+  int inside, on_boundary;
+};
+
+class LandmarksOnDisks : public testing::TestWithParam<OnDisk> {};
+INSTANTIATE_TEST_SUITE_P(Places, LandmarksOnDisks,
+                         testing::Values(OnDisk{0, 3}, OnDisk{0, 4}, OnDisk{0, 6}, OnDisk{1, 1}, OnDisk{1, 3},
+                                         OnDisk{2, 2}),
+                         [](const auto& info) {
+                           return std::to_string(info.param.inside) + "_inside_" +
+                                  std::to_string(info.param.on_boundary) + "_on_the_boundary";
+                         });
+
+TEST_P(LandmarksOnDisks, GiveTwoCertifiedEmbeddingsIntoOneTile) {
+  Mesh bent = bent_disk();
+  bent.V.col(2).array() += 0.3 * bent.V.col(0).array();
+  bent.V.col(0) *= 1.2;
+  const Surface a = make_surface(bent_disk()), b = make_surface(bent);
+  const SurfaceMap map = map_between(a, b, spread_landmarks(a, GetParam().inside, GetParam().on_boundary));
+  EXPECT_TRUE(map.is_bijective());
+  const Points on_a = map.a.embedding.canonical_positions(), on_b = map.b.embedding.canonical_positions();
+  for (const ConeCopies& cone : map.a.embedding.cones)
+    EXPECT_LT((on_a.row(cone.vertex) - on_b.row(cone.vertex)).norm(), 1e-9) << cone.vertex;
+}
+
+TEST(Landmarks, ThatMakeNoSenseAreNamed) {
+  const Surface sphere = make_surface(irregular_sphere()), disk = make_surface(bent_disk());
+  EXPECT_EQ(refusal(sphere, disk, {{0, 0}, {1, 1}, {2, 2}}),
+            "surface A is a sphere, but surface B is a disk; a map between them needs two of one topology");
+  EXPECT_EQ(refusal(sphere, sphere, {{0, 0}, {7, 9}, {20, 9}}),
+            "landmarks 1 and 2 are both vertex 9 of B; give each a vertex of its own");
+  EXPECT_EQ(refusal(sphere, sphere, {{0, 0}, {-1, 9}, {20, 3}}),
+            "landmark 1 is vertex -1 of A, which has the vertices 0 to 161");
+  EXPECT_NE(refusal(sphere, sphere, {{0, 0}, {7, 9}}).find("2 landmarks between two spheres"),
+            std::string::npos);
+}
+
+TEST(Landmarks, OnADiskMustLieOnOneSideAndInOneOrder) {
+  const Surface disk = make_surface(bent_disk());
+  const std::vector<char> is_outer = disk.boundary_vertices();
+  std::vector<int> outer, inner;
+  for (int v = 0; v < disk.vertex_count(); ++v) (is_outer[v] ? outer : inner).push_back(v);
+  EXPECT_NE(refusal(disk, disk, {{outer[0], outer[0]}, {outer[3], inner[0]}, {outer[5], outer[5]}})
+                .find("landmark 1 lies on the boundary of A"),
+            std::string::npos);
+  EXPECT_NE(refusal(disk, disk, {{outer[0], outer[0]}}).find("1 landmark on the boundary and 0 inside"),
+            std::string::npos);
+  const std::vector<int> four = choose_extremities(disk, {0, 4});
+  const std::string crossed =
+      refusal(disk, disk, {{four[0], four[0]}, {four[1], four[2]}, {four[2], four[1]}, {four[3], four[3]}});
+  EXPECT_NE(crossed.find("meets the landmarks in the order"), std::string::npos) << crossed;
+}
+
+TEST(Landmarks, AreReadFromListsAndFiles) {
+  const std::vector<Landmark> list = parse_landmarks("12:7,300:512");
+  ASSERT_EQ(list.size(), 2);
+  EXPECT_EQ(list[1].a, 300);
+  EXPECT_EQ(list[1].b, 512);
+  EXPECT_THROW(parse_landmarks("12:7,300"), ArgumentError);
+  EXPECT_THROW(parse_landmarks("12:7,a:4"), ArgumentError);
+  EXPECT_TRUE(is_landmark_list("12:7"));
+  EXPECT_FALSE(is_landmark_list("C:/landmarks.txt"));
+}
+
+TEST(CutAlongTour, MeetsTheMarksInTheirOrder) {
+  const Surface surface = make_surface(irregular_sphere());
+  const std::vector<int> marks = choose_extremities(surface, {6, 0});
+  const CutMesh cut = cut_along_tour(surface, marks, 6);
+  EXPECT_EQ(cut.arrangement, (std::vector<int>{0, 1, 2, 3, 4, 5}));
+  EXPECT_EQ(cut.sides.size(), 10) << "five there and five back";
+}
+
+TEST(MapWithoutLandmarks, BetweenTwoSpheresIsAGuess) {
+  const Surface a = make_surface(stretched_sphere());
+  Mesh turned = stretched_sphere();
+  const Matrix3 turn = Eigen::AngleAxisd(1.1, Vector3(1, 2, -0.5).normalized()).toRotationMatrix();
+  turned.V = (turned.V * turn.transpose()).eval();
+  const Surface b = make_surface(turned);
+  const SurfaceMap map = map_between(a, b, {});
+  EXPECT_TRUE(map.is_bijective());
+  ASSERT_EQ(map.warnings.size(), 1);
+  EXPECT_NE(map.warnings[0].find("guess"), std::string::npos);
+  const Points on_a = map.a.embedding.canonical_positions(), on_b = map.b.embedding.canonical_positions();
+  EXPECT_LT((on_a - on_b).rowwise().norm().mean(), 0.2) << "the figure has few features";
+}
+
+}  // namespace
+}  // namespace orbitutte::surface_map_test
