@@ -175,7 +175,8 @@ class SurfaceMap:
         return (core.on_a(_arrays.positions(self.a.mesh[0]), self.a._core), core.on_b(_arrays.positions(self.b.mesh[0]), self.b._core))
 
 
-def map_between(A: Any, B: Any, landmarks: npt.ArrayLike = (), *, tile: str = "shared", progress: Any = None, **options: Any) -> SurfaceMap:
+def map_between(A: Any, B: Any, landmarks: npt.ArrayLike = (), *, tile: str = "shared", cut_seeds: tuple[int, int] = (0, 0),
+                progress: Any = None, **options: Any) -> SurfaceMap:
     """The map of one surface to another that takes every landmark to its partner.
 
     Parameters
@@ -186,6 +187,8 @@ def map_between(A: Any, B: Any, landmarks: npt.ArrayLike = (), *, tile: str = "s
         Vertices of A and of B that correspond: three or more on spheres, or none for a guess; two or more on disks, inside or on the boundary.
     tile : "shared" or "regular"
         What decides the shape of the tile if it is free: both surfaces, or the number of landmarks alone.
+    cut_seeds : (int, int)
+        Which cuts through the landmarks are taken on A and on B. They change nothing about the map.
     progress : callable(stage, iteration, energy, gradient_norm), optional
         As for `embed`.
     weights, clamp, tolerance, max_iterations, threads
@@ -201,7 +204,9 @@ def map_between(A: Any, B: Any, landmarks: npt.ArrayLike = (), *, tile: str = "s
     """
     meshes = _arrays.mesh(*A), _arrays.mesh(*B)
     pairs = _landmarks(landmarks)
-    a, b, sentences = _orbitutte.map_two(meshes, pairs, _options.options(**options), _options.text(tile, "tile"), progress)
+    seeds = tuple(_options.whole(seed, "cut_seeds") for seed in cut_seeds)
+    how = _orbitutte.MapOptions(_options.options(**options), _options.text(tile, "tile"), seeds)
+    a, b, sentences = _orbitutte.map_two(meshes, pairs, how, progress)
     result = SurfaceMap(Embedding._of(a), Embedding._of(b), pairs)
     for sentence in sentences:
         warnings.warn(sentence, EmbeddingWarning, stacklevel=2)

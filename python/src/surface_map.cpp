@@ -4,6 +4,8 @@
 
 #include <pybind11/stl.h>
 
+#include <cstdint>
+
 #include "arrays.h"
 #include "held_embedding.h"
 #include "orbitutte/export/map_files.h"
@@ -24,16 +26,24 @@ std::vector<Landmark> to_landmarks(const IntArray& array) {
   return result;
 }
 
+MapOptions map_options(const EmbedOptions& embed, const std::string& tile,
+                       const std::pair<std::uint64_t, std::uint64_t>& cut_seeds) {
+  MapOptions options;
+  options.embed = embed;
+  options.tile = parse_choice<TileShape>(tile, "tile");
+  options.cut_a.seed = cut_seeds.first;
+  options.cut_b.seed = cut_seeds.second;
+  return options;
+}
+
 // (embedding of A, embedding of B, warnings)
-py::tuple map_two(const std::pair<Mesh, Mesh>& meshes, const IntArray& landmarks, const EmbedOptions& options,
-                  const std::string& tile, py::object listener) {
-  MapOptions how;
-  how.tile = parse_choice<TileShape>(tile, "tile");
+py::tuple map_two(const std::pair<Mesh, Mesh>& meshes, const IntArray& landmarks, MapOptions options,
+                  py::object listener) {
   const std::vector<Landmark> pairs = to_landmarks(landmarks);
   const Clock::time_point start = Clock::now();
-  SurfaceMap map = with_listener(options, std::move(listener), [&](const EmbedOptions& heard) {
-    how.embed = heard;
-    return map_between(*meshes.first->surface(), *meshes.second->surface(), pairs, how);
+  SurfaceMap map = with_listener(options.embed, std::move(listener), [&](const EmbedOptions& heard) {
+    options.embed = heard;
+    return map_between(*meshes.first->surface(), *meshes.second->surface(), pairs, options);
   });
   const double seconds = seconds_since(start);
   return py::make_tuple(hold(std::move(map.a), meshes.first, seconds),
@@ -107,6 +117,7 @@ void bind_surface_map(py::module_& module) {
       .def("on_b", [](const Overlay& overlay, const DoubleArray& V,
                       const HeldEmbedding& b) { return points_of(to_points(V), b, overlay.on_b); })
       .def("failed_checks", &failed_checks);
+  py::class_<MapOptions>(module, "MapOptions").def(py::init(&map_options));
   module.def("map_two", &map_two);
   module.def("images_of_vertices", &vertices_on);
   module.def("images_of_points", &points_on);
