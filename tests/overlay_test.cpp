@@ -18,10 +18,12 @@
 #include <vector>
 
 #include "limb.h"
+#include "orbitutte/cones/extremities.h"
 #include "orbitutte/export/map_files.h"
 #include "orbitutte/io/file.h"
 #include "orbitutte/io/mesh_io.h"
 #include "orbitutte/map/overlay_certificate.h"
+#include "orbitutte/map/surface_map.h"
 #include "orbitutte/map/vertex_map.h"
 #include "orbitutte/samples/sample.h"
 #include "random_spheres.h"
@@ -373,7 +375,7 @@ TEST_F(PlantedFault, ParentsOfAnotherFace) {
 TEST_F(PlantedFault, AnotherPlacement) {
   ASSERT_GT(bad_.placements.size(), 1u);
   bad_.parents[3].placement = bad_.parents[3].placement == 0 ? 1 : 0;
-  EXPECT_THAT(found(), Contains("neighbours"));
+  EXPECT_THAT(found(), Contains("placements"));
 }
 
 TEST_F(PlantedFault, APlacementThatIsNoElement) {
@@ -503,6 +505,66 @@ TEST_P(OverlayOnFreeTile, OneSurfaceWithTwoCutsIsCertified) {
   ASSERT_TRUE(b.certificate.bijective);
   result = overlay(a.embedding, b.embedding);
   EXPECT_EQ(fault_in(certify(result, a.embedding, b.embedding)), "");
+}
+
+// Tiles of any shape that two surfaces share, cut in different ways; on disks with cones of any angle.
+struct Landmarked {
+  int inside, on_boundary;
+};
+
+class OverlayOfMap : public testing::TestWithParam<Landmarked> {
+ protected:
+  // On a disk if there are landmarks on a boundary.
+  OverlayOfMap()
+      : mesh_(test::sample_mesh_for(parse_orbifold(GetParam().on_boundary > 0 ? "*222" : "222"))),
+        surface_(make_surface(mesh_)) {
+    for (const int v : choose_extremities(surface_, {GetParam().inside, GetParam().on_boundary}))
+      landmarks_.push_back({v, v});
+    options_.cut_b.seed = 3;
+    options_.embed.threads = 1;
+    options_.embed.tolerance = 1e-12;
+  }
+
+  Mesh mesh_;
+  Surface surface_;
+  std::vector<Landmark> landmarks_;
+  MapOptions options_;
+};
+
+INSTANTIATE_TEST_SUITE_P(Landmarks, OverlayOfMap,
+                         testing::Values(Landmarked{4, 0}, Landmarked{5, 0}, Landmarked{6, 0},
+                                         Landmarked{0, 5}, Landmarked{1, 1}, Landmarked{2, 3},
+                                         Landmarked{4, 4}),
+                         [](const auto& info) {
+                           return std::to_string(info.param.inside) + "And" +
+                                  std::to_string(info.param.on_boundary);
+                         });
+
+TEST_P(OverlayOfMap, OfASurfaceToItselfMovesNothing) {
+  const SurfaceMap map = map_between(surface_, surface_, landmarks_, options_);
+  ASSERT_TRUE(map.is_bijective());
+  const Embedding &a = map.a.embedding, &b = map.b.embedding;
+  EXPECT_EQ(fault_in(certify(overlay(a, b), a, b)), "");
+  const Points images = positions_on(mesh_.V, b, images_of_vertices(a, b).images);
+  EXPECT_LT((images - mesh_.V).rowwise().norm().maxCoeff(), 1e-7);
+}
+
+// Another surface, bent: with another cut it has the same image.
+TEST_P(OverlayOfMap, DoesNotDependOnTheCut) {
+  Mesh bent = mesh_;
+  bent.V.col(0) *= 1.2;
+  bent.V.col(2).array() += 0.2 * mesh_.V.col(0).array().square();
+  const Surface other = make_surface(bent);
+  std::vector<Points> images;
+  for (const std::uint64_t seed : {0, 3}) {
+    options_.cut_a.seed = options_.cut_b.seed = seed;
+    const SurfaceMap map = map_between(surface_, other, landmarks_, options_);
+    ASSERT_TRUE(map.is_bijective());
+    const Embedding &a = map.a.embedding, &b = map.b.embedding;
+    EXPECT_EQ(fault_in(certify(overlay(a, b), a, b)), "");
+    images.push_back(positions_on(bent.V, b, images_of_vertices(a, b).images));
+  }
+  EXPECT_LT((images[0] - images[1]).rowwise().norm().maxCoeff(), 1e-6);
 }
 
 // Six limbs, most of which shrink below what doubles resolve.
