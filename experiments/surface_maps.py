@@ -23,6 +23,8 @@ SHARED = ROOT.parent / 'shared'
 # The pair, a word for the choice, and rows of its table of landmarks (None: all).
 CHOICES = [('bodies', 'five', None), ('bodies', 'four', (0, 1, 3, 4)), ('bodies', 'three', (0, 1, 3)), ('hands', 'five', None),
            ('cat_horse', 'nose, tail, feet', (14, 12, 9, 3, 7, 5)), ('cat_horse', 'twelve', (14, 12, 9, 3, 7, 5, 0, 2, 4, 8, 11, 16))]
+# Meshes that are mapped onto themselves, the cuts being others.
+IDENTITIES = ['my_man_maxp.off', 'octocat.off', 'david_50k.off', 'itokawa.off']
 WITHIN = (0.05, 0.1, 0.25)
 
 
@@ -103,8 +105,17 @@ def measure_pair(arguments, name, word, rows):
         print(f'    order {order}: at most {away:.1e} away, {half_twists} half twists, exit {other.code} {other.messages}', flush=True)
 
 
-def measure_identity(arguments, mesh, landmarks):
+def extremities(program, path, count):
+    """As many as there are cones on a flat surface."""
+    angle = f'{2 - 4 / count}pi'
+    done = subprocess.run([program, 'embed', path, '--orbifold', 'cones', '--cones', 'extremities', '--angles', ','.join([angle] * count), '--json', '--quiet'],
+                          check=False, stdout=subprocess.PIPE, text=True)
+    return [cone['vertex'] for cone in json.loads(done.stdout)['cones']]
+
+
+def measure_identity(arguments, mesh):
     path = SHARED / 'meshes' / mesh
+    landmarks = extremities(arguments.program, path, 8)
     for count in (3, 4, 5, 8):
         run = Run(arguments.program, path, path, [(v, v) for v in landmarks[:count]], '--cut-seed-b', 7)
         print(f'{mesh} onto itself, {count} landmarks: {describe(run)}', flush=True)
@@ -124,6 +135,9 @@ def main():
     for choice in CHOICES:
         if arguments.only in ('', choice[0]):
             measure_pair(arguments, *choice)
+    for mesh in IDENTITIES:
+        if arguments.only in ('', mesh):
+            measure_identity(arguments, mesh)
 
 
 if __name__ == '__main__':

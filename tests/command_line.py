@@ -11,6 +11,7 @@ import math
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -184,6 +185,42 @@ class Files(CommandLine):
         self.expect(0, *self.embed('figure.obj', '-o', 'link.ply', '--quiet'))
         self.assertTrue(other.read_bytes().startswith(b'ply'))
         self.assertTrue((self.folder / 'link.ply').is_symlink())
+
+
+
+class Maps(CommandLine):
+    LANDMARKS = '1:1,60:60,120:120,200:200'
+
+    def map(self, *options, b='figure.obj'):
+        return ['map', 'figure.obj', b, *options]
+
+    def test_all_files_are_written(self):
+        self.expect(0, *self.map('--landmarks', self.LANDMARKS, '-o', 'onto_itself'), says='certified: bijective')
+        names = {path.name for path in (self.folder / 'onto_itself').iterdir()}
+        self.assertEqual(names, {'a.ply', 'a.json', 'b.ply', 'b.json', 'map.json', 'a_to_b.txt', 'b_to_a.txt', 'overlay_a.obj', 'overlay_b.obj'})
+        found = json.loads((self.folder / 'onto_itself' / 'map.json').read_text(encoding='utf-8'))
+        self.assertTrue(found['bijective'])
+        self.assertEqual(found['landmarks'], [[1, 1], [60, 60], [120, 120], [200, 200]])
+        self.assertLess(found['landmark_error'], 1e-12)
+        self.expect(0, 'verify', 'onto_itself/b.ply', 'onto_itself/b.json', 'figure.obj')
+
+    def test_landmarks_may_be_a_file_with_a_header(self):
+        (self.folder / 'landmarks.tsv').write_text('a\tb\n1\t1\n60\t60\n120\t120\n', encoding='utf-8')
+        self.expect(0, *self.map('--landmarks', 'landmarks.tsv', '--json'), says='3 landmarks')
+
+    def test_bad_landmarks_are_named(self):
+        for landmarks, says in {'1:1,60:60,120:60': "landmarks 1 and 2 are both vertex 60 of B", '1:1,60:60,999999:3': 'landmark 2 is vertex 999999 of A',
+                                '1:1,60:60': '2 landmarks between two spheres'}.items():
+            with self.subTest(landmarks):
+                done = self.expect(IS_UNSUITABLE, *self.map('--landmarks', landmarks, '-o', 'nothing'), says=says)
+                self.assertEqual(done.stderr.count('\n'), 1)
+                self.assertFalse((self.folder / 'nothing').exists())
+        self.expect(IS_WRONG, *self.map('--landmarks', '1:1,60'), says="landmark '60' is not two vertices")
+
+    def test_no_file_of_the_map_replaces_an_input(self):
+        (self.folder / 'own').mkdir(exist_ok=True)
+        shutil.copy(self.folder / 'figure.obj', self.folder / 'own' / 'overlay_a.obj')
+        self.expect(IS_WRONG, 'map', 'own/overlay_a.obj', 'figure.obj', '--landmarks', self.LANDMARKS, '-o', 'own', says='surface A')
 
 
 class Streams(CommandLine):

@@ -114,6 +114,7 @@ class Mapping {
   SurfaceMap run() {
     find_tours();
     embed_both({options_.embed.weights.kind, options_.embed.weights.kind});
+    if (!is_bijective() && is_converged()) try_other_tours();
     if (!is_bijective() && is_converged()) try_other_weights();
     warn_of_classes();
     map_.a = std::move(sides_[0]->result);
@@ -168,12 +169,40 @@ class Mapping {
     return sides_[0]->result.certificate.bijective && sides_[1]->result.certificate.bijective;
   }
 
+  // Curved tiles that are cut along a long tour reach far out, where digits are lost: the shortest tours take
+  // the place of one that was asked for. The first results are kept if none is certified.
+  void try_other_tours() {
+    constexpr std::size_t most_tries = 3;
+    if (options_.tour.empty() || !target_.has_free_tile || is_flat()) return;
+    const std::array<EmbedResult, 2> results = {sides_[0]->result, sides_[1]->result};
+    const SharingOptions sharing = sharing_;
+    const MapClass first_class = map_.map_class;
+    const std::vector<std::string> warnings = map_.warnings;
+    const std::size_t first = tour_, end = std::min(tours_.size(), first + 1 + most_tries);
+    for (std::size_t tour = first + 1; tour < end && tour > tour_; tour = tour_ + 1) {
+      sharing_ = {};
+      map_.map_class.tile = options_.tile;
+      map_.warnings.clear();
+      cut_along_next(tour);
+      embed_both({options_.embed.weights.kind, options_.embed.weights.kind});
+      if (is_bijective()) return;
+    }
+    cut_along(first);
+    sharing_ = sharing;
+    map_.map_class = first_class;
+    map_.warnings = warnings;
+    for (int s = 0; s < 2; ++s) sides_[s]->result = results[s];
+  }
+
   // Where no weights were asked for: others for the side that needs them.
   void try_other_weights() {
     const EmbedOptions& embed = options_.embed;
     if (embed.weights.kind != WeightKind::standard || !embed.weights_file.empty()) return;
     const std::array<EmbedResult, 2> first = {sides_[0]->result, sides_[1]->result};
+    const MapClass first_class = map_.map_class;
+    const std::vector<std::string> warnings = map_.warnings;
     for (std::size_t k = 0; k < 3; ++k) {
+      map_.warnings = warnings;
       Weights kinds = {WeightKind::standard, WeightKind::standard};
       for (int s = 0; s < 2; ++s) {
         const std::vector<WeightKind> others = other_weights(*surfaces_[s]);
@@ -185,6 +214,8 @@ class Mapping {
         if (kinds[s] != WeightKind::standard) sides_[s]->result.requested_weights = first[s].weights.kind;
       return;
     }
+    map_.map_class = first_class;
+    map_.warnings = warnings;
     for (int s = 0; s < 2; ++s) sides_[s]->result = first[s];
   }
 
@@ -199,7 +230,8 @@ class Mapping {
     });
     Problems problems;
     state_problems(problems);
-    if (has_classes()) find_class(problems);
+    // Other weights change neither the class nor much of the tiles.
+    if (has_classes() && sharing_.own[0].cones.size() == 0) find_class(problems);
     finish_both(pair_of(problems), placed(pair_of(problems)));
   }
 

@@ -148,6 +148,22 @@ std::array<TiledPositions, 2> polygon_tiles(const ProblemPair& problems) {
   return tiles;
 }
 
+// The cones moved so that the tile that is cut along them lies around (0, 0, 1), where coordinates have most
+// digits: with p_2 .. p_(k - 1) it has other copies of these as corners, (R_(j + 1) ... R_k)^-1 p_j.
+Points centred(const Moduli& moduli, const Points& cones) {
+  const Space space = moduli.space();
+  const std::vector<Isometry> rotation = moduli.rotations(cones);
+  Vector3 sum = cones.colwise().sum().transpose();
+  Isometry gluing;
+  for (Eigen::Index j = cones.rows() - 2; j > 0; --j) {
+    gluing = rotation[j + 1] * gluing;
+    sum += gluing.inverse() * Vector3(cones.row(j));
+  }
+  Points result = space.to_origin(space.retract(sum)).on_rows(cones);
+  retract_points(space, result);
+  return moduli.closed(result).value_or(result);
+}
+
 // The isometry that takes points to others best (k x 3 each), of those that take one of them to its partner.
 Isometry alignment_of(Space space, const Points& from, const Points& to) {
   Isometry best;
@@ -185,7 +201,7 @@ std::array<Placement, 2> place_on_curved_tile(const ProblemPair& problems, const
   const Braid to_second = inverse(options.braid);
   const std::array<TiledPositions, 2> first =
       options.is_tile_regular && to_second.empty() ? polygon_tiles(problems) : options.own;
-  const Points cones = options.is_tile_regular ? polygon_of(moduli) : first[0].cones;
+  const Points cones = centred(moduli, options.is_tile_regular ? polygon_of(moduli) : first[0].cones);
   const std::vector<TileSharer> sharers = {{problems[0], {}}, {problems[1], to_second}};
   const SharedStart start = {cones,
                              {aligned(moduli.space(), first[0], cones),
