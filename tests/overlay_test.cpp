@@ -380,7 +380,7 @@ TEST_F(PlantedFault, AnotherPlacement) {
 
 TEST_F(PlantedFault, APlacementThatIsNoElement) {
   bad_.placements[0] = Space::sphere().rotation(Vector3::UnitX(), 0.3) * bad_.placements[0];
-  EXPECT_THAT(found(), Contains("placements"));
+  EXPECT_THAT(found(), Contains("group"));
 }
 
 TEST_F(PlantedFault, APositionOnOneSurface) {
