@@ -43,9 +43,9 @@ LbfgsOptions telling(const LbfgsOptions& options, const Stages& stage) {
   return result;
 }
 
-// The cones of the doubled polygon.
+// The cones of the polygon with an inscribed circle, doubled.
 Points polygon_of(const Moduli& moduli) {
-  const Points polygon = moduli.doubled_polygon();
+  const Points polygon = moduli.inscribed_polygon();
   return moduli.closed(polygon).value_or(polygon);
 }
 
@@ -152,7 +152,7 @@ std::array<TiledPositions, 2> polygon_tiles(const ProblemPair& problems) {
 // digits: with p_2 .. p_(k - 1) it has other copies of these as corners, (R_(j + 1) ... R_k)^-1 p_j.
 Points centred(const Moduli& moduli, const Points& cones) {
   const Space space = moduli.space();
-  const std::vector<Isometry> rotation = moduli.rotations(cones);
+  const std::vector<Isometry> rotation = moduli.generators(cones);
   Vector3 sum = cones.colwise().sum().transpose();
   Isometry gluing;
   for (Eigen::Index j = cones.rows() - 2; j > 0; --j) {
