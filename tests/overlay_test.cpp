@@ -9,14 +9,21 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <random>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "limb.h"
+#include "orbitutte/cones/extremities.h"
+#include "orbitutte/export/map_files.h"
+#include "orbitutte/io/file.h"
+#include "orbitutte/io/mesh_io.h"
 #include "orbitutte/map/overlay_certificate.h"
+#include "orbitutte/map/surface_map.h"
 #include "orbitutte/map/vertex_map.h"
 #include "orbitutte/samples/sample.h"
 #include "random_spheres.h"
@@ -200,6 +207,39 @@ TEST(SurfacePoints, OfAnotherSurfaceAreRefusedByTheirNumbers) {
   EXPECT_THAT(refusal({{3}, Points::Constant(2, 3, 1.0 / 3), {}}), HasSubstr("1 triangles and 2 rows"));
 }
 
+// A path along edges of A, whose image runs over B.
+TEST(SurfacePoints, OfAPolylineCrossTheEdgesOfTheOtherSurface) {
+  const Pair pair = sample_pair("332");
+  const Embedding &a = pair.a.embedding, &b = pair.b.embedding;
+  const Connectivity connectivity = test::edges_of(pair.a_mesh);
+  SurfacePoints path = {{}, Points(8, 3), {}};
+  int h = 0;
+  for (int k = 0; k < 8; ++k) {
+    path.triangle.push_back(h / 3);
+    path.barycentric.row(k) = Vector3::Unit(h % 3).transpose();
+    h = next_halfedge(h);
+    for (int turn = 0; turn < 2; ++turn) h = connectivity.opposite[previous_halfedge(h)];
+  }
+  const SurfacePoints image = image_of_polyline(a, b, path);
+  ASSERT_GT(image.count(), path.count());
+  const Points back = positions_on(pair.a_mesh.V, a, images_of_points(b, a, image)),
+               corners = positions_on(pair.a_mesh.V, a, path);
+  int next = 0;
+  for (int k = 0; k < image.count(); ++k) {
+    if (next < path.count() && (back.row(k) - corners.row(next)).norm() < 1e-9) {
+      ++next;
+      continue;
+    }
+    ASSERT_GT(next, 0);
+    EXPECT_EQ(image.barycentric.row(k).minCoeff(), 0) << "on an edge of B";
+    const Vector3 from = corners.row(next - 1), to = corners.row(next), here = back.row(k);
+    EXPECT_NEAR((here - from).norm() + (to - here).norm(), (to - from).norm(), 1e-9);
+  }
+  EXPECT_EQ(next, path.count());
+  path.triangle[3] = 200;
+  EXPECT_THROW(image_of_polyline(a, b, path), ArgumentError);
+}
+
 TEST(Overlay, OfDifferentTilesIsRefused) {
   const Pair first = sample_pair("332"), second = sample_pair("222");
   EXPECT_THROW(overlay(first.a.embedding, second.b.embedding), ArgumentError);
@@ -219,6 +259,60 @@ TEST(Overlay, OfTriangleThatIsTurnedOverIsRefused) {
   Pair pair = sample_pair("332");
   std::swap(pair.b.embedding.triangles(5, 0), pair.b.embedding.triangles(5, 1));
   EXPECT_THROW(overlay(pair.a.embedding, pair.b.embedding), Error);
+}
+
+class MapFiles : public testing::Test {
+ protected:
+  void SetUp() override { std::filesystem::create_directories(folder_); }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::string path(const char* name) const { return (folder_ / name).string(); }
+
+  std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "orbitutte_map_files";
+};
+
+TEST_F(MapFiles, OfTheOverlayHaveTheSameFaces) {
+  const Pair pair = sample_pair("222");
+  const Overlay both = overlay(pair.a.embedding, pair.b.embedding);
+  const Points on_a = positions_on(pair.a_mesh.V, pair.a.embedding, both.on_a),
+               on_b = positions_on(pair.b_mesh.V, pair.b.embedding, both.on_b);
+  write_overlay(path("a.obj"), both, on_a);
+  write_overlay(path("b.obj"), both, on_b);
+  const PolygonMesh a = read_mesh(path("a.obj")), b = read_mesh(path("b.obj"));
+  EXPECT_EQ(a.corners, b.corners);
+  EXPECT_EQ(a.face_start, both.faces.start);
+  EXPECT_EQ(a.V, on_a);
+  EXPECT_EQ(b.V, on_b);
+}
+
+TEST_F(MapFiles, OfVerticesHaveALineForEach) {
+  const Pair pair = sample_pair("332");
+  const VertexMap map = images_of_vertices(pair.a.embedding, pair.b.embedding);
+  write_vertex_map(path("a_to_b.txt"), map);
+  std::istringstream lines(read_file(path("a_to_b.txt")));
+  for (int v = 0; v < map.count(); ++v) {
+    int face = -1;
+    Vector3 w;
+    ASSERT_TRUE(lines >> face >> w[0] >> w[1] >> w[2]);
+    EXPECT_EQ(face, map.images.triangle[v]);
+    EXPECT_EQ(w, Vector3(map.images.barycentric.row(v)));
+  }
+  EXPECT_FALSE(lines >> std::ws && !lines.eof());
+}
+
+TEST_F(MapFiles, MorphsGoFromOneSurfaceToTheOther) {
+  const Pair pair = sample_pair("222");
+  const Overlay both = overlay(pair.a.embedding, pair.b.embedding);
+  const Morph morph = morph_of(both, positions_on(pair.a_mesh.V, pair.a.embedding, both.on_a),
+                               positions_on(pair.b_mesh.V, pair.b.embedding, both.on_b));
+  EXPECT_EQ(morph_positions(morph, 0), morph.from);
+  EXPECT_EQ(morph_positions(morph, 1), morph.to);
+  write_morph(path("morph.glb"), morph);
+  const std::string bytes = read_file(path("morph.glb"));
+  EXPECT_EQ(bytes.substr(0, 4), "glTF");
+  EXPECT_THAT(bytes, HasSubstr("\"targets\":[{"));
+  EXPECT_THAT(bytes, HasSubstr("\"path\":\"weights\""));
+  EXPECT_THROW(morph_of(both, morph.from, Points(3, 3)), ArgumentError);
 }
 
 // Faults of every kind are found, each by the check that is there for it.
@@ -281,12 +375,12 @@ TEST_F(PlantedFault, ParentsOfAnotherFace) {
 TEST_F(PlantedFault, AnotherPlacement) {
   ASSERT_GT(bad_.placements.size(), 1u);
   bad_.parents[3].placement = bad_.parents[3].placement == 0 ? 1 : 0;
-  EXPECT_THAT(found(), Contains("neighbours"));
+  EXPECT_THAT(found(), Contains("placements"));
 }
 
 TEST_F(PlantedFault, APlacementThatIsNoElement) {
   bad_.placements[0] = Space::sphere().rotation(Vector3::UnitX(), 0.3) * bad_.placements[0];
-  EXPECT_THAT(found(), Contains("placements"));
+  EXPECT_THAT(found(), Contains("group"));
 }
 
 TEST_F(PlantedFault, APositionOnOneSurface) {
@@ -411,6 +505,80 @@ TEST_P(OverlayOnFreeTile, OneSurfaceWithTwoCutsIsCertified) {
   ASSERT_TRUE(b.certificate.bijective);
   result = overlay(a.embedding, b.embedding);
   EXPECT_EQ(fault_in(certify(result, a.embedding, b.embedding)), "");
+}
+
+// Tiles of any shape that two surfaces share, cut in different ways; on disks with cones of any angle.
+struct Landmarked {
+  int inside, on_boundary;
+};
+
+class OverlayOfMap : public testing::TestWithParam<Landmarked> {
+ protected:
+  // On a disk if there are landmarks on a boundary.
+  OverlayOfMap()
+      : mesh_(test::sample_mesh_for(parse_orbifold(GetParam().on_boundary > 0 ? "*222" : "222"))),
+        surface_(make_surface(mesh_)) {
+    for (const int v : choose_extremities(surface_, {GetParam().inside, GetParam().on_boundary}))
+      landmarks_.push_back({v, v});
+    options_.cut_b.seed = 3;
+    options_.embed.threads = 1;
+    options_.embed.tolerance = 1e-12;
+  }
+
+  Mesh mesh_;
+  Surface surface_;
+  std::vector<Landmark> landmarks_;
+  MapOptions options_;
+};
+
+INSTANTIATE_TEST_SUITE_P(Landmarks, OverlayOfMap,
+                         testing::Values(Landmarked{4, 0}, Landmarked{5, 0}, Landmarked{6, 0},
+                                         Landmarked{0, 5}, Landmarked{1, 1}, Landmarked{2, 3},
+                                         Landmarked{4, 4}),
+                         [](const auto& info) {
+                           return std::to_string(info.param.inside) + "And" +
+                                  std::to_string(info.param.on_boundary);
+                         });
+
+TEST_P(OverlayOfMap, OfASurfaceToItselfMovesNothing) {
+  const SurfaceMap map = map_between(surface_, surface_, landmarks_, options_);
+  ASSERT_TRUE(map.is_bijective());
+  const Embedding &a = map.a.embedding, &b = map.b.embedding;
+  EXPECT_EQ(fault_in(certify(overlay(a, b), a, b)), "");
+  const Points images = positions_on(mesh_.V, b, images_of_vertices(a, b).images);
+  EXPECT_LT((images - mesh_.V).rowwise().norm().maxCoeff(), 1e-7);
+}
+
+// Another surface, bent: with another cut it has the same image.
+TEST_P(OverlayOfMap, DoesNotDependOnTheCut) {
+  Mesh bent = mesh_;
+  bent.V.col(0) *= 1.2;
+  bent.V.col(2).array() += 0.2 * mesh_.V.col(0).array().square();
+  const Surface other = make_surface(bent);
+  std::vector<Points> images;
+  for (const std::uint64_t seed : {0, 3}) {
+    options_.cut_a.seed = options_.cut_b.seed = seed;
+    const SurfaceMap map = map_between(surface_, other, landmarks_, options_);
+    ASSERT_TRUE(map.is_bijective());
+    const Embedding &a = map.a.embedding, &b = map.b.embedding;
+    EXPECT_EQ(fault_in(certify(overlay(a, b), a, b)), "");
+    images.push_back(positions_on(bent.V, b, images_of_vertices(a, b).images));
+  }
+  EXPECT_LT((images[0] - images[1]).rowwise().norm().maxCoeff(), 1e-6);
+}
+
+// Six limbs, most of which shrink below what doubles resolve.
+TEST(Overlay, OfOctocatIsCertified) {
+  const std::string path = std::string(ORBITUTTE_SHARED_DIR) + "/meshes/octocat.off";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is missing";
+  const Mesh mesh = to_triangle_mesh(read_mesh(path));
+  const Target target = parse_orbifold("532");
+  const std::vector<int> marks = choose_cones(mesh, target);
+  const EmbedResult a = embed(mesh, target, marks, options_with_cut(0)),
+                    b = embed(mesh, target, marks, options_with_cut(2));
+  ASSERT_TRUE(a.certificate.bijective && b.certificate.bijective);
+  ASSERT_FALSE(a.embedding.offsets.empty());
+  EXPECT_EQ(fault_in(certify(overlay(a.embedding, b.embedding), a.embedding, b.embedding)), "");
 }
 
 // Two limbs that shrink below what doubles resolve.

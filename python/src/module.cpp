@@ -33,5 +33,6 @@ PYBIND11_MODULE(_orbitutte, module) {
   python::bind_embedding(module);
   python::bind_solver(module);
   python::bind_point_map(module);
+  python::bind_surface_map(module);
   python::bind_render(module);
 }

@@ -145,32 +145,64 @@ EdgeTracer::Step EdgeTracer::along(const Line& line, const Place& here, Along di
   return {{h, here.element, direction}, reached(side_of_goal, at_end, on_it), side_of_goal >= 0};
 }
 
+// Counterclockwise to the next corner at the vertex; false if there is a boundary.
+bool EdgeTracer::turn_on(Place& here) const {
+  const int back = previous_halfedge(here.halfedge);
+  if (surface_.opposite[back] < 0) return false;
+  const Place next_one = beyond({Kind::on_edge, back, here.element});
+  here = {Kind::at_vertex, next_one.halfedge, next_one.element};
+  return true;
+}
+
+// The other way.
+bool EdgeTracer::turn_back(Place& here) const {
+  if (surface_.opposite[here.halfedge] < 0) return false;
+  here = beyond(here);
+  return true;
+}
+
 // Turns around the vertex until the goal is in the angle of the triangle: counterclockwise, and, on a
-// boundary, the other way then. The angles of a cone may have to be passed several times.
+// boundary, the other way then. The angles of a cone of an orbifold may have to be passed several times.
 EdgeTracer::Step EdgeTracer::from_vertex(const Course& course, Place& here) const {
   const int most_corners = 3 * static_cast<int>(surface_.triangles.size());
   Place at = here;
   bool is_clockwise = false;
   for (int turned = 0; turned < most_corners; ++turned) {
-    const Line line = line_of(course, at.element);
-    const Step step = into_sector(line, at);
+    const Step step = into_sector(line_of(course, at.element), at);
     if (step.stop.halfedge >= 0) {
       here = at;
       return step;
     }
-    const int back = previous_halfedge(at.halfedge);
-    if (!is_clockwise && surface_.opposite[back] < 0) {
+    if (!is_clockwise && !turn_on(at)) {
       is_clockwise = true;
       at = here;
     }
-    if (is_clockwise) {
-      at = beyond(at);
-    } else {
-      const Place next_one = beyond({Kind::on_edge, back, at.element});
-      at = {Kind::at_vertex, next_one.halfedge, next_one.element};
-    }
+    if (is_clockwise && !turn_back(at)) break;
   }
   throw ArgumentError("no triangle around a vertex goes on to another one; certify both embeddings first");
+}
+
+void EdgeTracer::turn(const Course& course, Place& start) const {
+  if (start.kind == Kind::at_vertex) from_vertex(course, start);
+}
+
+void EdgeTracer::turn_least(const Course& course, Place& start) const {
+  if (start.kind != Kind::at_vertex) return;
+  Place on = start, back = start;
+  const int most_corners = 3 * static_cast<int>(surface_.triangles.size());
+  bool goes_on = true, goes_back = true;
+  for (int turned = 0; turned < most_corners && (goes_on || goes_back); ++turned) {
+    if (goes_on && into_sector(line_of(course, on.element), on).stop.halfedge >= 0) {
+      start = on;
+      return;
+    }
+    if (goes_back && into_sector(line_of(course, back.element), back).stop.halfedge >= 0) {
+      start = back;
+      return;
+    }
+    goes_on = goes_on && turn_on(on);
+    goes_back = goes_back && turn_back(back);
+  }
 }
 
 // No stop (-1) if the goal is not in the angle at the corner.

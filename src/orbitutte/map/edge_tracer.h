@@ -57,6 +57,13 @@ class EdgeTracer {
   /// does not end.
   void trace(const Course& course, Place& start, Walk& walk) const;
 
+  /// Turns a place at a vertex counterclockwise to the corner of the triangle that the course would enter, as
+  /// `trace` does; places elsewhere stay.
+  void turn(const Course& course, Place& start) const;
+
+  /// The same to the nearest such corner, in either sense.
+  void turn_least(const Course& course, Place& start) const;
+
   /// The same place in the triangle beyond the half-edge that it is on or begins at.
   Place beyond(const Place& place) const;
 
@@ -82,6 +89,8 @@ class EdgeTracer {
   Step from_inside(const Line& line, const Place& here) const;
   Step from_edge(const Course& course, const Place& here) const;
   Step from_vertex(const Course& course, Place& here) const;
+  bool turn_back(Place& here) const;
+  bool turn_on(Place& here) const;
   Step into_sector(const Line& line, const Place& here) const;
   Step across(const Line& line, const Place& entry) const;
   Step along(const Line& line, const Place& here, WalkedPiece::Along direction) const;

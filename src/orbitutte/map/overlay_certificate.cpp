@@ -188,8 +188,8 @@ class OverlayExaminer {
         points_(elements_, a.space(), !a.offsets.empty() || !b.offsets.empty()) {}
 
   OverlayCertificate run() {
-    if (examine_indices() && examine_placements()) {
-      list_edges();
+    if (examine_indices() && find_elements()) {
+      examine_placements();
       examine_surface();
       examine_vertices();
       examine_parents();
@@ -210,7 +210,7 @@ class OverlayExaminer {
   std::span<const int> corners(int f) const { return FaceView(overlay_.faces)[f]; }
   const DevelopedSurface& surface(int side) const { return surfaces_[side]; }
   int parent(int side, int f) const { return side == 0 ? overlay_.parents[f].a : overlay_.parents[f].b; }
-  int element(int f) const { return element_of_[overlay_.parents[f].placement]; }
+  int element(int f) const { return element_of_[f]; }
   const SurfacePoints& places(int side) const { return side == 0 ? overlay_.on_a : overlay_.on_b; }
 
   int vertex_on(int side, int v) const {
@@ -259,22 +259,80 @@ class OverlayExaminer {
     }
   }
 
-  bool examine_placements() {
-    Findings findings("placements");
-    const Isometry &of_a = embeddings_[0]->placement, &of_b = embeddings_[1]->placement;
-    const Space space = embeddings_[0]->space();
-    const Matrix3Of<MostPrecise> out = exact_isometry(space, of_a),
-                                 in = precise_inverse(space, exact_isometry(space, of_b));
-    for (std::size_t k = 0; k < overlay_.placements.size(); ++k) {
+  const Isometry& placement(int f) const { return overlay_.placements[overlay_.parents[f].placement]; }
+
+  // The face whose placement is nearest to none at all.
+  int least_moved_face() const {
+    const Isometry nothing = embeddings_[0]->placement * embeddings_[1]->placement.inverse();
+    int nearest = 0;
+    for (int f = 1; f < face_count(); ++f)
+      if (placement(f).difference(nothing) < placement(nearest).difference(nothing)) nearest = f;
+    return nearest;
+  }
+
+  // The elements that place B: from one face, where the group is asked for it, to all others. A group need
+  // not be discrete, so that no element would be known by its doubles alone.
+  bool find_elements() {
+    Findings findings("group");
+    if (face_count() == 0) findings.add("there are no faces");
+    list_edges();
+    element_of_.assign(face_count(), ElementTable::identity);
+    if (face_count() > 0) {
+      const int first = least_moved_face();
       try {
-        element_of_.push_back(
-            elements_.add(out * group_.element(of_a.inverse() * overlay_.placements[k] * of_b) * in));
+        spread_elements(first, element_near(placement(first)));
       } catch (const ArgumentError& error) {
-        findings.add("placement {}: {}", k, error.what());
+        findings.add("the placement of face {}: {}", first, error.what());
       }
     }
     conclude(findings);
     return findings.check().passed;
+  }
+
+  int element_near(const Isometry& isometry) {
+    const Isometry &of_a = embeddings_[0]->placement, &of_b = embeddings_[1]->placement;
+    const Space space = embeddings_[0]->space();
+    const Matrix3Of<MostPrecise> out = exact_isometry(space, of_a),
+                                 in = precise_inverse(space, exact_isometry(space, of_b));
+    return elements_.add(out * group_.element(of_a.inverse() * isometry * of_b) * in);
+  }
+
+  void spread_elements(int first, int element_of_first) {
+    std::vector<char> is_reached(face_count(), 0);
+    std::vector<int> reached = {first};
+    element_of_[first] = element_of_first;
+    is_reached[first] = 1;
+    for (std::size_t n = 0; n < reached.size(); ++n) {
+      int origin = corners(reached[n]).back();
+      for (const int v : corners(reached[n])) {
+        const DirectedEdge edge = {ends_of(origin, v), reached[n]};
+        origin = v;
+        const DirectedEdge* const other = find_edge(edge.reversed());
+        if (!other || is_reached[other->face]) continue;
+        is_reached[other->face] = 1;
+        element_of_[other->face] = element_beyond(edge);
+        reached.push_back(other->face);
+      }
+    }
+  }
+
+  // Beyond the edges of the parents that an edge of the overlay lies on: G_h^-1 G G_k.
+  int element_beyond(const DirectedEdge& edge) {
+    const int h = halfedge_under(0, edge), k = halfedge_under(1, edge);
+    int result = element(edge.face);
+    if (h >= 0) result = elements_.product(elements_.inverse(surface(0).beyond[h]), result);
+    return k >= 0 ? elements_.product(result, surface(1).beyond[k]) : result;
+  }
+
+  void examine_placements() {
+    constexpr double bound = 1e-6;
+    Findings findings("placements");
+    for (int f = 0; f < face_count(); ++f) {
+      const Isometry& found = elements_.rough(element(f));
+      if (!(found.difference(placement(f)) <= bound * std::max(1.0, found.matrix().cwiseAbs().maxCoeff())))
+        findings.add("face {} is placed by another element than its neighbours say", f);
+    }
+    conclude(findings);
   }
 
   // -- The surface --
@@ -283,13 +341,17 @@ class OverlayExaminer {
     for (int f = 0; f < face_count(); ++f) {
       int origin = corners(f).back();
       for (const int v : corners(f)) {
-        edges_.push_back({static_cast<std::uint64_t>(origin) << 32 | static_cast<std::uint32_t>(v), f});
+        edges_.push_back({ends_of(origin, v), f});
         origin = v;
       }
     }
     std::sort(edges_.begin(), edges_.end(), [](const DirectedEdge& x, const DirectedEdge& y) {
       return x.ends != y.ends ? x.ends < y.ends : x.face < y.face;
     });
+  }
+
+  static std::uint64_t ends_of(int origin, int target) {
+    return static_cast<std::uint64_t>(origin) << 32 | static_cast<std::uint32_t>(target);
   }
 
   // The edge with these ends, or nothing.
@@ -357,7 +419,7 @@ class OverlayExaminer {
     do {
       ++count;
       const int before = corner_before(edge->face, v);
-      edge = find_edge(static_cast<std::uint64_t>(v) << 32 | static_cast<std::uint32_t>(before));
+      edge = find_edge(ends_of(v, before));
     } while (edge && edge != &first && count <= face_count());
     return count;
   }
@@ -594,19 +656,15 @@ class OverlayExaminer {
     return true;
   }
 
-  // The element of the triangle beyond the edges that are crossed: G_h^-1 G G_k.
   bool fits(const DirectedEdge& edge, int other) {
-    const int h = halfedge_under(0, edge), k = halfedge_under(1, edge);
-    if (h < 0 && k < 0) return false;
-    int expected = element(edge.face);
+    const std::array<int, 2> crossed = {halfedge_under(0, edge), halfedge_under(1, edge)};
+    if (crossed[0] < 0 && crossed[1] < 0) return false;
     for (int side = 0; side < 2; ++side) {
-      const int crossed = side == 0 ? h : k, o = crossed < 0 ? -1 : surface(side).opposite[crossed];
-      if (crossed >= 0 && o < 0) return false;
-      if (parent(side, other) != (crossed < 0 ? parent(side, edge.face) : o / 3)) return false;
+      const int h = crossed[side], o = h < 0 ? -1 : surface(side).opposite[h];
+      if (h >= 0 && o < 0) return false;
+      if (parent(side, other) != (h < 0 ? parent(side, edge.face) : o / 3)) return false;
     }
-    if (h >= 0) expected = elements_.product(elements_.inverse(surface(0).beyond[h]), expected);
-    if (k >= 0) expected = elements_.product(expected, surface(1).beyond[k]);
-    return expected == element(other);
+    return element_beyond(edge) == element(other);
   }
 
   // -- Positions and areas --
@@ -714,7 +772,7 @@ class OverlayExaminer {
   SharedGroup group_;
   std::array<DevelopedSurface, 2> surfaces_;
   PointSource points_;
-  std::vector<int> element_of_;  // of placements
+  std::vector<int> element_of_;  // of faces
   std::vector<DirectedEdge> edges_;
   OverlayCertificate result_;
 };

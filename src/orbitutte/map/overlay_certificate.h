@@ -24,8 +24,9 @@ struct OverlayCertificate {
   /// By how much the shares of the faces in a triangle of A, or of B, fail to add up to one, at the most.
   double max_share_error = 0;
 
-  /// "surface", "euler_characteristic", "parents", "vertices", "positive_faces", "neighbours", "shares_of_a",
-  /// "shares_of_b", "target_area", "landmarks".
+  /// "indices", "group", "placements", "surface", "euler_characteristic", "vertices", "landmarks", "parents",
+  /// "positive_faces", "neighbours", "positions", "shares_of_a", "shares_of_b", "target_area"; of those that
+  /// rely on others that failed, none.
   std::vector<Check> checks;
 };
 

@@ -132,16 +132,15 @@ int precise_order(const ElementTable& elements, const LineThrough& edge, const L
 
 }  // namespace
 
-void Sites::append(const Points& doubles) {
-  const Eigen::Index before = rough_.rows();
-  rough_.conservativeResize(before + doubles.rows(), 3);
-  rough_.bottomRows(doubles.rows()) = doubles;
-  exact_of_.resize(static_cast<std::size_t>(rough_.rows()), -1);
+int Sites::append(const Vector3& doubles) {
+  rough_.push_back(doubles);
+  exact_of_.push_back(-1);
+  return count() - 1;
 }
 
 void Sites::set_exact(int site, const Vector3Of<MostPrecise>& position) {
   const Digits digits = {position.cast<Precise>(), position};
-  rough_.row(site) = position.cast<double>().transpose();
+  rough_[site] = position.cast<double>();
   if (exact_of_[site] >= 0) {
     digits_[exact_of_[site]] = digits;
     return;
@@ -150,17 +149,15 @@ void Sites::set_exact(int site, const Vector3Of<MostPrecise>& position) {
   digits_.push_back(digits);
 }
 
-double Sites::error(int site) const {
-  return is_double(site) ? 0 : 2 * half_unit * largest(rough_.row(site).transpose());
-}
+double Sites::error(int site) const { return is_double(site) ? 0 : 2 * half_unit * largest(rough_[site]); }
 
 Vector3Of<Precise> Sites::precise(int site) const {
-  if (is_double(site)) return rough_.row(site).transpose().cast<Precise>();
+  if (is_double(site)) return rough_[site].cast<Precise>();
   return digits_[exact_of_[site]].precise;
 }
 
 Vector3Of<MostPrecise> Sites::exact(int site) const {
-  if (is_double(site)) return rough_.row(site).transpose().cast<MostPrecise>();
+  if (is_double(site)) return rough_[site].cast<MostPrecise>();
   return digits_[exact_of_[site]].exact;
 }
 

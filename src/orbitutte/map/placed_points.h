@@ -15,19 +15,22 @@ namespace orbitutte {
 class Sites {
  public:
   /// n x 3.
-  explicit Sites(const Points& doubles) : rough_(doubles), exact_of_(doubles.rows(), -1) {}
+  explicit Sites(const Points& doubles) : exact_of_(doubles.rows(), -1) {
+    rough_.reserve(exact_of_.size());
+    for (Eigen::Index k = 0; k < doubles.rows(); ++k) rough_.emplace_back(doubles.row(k));
+  }
 
   int count() const { return static_cast<int>(exact_of_.size()); }
 
-  /// Appends points of doubles (k x 3).
-  void append(const Points& doubles);
+  /// Appends a point of doubles, and returns its site.
+  int append(const Vector3& doubles);
 
   /// Gives a point more digits than its row of doubles has.
   void set_exact(int site, const Vector3Of<MostPrecise>& position);
 
   /// Are the doubles all there is?
   bool is_double(int site) const { return exact_of_[site] < 0; }
-  Vector3 rough(int site) const { return rough_.row(site); }
+  const Vector3& rough(int site) const { return rough_[site]; }
 
   /// By how much each rough coordinate may be off.
   double error(int site) const;
@@ -40,7 +43,7 @@ class Sites {
     Vector3Of<MostPrecise> exact;
   };
 
-  Points rough_;
+  std::vector<Vector3> rough_;
   std::vector<int> exact_of_;
   std::vector<Digits> digits_;
 };
@@ -56,8 +59,7 @@ struct PlacedPoint {
   double error = 0;
 };
 
-/// A crossing of the edge of a triangle: of the line from its corner to the next one, and a line through two
-/// other points.
+/// The line through two points; or an edge, from one to the other.
 struct LineThrough {
   PlacedPoint from, to;
 };

@@ -79,10 +79,29 @@ class CopyMatcher {
   Points on_walked_, on_walker_;
 };
 
+// The middle one of those that begin at a copy.
 int halfedge_from_site(const DevelopedSurface& surface, int site) {
-  for (int h = 0; h < static_cast<int>(surface.triangles.size()); ++h)
-    if (surface.site_of(h) == site) return h;
-  throw ArgumentError(fmt::format("no triangle uses the marked vertex {}", surface.source_vertex[site]));
+  const auto is_there = [&](int h) { return h >= 0 && surface.site_of(h) == site; };
+  int first = 0;
+  const int halfedges = static_cast<int>(surface.triangles.size());
+  while (first < halfedges && !is_there(first)) ++first;
+  if (first == halfedges)
+    throw ArgumentError(fmt::format("no triangle uses the marked vertex {}", surface.source_vertex[site]));
+  const auto clockwise = [&](int h) {
+    const int o = surface.opposite[h];
+    return o < 0 || surface.beyond[h] != ElementTable::identity ? -1 : next_halfedge(o);
+  };
+  const auto counterclockwise = [&](int h) {
+    const int back = previous_halfedge(h);
+    return surface.beyond[back] != ElementTable::identity ? -1 : surface.opposite[back];
+  };
+  int h = first;
+  for (int next = clockwise(h); is_there(next) && next != first; next = clockwise(h)) h = next;
+  std::vector<int> around = {h};
+  for (int next = counterclockwise(h); is_there(next) && next != around.front();
+       next = counterclockwise(around.back()))
+    around.push_back(next);
+  return around[around.size() / 2];
 }
 
 // A vertex that is not on the boundary, if there is one.
@@ -142,12 +161,27 @@ class Expedition {
     return false;
   }
 
+  // Also an edge that is known turns the place, so that directions follow each other by less than pi: around
+  // a cone it does not depend on them alone how far to turn.
   void leave_along(Fix& at) {
     const int h = at.halfedge, next = next_halfedge(h), goal = walker_.vertex_of(next);
-    if (is_known(h, goal)) return;
-    pair_.tracer().trace({walker_.site_of(h), walker_.site_of(next)}, at.place, walk_);
-    arrive(goal, {next, walk_.stops.back()});
+    const Course course = {walker_.site_of(h), walker_.site_of(next)};
+    if (is_known(h, goal)) {
+      pair_.tracer().turn(course, at.place);
+      return;
+    }
+    pair_.tracer().trace(course, at.place, walk_);
+    arrive(goal, seen_from_goal(h, walk_.stops.back()));
     if (visit_) visit_(h, walk_);
+  }
+
+  // At the target of a half-edge that a walk has come along: the half-edge that leads back, in the angle at
+  // which the place is; on a boundary the next one.
+  Fix seen_from_goal(int h, Place place) {
+    const int o = walker_.opposite[h];
+    if (o < 0) return {next_halfedge(h), place};
+    place.element = pair_.elements().product(place.element, walker_.beyond[h]);
+    return {o, place};
   }
 
   // From the end of a half-edge to its beginning.
@@ -225,8 +259,10 @@ Fix SurfacePair::start(const Embedding& walked, const Embedding& walker) {
     throw ArgumentError("the embeddings do not lie on the same tile: no copies of their marks meet");
   const int element = elements_.add(out * group_.element(copies->element) * in);
   require_same_point(copies->walked, copies->walker, element);
-  return {halfedge_from_site(walker_, copies->walker),
-          {Kind::at_vertex, halfedge_from_site(walked_, copies->walked), element}};
+  const int h = halfedge_from_site(walker_, copies->walker);
+  Fix fix = {h, {Kind::at_vertex, halfedge_from_site(walked_, copies->walked), element}};
+  tracer_.turn_least({walker_.site_of(h), walker_.site_of(next_halfedge(h))}, fix.place);
+  return fix;
 }
 
 void SurfacePair::require_same_point(int walked_site, int walker_site, int element) const {

@@ -23,43 +23,61 @@ SurfacePoints no_points(int count) {
   return {std::vector<int>(count, -1), Points::Constant(count, 3, not_a_number), {}};
 }
 
-// Puts points of a surface among its sites, and walks to each from the corner that is nearest to it.
+// Walks from the vertices of a surface to points of its triangles, which become sites of the walker.
 class PointWalks {
  public:
-  PointWalks(SurfacePair& pair, Space space, const SurfacePoints& points)
-      : pair_(pair),
-        walker_(pair.walker()),
-        space_(space),
-        points_(points),
-        fixes_(pair.locate_vertices()),
-        first_site_(walker_.sites.count()) {
-    add_sites();
-  }
+  PointWalks(SurfacePair& pair, Space space)
+      : pair_(pair), walker_(pair.walker()), space_(space), fixes_(pair.locate_vertices()) {}
 
-  SurfacePoints run() {
-    SurfacePoints result = no_points(points_.count());
-    Walk walk;
-    for (int k = 0; k < points_.count(); ++k) {
-      if (points_.triangle[k] < 0) continue;
-      const int h = nearest_corner(k);
-      Place place = place_at_corner(h);
-      int site = walker_.site_of(h);
-      if (points_.barycentric(k, h % 3) != 1) {
-        pair_.tracer().trace({site, first_site_ + k}, place, walk);
-        place = walk.stops.back();
-        site = first_site_ + k;
-      }
-      result.triangle[k] = place.triangle();
-      result.barycentric.row(k) = pair_.coordinates(place, site).transpose();
+  SurfacePoints images(const SurfacePoints& points) {
+    SurfacePoints result = no_points(points.count());
+    for (int k = 0; k < points.count(); ++k) {
+      if (points.triangle[k] < 0) continue;
+      const Reached reached = reach(points.triangle[k], points.barycentric.row(k));
+      result.triangle[k] = reached.place.triangle();
+      result.barycentric.row(k) = pair_.coordinates(reached.place, reached.site).transpose();
     }
     return result;
   }
 
+  SurfacePoints polyline(const SurfacePoints& points) {
+    std::vector<int> triangles;
+    std::vector<Vector3> coordinates;
+    for (int k = 0; k < points.count(); ++k) {
+      const SurfacePoints piece = k + 1 < points.count() ? piece_from(points, k) : SurfacePoints{};
+      for (int i = 0; i + 1 < piece.count(); ++i) {
+        triangles.push_back(piece.triangle[i]);
+        coordinates.emplace_back(piece.barycentric.row(i));
+      }
+      if (k + 1 < points.count()) continue;
+      const SurfacePoints last = images({{points.triangle[k]}, points.barycentric.row(k), {}});
+      triangles.push_back(last.triangle[0]);
+      coordinates.emplace_back(last.barycentric.row(0));
+    }
+    SurfacePoints result = no_points(static_cast<int>(triangles.size()));
+    result.triangle = triangles;
+    for (std::size_t k = 0; k < coordinates.size(); ++k)
+      result.barycentric.row(static_cast<Eigen::Index>(k)) = coordinates[k].transpose();
+    return result;
+  }
+
  private:
-  int nearest_corner(int k) const {
+  // A site of the walker, and its place for the frame of its triangle.
+  struct Reached {
+    int site;
+    Place place;
+  };
+
+  // Walks there from the nearest corner.
+  Reached reach(int triangle, const Vector3& coordinates) {
     int corner = 0;
-    points_.barycentric.row(k).maxCoeff(&corner);
-    return 3 * points_.triangle[k] + corner;
+    coordinates.maxCoeff(&corner);
+    const int h = 3 * triangle + corner, start = walker_.site_of(h);
+    Place place = place_at_corner(h);
+    if (coordinates[corner] == 1) return {start, place};
+    const int site = add_site(triangle, coordinates);
+    pair_.tracer().trace({start, site}, place, walk_);
+    return {site, walk_.stops.back()};
   }
 
   // The place of the vertex where a half-edge begins, for the frame of its triangle.
@@ -69,8 +87,8 @@ class PointWalks {
     for (int turned = 0; fix.halfedge != h && turned < limit; ++turned) {
       const int back = previous_halfedge(fix.halfedge), o = walker_.opposite[back];
       if (o < 0) return place_clockwise(h);
-      fix.halfedge = o;
       fix.place.element = pair_.elements().product(fix.place.element, walker_.beyond[back]);
+      fix.halfedge = o;
     }
     return fix.place;
   }
@@ -85,44 +103,97 @@ class PointWalks {
     return fix.place;
   }
 
-  void add_sites() {
-    Points rows = Points::Zero(points_.count(), 3);
-    for (int k = 0; k < points_.count(); ++k)
-      if (points_.triangle[k] >= 0) rows.row(k) = rough_position(k).transpose();
-    pair_.walker_sites().append(rows);
-    for (int k = 0; k < points_.count(); ++k)
-      if (points_.triangle[k] >= 0 && needs_digits(k))
-        pair_.walker_sites().set_exact(first_site_ + k, exact_position(k));
-  }
-
-  int corner_site(int k, int i) const { return walker_.site_of(3 * points_.triangle[k] + i); }
-
-  Vector3 rough_position(int k) const {
-    const auto corner = [&](int i) { return walker_.sites.rough(corner_site(k, i)); };
-    return barycentric_point(space_, {corner(0), corner(1), corner(2)}, points_.barycentric.row(k));
-  }
-
   // Points between corners that have further digits have them, too: they stay on mirrors and in limbs.
-  bool needs_digits(int k) const {
-    for (int i = 0; i < 3; ++i)
-      if (points_.barycentric(k, i) != 0 && !walker_.sites.is_double(corner_site(k, i))) return true;
-    return false;
+  int add_site(int triangle, const Vector3& coordinates) {
+    TriangleCorners corners;
+    bool needs_digits = false;
+    for (int i = 0; i < 3; ++i) {
+      const int corner = walker_.site_of(3 * triangle + i);
+      corners[i] = walker_.sites.rough(corner);
+      if (coordinates[i] != 0 && !walker_.sites.is_double(corner)) needs_digits = true;
+    }
+    const int site = pair_.walker_sites().append(barycentric_point(space_, corners, coordinates));
+    if (needs_digits) pair_.walker_sites().set_exact(site, exact_position(triangle, coordinates));
+    return site;
   }
 
-  Vector3Of<MostPrecise> exact_position(int k) const {
+  Vector3Of<MostPrecise> exact_position(int triangle, const Vector3& coordinates) const {
     Vector3Of<MostPrecise> sum = Vector3Of<MostPrecise>::Zero();
     for (int i = 0; i < 3; ++i)
-      if (const double weight = points_.barycentric(k, i); weight != 0)
-        sum += MostPrecise(weight) * walker_.sites.exact(corner_site(k, i));
+      if (coordinates[i] != 0)
+        sum += MostPrecise(coordinates[i]) * walker_.sites.exact(walker_.site_of(3 * triangle + i));
     return precise_retract(space_, sum);
+  }
+
+  // The image of the line from one point to the next.
+  SurfacePoints piece_from(const SurfacePoints& points, int k) {
+    const int triangle = common_triangle(points, k);
+    const Vector3 begin = coordinates_in(triangle, points, k), end = coordinates_in(triangle, points, k + 1);
+    if (begin == end) return no_points(0);
+    Reached from = reach(triangle, begin);
+    int corner = 0;
+    const int to =
+        end.maxCoeff(&corner) == 1 ? walker_.site_of(3 * triangle + corner) : add_site(triangle, end);
+    pair_.tracer().trace({from.site, to}, from.place, walk_);
+    SurfacePoints result = no_points(static_cast<int>(walk_.stops.size()));
+    for (int i = 0; i < result.count(); ++i) {
+      const Place& stop = walk_.stops[i];
+      const bool is_crossing = i > 0 && i + 1 < result.count() && stop.kind == Place::Kind::on_edge;
+      result.triangle[i] = stop.triangle();
+      result.barycentric.row(i) = (is_crossing ? crossing_coordinates(stop, {from.site, to})
+                                               : pair_.coordinates(stop, i == 0 ? from.site : to))
+                                      .transpose();
+    }
+    return result;
+  }
+
+  Vector3 crossing_coordinates(const Place& stop, const Course& course) const {
+    const DevelopedSurface& walked = pair_.walked();
+    const int h = stop.halfedge, next = next_halfedge(h);
+    const auto corner = [&](int at) { return pair_.signs().placed(walked.sites, walked.site_of(at)); };
+    const auto end = [&](int site) { return pair_.signs().placed(walker_.sites, site, stop.element); };
+    const double share =
+        pair_.signs().share({corner(h), corner(next)}, {end(course.from), end(course.to)}).value;
+    Vector3 result = Vector3::Zero();
+    result[h % 3] = 1 - share;
+    result[next % 3] = share;
+    return result;
+  }
+
+  // A triangle that holds the points k and k + 1: one around the vertex that the first is nearest to.
+  int common_triangle(const SurfacePoints& points, int k) const {
+    int corner = 0;
+    points.barycentric.row(k).maxCoeff(&corner);
+    const int first = walker_.first_halfedge[walker_.vertex_of(3 * points.triangle[k] + corner)];
+    int h = first;
+    do {
+      if (lies_in(h / 3, points, k) && lies_in(h / 3, points, k + 1)) return h / 3;
+      h = walker_.opposite[previous_halfedge(h)];
+    } while (h >= 0 && h != first);
+    throw ArgumentError(fmt::format("points {} and {} do not lie in one triangle", k, k + 1));
+  }
+
+  bool lies_in(int triangle, const SurfacePoints& points, int k) const {
+    for (int i = 0; i < 3; ++i)
+      if (points.barycentric(k, i) != 0 &&
+          walker_.corner_at(triangle, walker_.vertex_of(3 * points.triangle[k] + i)) < 0)
+        return false;
+    return true;
+  }
+
+  Vector3 coordinates_in(int triangle, const SurfacePoints& points, int k) const {
+    Vector3 result = Vector3::Zero();
+    for (int i = 0; i < 3; ++i)
+      if (const double weight = points.barycentric(k, i); weight != 0)
+        result[walker_.corner_at(triangle, walker_.vertex_of(3 * points.triangle[k] + i)) % 3] = weight;
+    return result;
   }
 
   SurfacePair& pair_;
   const DevelopedSurface& walker_;
   Space space_;
-  const SurfacePoints& points_;
   std::vector<Fix> fixes_;
-  int first_site_;
+  Walk walk_;
 };
 
 void require_points(const Embedding& embedding, const SurfacePoints& points) {
@@ -175,7 +246,15 @@ VertexMap images_of_vertices(const Embedding& from, const Embedding& to) {
 SurfacePoints images_of_points(const Embedding& from, const Embedding& to, const SurfacePoints& points) {
   require_points(from, points);
   SurfacePair pair(to, from);
-  return PointWalks(pair, from.space(), points).run();
+  return PointWalks(pair, from.space()).images(points);
+}
+
+SurfacePoints image_of_polyline(const Embedding& from, const Embedding& to, const SurfacePoints& points) {
+  require_points(from, points);
+  for (int k = 0; k < points.count(); ++k)
+    if (points.triangle[k] < 0) throw ArgumentError(fmt::format("point {} of a polyline is none", k));
+  SurfacePair pair(to, from);
+  return PointWalks(pair, from.space()).polyline(points);
 }
 
 std::vector<MatrixEntry> transfer_matrix(const VertexMap& map) {

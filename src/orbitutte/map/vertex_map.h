@@ -35,6 +35,11 @@ VertexMap images_of_vertices(const Embedding& from, const Embedding& to);
 /// map_points do. Points of mirrors stay on them, up to the rounding of their coordinates.
 SurfacePoints images_of_points(const Embedding& from, const Embedding& to, const SurfacePoints& points);
 
+/// The image of a polyline: of the geodesic pieces between points that follow each other, with all edges of
+/// `to` that they cross. Two points that follow each other must lie in one triangle of `from`, its boundary
+/// included. Throws as images_of_points does, and ArgumentError naming the first point that does not.
+SurfacePoints image_of_polyline(const Embedding& from, const Embedding& to, const SurfacePoints& points);
+
 /// An entry of a sparse matrix.
 struct MatrixEntry {
   int row = 0;
