@@ -137,7 +137,13 @@ Target landmark_target(Topology topology, const LandmarkPlaces& places) {
   if (topology == Topology::sphere)
     return parse_orbifold(fmt::format("{}", fmt::join(std::vector<int>(inside, 2), ",")));
   if (inside == 0 && outside <= 4) return parse_orbifold("*" + std::string(outside, '2'));
-  const double deficit = 2 * pi / static_cast<double>(outside + 2 * inside);
+  return flat_landmark_target(topology, places);
+}
+
+Target flat_landmark_target(Topology topology, const LandmarkPlaces& places) {
+  const std::size_t inside = places.inside.size(), outside = places.on_boundary.size();
+  const double deficit =
+      2 * pi / static_cast<double>(topology == Topology::sphere ? inside : outside + 2 * inside);
   std::vector<Mark> marks(inside, Mark{2 * pi - 2 * deficit, ConeKind::rotation});
   marks.insert(marks.end(), outside, Mark{pi - deficit, ConeKind::corner});
   return cone_target(topology, std::move(marks));

@@ -30,4 +30,8 @@ LandmarkPlaces landmark_places(const Surface& a, const Surface& b, const std::ve
 /// same d.
 Target landmark_target(Topology topology, const LandmarkPlaces& places);
 
+/// A flat surface with the same angle at each landmark inside, and the same at each on the boundary: the
+/// deficits add up to 4 pi on a sphere, to 2 pi on a disk, where that of a cone is twice that of a corner.
+Target flat_landmark_target(Topology topology, const LandmarkPlaces& places);
+
 }  // namespace orbitutte

@@ -97,12 +97,12 @@ std::vector<int> asked_tour(const std::vector<int>& tour, const LandmarkPlaces& 
 
 class Mapping {
  public:
-  Mapping(const Surface& a, const Surface& b, const std::vector<Landmark>& landmarks,
-          const MapOptions& options)
-      : surfaces_{&a, &b},
+  Mapping(const std::array<const Surface*, 2>& surfaces, const std::vector<Landmark>& landmarks,
+          const LandmarkPlaces& places, const Target& target, const MapOptions& options)
+      : surfaces_(surfaces),
         options_(options),
-        places_(landmark_places(a, b, landmarks)),
-        target_(landmark_target(a.topology, places_)),
+        places_(places),
+        target_(target),
         stage_(options.embed.progress, map_.timings) {
     map_.landmarks = landmarks;
     map_.map_class.tile = options.tile;
@@ -347,7 +347,8 @@ class Mapping {
   bool is_flat() const { return target_.space == Space::plane(); }
 
   bool has_classes() const {
-    return target_.has_free_tile && target_.topology == Topology::sphere && places_.count() <= most_compared;
+    return target_.has_free_tile && target_.topology == Topology::sphere &&
+           target_.signature != cones_signature && places_.count() <= most_compared;
   }
 
   void finish_both(const ProblemPair& problems, const std::array<Placement, 2>& placed) {
@@ -418,13 +419,29 @@ SurfaceMap guessed_map(const Surface& a, const Surface& b, const MapOptions& opt
   return map;
 }
 
+// Where tiles of order two reach so far out in the hyperbolic plane that doubles hardly hold them, a flat
+// target is tried first.
+SurfaceMap map_by_landmarks(const Surface& a, const Surface& b, const std::vector<Landmark>& landmarks,
+                            const MapOptions& options) {
+  constexpr int most_of_order_two = 6;
+  const LandmarkPlaces places = landmark_places(a, b, landmarks);
+  const std::array<const Surface*, 2> surfaces = {&a, &b};
+  const bool has_many = a.topology == Topology::sphere && places.count() > most_of_order_two;
+  if (has_many && options.tile == TileShape::shared) {
+    SurfaceMap flat =
+        Mapping(surfaces, landmarks, places, flat_landmark_target(a.topology, places), options).run();
+    if (flat.is_bijective()) return flat;
+  }
+  return Mapping(surfaces, landmarks, places, landmark_target(a.topology, places), options).run();
+}
+
 }  // namespace
 
 SurfaceMap map_between(const Surface& a, const Surface& b, const std::vector<Landmark>& landmarks,
                        const MapOptions& options) {
   if (options.embed.threads < 0) throw ArgumentError("the number of threads must not be negative");
   return with_threads(options.embed.threads, [&] {
-    return landmarks.empty() ? guessed_map(a, b, options) : Mapping(a, b, landmarks, options).run();
+    return landmarks.empty() ? guessed_map(a, b, options) : map_by_landmarks(a, b, landmarks, options);
   });
 }
 
