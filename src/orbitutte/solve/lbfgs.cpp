@@ -229,11 +229,12 @@ class LineSearch {
   int& evaluations_;
 };
 
-// The rounding floor of the energy (DirichletEnergy::rounding_floor) at positions that are longer than one:
-// in the hyperbolic plane those of length z have differences that are rounded by z, of which the tangential
-// part is known up to its products with positions, twice.
+// The rounding floor of the energy (DirichletEnergy::rounding_floor) at positions that are longer than one,
+// as in the hyperbolic plane: images of the longest are rounded by their length, and the tangential part of a
+// difference at a vertex of length z by z^2 times what the difference is.
 Eigen::VectorXd rounding_floor_at(const DirichletEnergy& energy, const Points& x) {
-  return energy.rounding_floor().array() * x.col(2).array().abs().max(1.0).cube();
+  const Eigen::ArrayXd length = x.col(2).array().abs().max(1.0);
+  return energy.rounding_floor().array() * length.square() * (x.rows() > 0 ? length.maxCoeff() : 1.0);
 }
 
 bool gradient_vanishes(const Points& gradient, const Eigen::VectorXd& rounding_floor, double tolerance) {
