@@ -58,12 +58,15 @@ DirichletEnergy::DirichletEnergy(const GluedEdges& glued, const EdgeWeights& wei
   std::partial_sum(start_.begin(), start_.end(), start_.begin());
   incidences_.resize(2 * glued.edges.size());
   rounding_floor_.setZero(n);
+  std::vector<double> size;  // of the numbers by which products with a transform are rounded
+  for (const Isometry& g : transforms_) size.push_back(std::max(1.0, g.matrix().cwiseAbs().maxCoeff()));
   parallel_parts(n, [&](int begin, int end) {
     std::vector<int> fill(start_.begin() + begin, start_.begin() + end);
     const auto add = [&](int v, const Incidence& incidence) {
       if (v < begin || v >= end) return;
       incidences_[fill[v - begin]++] = incidence;
-      rounding_floor_[v] += 4 * std::numeric_limits<double>::epsilon() * incidence.w;
+      rounding_floor_[v] +=
+          4 * std::numeric_limits<double>::epsilon() * size[incidence.transform / 2] * incidence.w;
     };
     for (std::size_t e = 0; e < glued.edges.size(); ++e) {
       const auto [i, j, t] = glued.edges[e];

@@ -229,6 +229,14 @@ class LineSearch {
   int& evaluations_;
 };
 
+// The rounding floor of the energy (DirichletEnergy::rounding_floor) at positions that are longer than one,
+// as in the hyperbolic plane: images of the longest are rounded by their length, and the tangential part of a
+// difference at a vertex of length z by z^2 times what the difference is.
+Eigen::VectorXd rounding_floor_at(const DirichletEnergy& energy, const Points& x) {
+  const Eigen::ArrayXd length = x.col(2).array().abs().max(1.0);
+  return energy.rounding_floor().array() * length.square() * (x.rows() > 0 ? length.maxCoeff() : 1.0);
+}
+
 bool gradient_vanishes(const Points& gradient, const Eigen::VectorXd& rounding_floor, double tolerance) {
   return parallel_max(static_cast<int>(gradient.rows()), [&](int v) {
            return gradient.row(v).cwiseAbs().maxCoeff() / std::max(rounding_floor[v], tolerance);
@@ -266,13 +274,14 @@ Minimum minimize(const DirichletEnergy& energy, const Preconditioner& preconditi
   };
   record();
   for (;;) {
+    const Eigen::VectorXd rounding_floor = rounding_floor_at(energy, state.x);
     Points direction = inverse_hessian.descent(state.value.gradient, preconditioned);
     energy.make_feasible(direction);  // but for the single precision of what is remembered, it is
     const double step_tolerance = std::max(options.tolerance, 1e-12);
     const double promised = dot(state.value.gradient, direction);
-    if (gradient_vanishes(state.value.gradient, energy.rounding_floor(), options.tolerance) &&
+    if (gradient_vanishes(state.value.gradient, rounding_floor, options.tolerance) &&
         (max_norm(direction) <= step_tolerance ||
-         is_noise(promised, state, energy.rounding_floor(), options.tolerance))) {
+         is_noise(promised, state, rounding_floor, options.tolerance))) {
       result.termination = Termination::converged;
       break;
     }
@@ -282,10 +291,9 @@ Minimum minimize(const DirichletEnergy& energy, const Preconditioner& preconditi
     }
     if (!line_search.run(state, direction, next)) {
       if (inverse_hessian.empty()) {
-        result.termination =
-            gradient_vanishes(state.value.gradient, energy.rounding_floor(), options.tolerance)
-                ? Termination::converged
-                : Termination::line_search_failed;
+        result.termination = gradient_vanishes(state.value.gradient, rounding_floor, options.tolerance)
+                                 ? Termination::converged
+                                 : Termination::line_search_failed;
         break;
       }
       inverse_hessian.forget();  // once more, along the preconditioned gradient alone
@@ -295,7 +303,7 @@ Minimum minimize(const DirichletEnergy& energy, const Preconditioner& preconditi
     last_step = max_difference(next.x, state.x);
     Points next_preconditioned = preconditioner.precondition(next.value.gradient);
     const double change = next.value.energy - state.value.energy;
-    if (is_noise(change, state, energy.rounding_floor(), options.tolerance))
+    if (is_noise(change, state, rounding_floor, options.tolerance))
       inverse_hessian.forget();
     else
       inverse_hessian.update({difference(next.x, state.x),
