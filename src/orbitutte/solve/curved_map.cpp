@@ -510,7 +510,7 @@ std::optional<TiledPositions> developed_start(const GluingProblem& problem, cons
   return TiledPositions{*cones, positions.topRows(problem.surface.vertex_count())};
 }
 
-// Positions of the corners of the first tile: the cones of the doubled polygon, and for all other vertices
+// Positions of the corners of the first tile: the cones of the inscribed polygon, and for all other vertices
 // the mean of these, the nearer ones counting more, so that where cuts branch they lie between.
 Points corners_of_polygon(const GluingProblem& problem, const Moduli& moduli) {
   const std::vector<int> cones = cones_as_met(problem.cut);

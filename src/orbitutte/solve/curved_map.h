@@ -59,7 +59,8 @@ struct SharedStart {
 /// that from which curved_map starts, or, if there is none, curved_map itself. Throws as curved_map does.
 TiledPositions own_tile(const GluingProblem& problem, const LbfgsOptions& options, const Stages& stage);
 
-/// The tile that depends on the target alone, a doubled polygon, with a first map onto it.
+/// The tile that depends on the target alone, a polygon with an inscribed circle, doubled, with a first map
+/// onto it.
 TiledPositions polygon_tile(const GluingProblem& problem);
 
 /// Minimises the sum of the energies of surfaces that are mapped onto one tile, over the positions of each

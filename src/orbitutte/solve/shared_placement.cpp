@@ -79,7 +79,7 @@ struct FlatSurface {
   }
 };
 
-// The doubled polygon, in the order of the marks.
+// The inscribed polygon, in the order of the marks.
 Eigen::VectorXcd regular_shape(const GluingProblem& problem) {
   const Points polygon = polygon_of(moduli_of(problem.target, problem.cut));
   Eigen::VectorXcd shape(polygon.rows());

@@ -20,7 +20,7 @@ std::array<TiledPositions, 2> own_tiles(const ProblemPair& problems, const Lbfgs
 
 /// How two surfaces share a tile.
 struct SharingOptions {
-  /// Is it the tile that depends on the target alone, a doubled polygon?
+  /// Is it the tile that depends on the target alone, a polygon with an inscribed circle, doubled?
   bool is_tile_regular = false;
 
   /// Takes the cones of the second surface's own tile to the places in which they correspond to those of the
