@@ -52,6 +52,7 @@ std::vector<std::vector<int>> all_tours(const Legs& legs) {
   } while (std::next_permutation(order.begin(), order.end()));
   std::sort(tours.begin(), tours.end());
   std::vector<std::vector<int>> result;
+  result.reserve(tours.size());
   for (auto& [length, tour] : tours) result.push_back(std::move(tour));
   return result;
 }

@@ -26,7 +26,7 @@ constexpr double flat = 1e-12;  // of a face's longest edge, squared, its double
 Edge undirected(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
 // A face's side from corner k to the next.
-struct Side {
+struct FaceSide {
   int face, k;
 };
 
@@ -195,8 +195,8 @@ class MeshRepair {
 
   static int next(const Polygon& face, std::size_t k) { return face[(k + 1) % face.size()]; }
 
-  std::map<Edge, std::vector<Side>> sides() const {
-    std::map<Edge, std::vector<Side>> result;
+  std::map<Edge, std::vector<FaceSide>> sides() const {
+    std::map<Edge, std::vector<FaceSide>> result;
     for (int f = 0; f < static_cast<int>(faces_.size()); ++f)
       for (std::size_t k = 0; k < faces_[f].size(); ++k)
         result[undirected(faces_[f][k], next(faces_[f], k))].push_back({f, static_cast<int>(k)});
@@ -211,7 +211,7 @@ class MeshRepair {
     DisjointSets fans(first_corner.back());
     for (const auto& [edge, at_edge] : sides()) {
       if (at_edge.size() != 2) continue;
-      const auto corner = [&](const Side& side, int v) {
+      const auto corner = [&](const FaceSide& side, int v) {
         const Polygon& face = faces_[side.face];
         const int k = face[side.k] == v ? side.k : (side.k + 1) % static_cast<int>(face.size());
         return first_corner[side.face] + k;
@@ -254,7 +254,7 @@ class MeshRepair {
     std::vector<std::vector<std::pair<int, int>>> neighbours(faces_.size());  // and: do they disagree?
     for (const auto& [edge, at_edge] : sides()) {
       if (at_edge.size() != 2) continue;
-      const Side a = at_edge[0], b = at_edge[1];
+      const FaceSide a = at_edge[0], b = at_edge[1];
       const int disagree = faces_[a.face][a.k] == faces_[b.face][b.k];
       neighbours[a.face].emplace_back(b.face, disagree);
       neighbours[b.face].emplace_back(a.face, disagree);
@@ -304,7 +304,7 @@ class MeshRepair {
     std::vector<char> is_open(faces_.size(), 0);
     for (const auto& [edge, at_edge] : sides())
       if (at_edge.size() != 2)
-        for (const Side& side : at_edge) is_open[side.face] = 1;
+        for (const FaceSide& side : at_edge) is_open[side.face] = 1;
     for (const std::vector<int>& component : all.faces) {
       if (std::any_of(component.begin(), component.end(), [&](int f) { return is_open[f]; })) continue;
       if (!(volume(component) < 0)) continue;

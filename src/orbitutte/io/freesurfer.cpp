@@ -11,8 +11,8 @@
 namespace orbitutte {
 namespace {
 
-constexpr std::string_view triangle_file = "\xFF\xFF\xFE", quadrangle_file = "\xFF\xFF\xFF",
-                           new_quadrangle_file = "\xFF\xFF\xFD";
+constexpr std::string_view triangle_start = "\xFF\xFF\xFE", quadrangle_start = "\xFF\xFF\xFF",
+                           new_quadrangle_start = "\xFF\xFF\xFD";
 constexpr std::size_t number_size = 4, three_numbers = 3 * number_size;
 
 std::int32_t load_int(std::string_view bytes) { return load<std::int32_t>(bytes.data(), std::endian::big); }
@@ -25,8 +25,8 @@ void append_big_endian(std::string& bytes, T number) {
 }
 
 void check_kind(std::string_view bytes) {
-  if (bytes.starts_with(triangle_file)) return;
-  if (bytes.starts_with(quadrangle_file) || bytes.starts_with(new_quadrangle_file))
+  if (bytes.starts_with(triangle_start)) return;
+  if (bytes.starts_with(quadrangle_start) || bytes.starts_with(new_quadrangle_start))
     throw MeshError(
         "the file is a FreeSurfer surface of quadrangles; convert it to one of triangles with mris_convert");
   throw MeshError(
@@ -66,7 +66,7 @@ Counts read_counts(std::string_view bytes) {
 // What follows the faces (the volume's geometry) is ignored: positions stay as they are.
 PolygonMesh read_freesurfer(std::string_view bytes) {
   check_kind(bytes);
-  bytes = behind_text(bytes.substr(triangle_file.size()));
+  bytes = behind_text(bytes.substr(triangle_start.size()));
   const Counts counts = read_counts(bytes);
   bytes.remove_prefix(2 * number_size);
   PolygonMesh mesh;
@@ -84,7 +84,7 @@ PolygonMesh read_freesurfer(std::string_view bytes) {
 }
 
 std::string write_freesurfer(const Mesh& mesh) {
-  std::string bytes(triangle_file);
+  std::string bytes(triangle_start);
   bytes += "created by orbitutte\n\n";
   bytes.reserve(bytes.size() + 2 * number_size + three_numbers * (mesh.V.rows() + mesh.F.rows()));
   append_big_endian(bytes, static_cast<std::int32_t>(mesh.V.rows()));

@@ -39,7 +39,7 @@ constexpr VtkType vtk_types[] = {{"float", 4, load_as_double<float>},
                                  {"char", 1, load_as_double<std::int8_t>},
                                  {"unsigned_char", 1, load_as_double<std::uint8_t>}};
 
-bool is_blank(char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t'; }
+bool is_vtk_blank(char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t'; }
 
 // Reads a file from its beginning, words of text and runs of binary numbers in turn.
 class VtkReader {
@@ -77,9 +77,9 @@ class VtkReader {
 
   // Empty at the end.
   std::string_view word() {
-    while (at_ < bytes_.size() && is_blank(bytes_[at_])) ++at_;
+    while (at_ < bytes_.size() && is_vtk_blank(bytes_[at_])) ++at_;
     const std::size_t begin = at_;
-    while (at_ < bytes_.size() && !is_blank(bytes_[at_])) ++at_;
+    while (at_ < bytes_.size() && !is_vtk_blank(bytes_[at_])) ++at_;
     return bytes_.substr(begin, at_ - begin);
   }
 

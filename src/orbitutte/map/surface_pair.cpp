@@ -49,7 +49,7 @@ class CopyMatcher {
     const auto inside = std::find_if(cones.begin(), cones.end(), is_inside);
     const std::size_t first = inside == cones.end() ? 0 : static_cast<std::size_t>(inside - cones.begin());
     for (const Isometry& element : elements) {
-      const std::optional<MeetingCopies> found = meeting(first, element);
+      std::optional<MeetingCopies> found = meeting(first, element);
       if (found && (inside != cones.end() || all_meet(element))) return found;
     }
     return std::nullopt;

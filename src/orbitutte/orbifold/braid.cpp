@@ -88,7 +88,8 @@ VaryingMarks braided(VaryingMarks marks, const Braid& braid) {
   for (const HalfTwist& twist : braid) {
     const auto [centre, moved] = TwistedPlaces(twist);
     const VaryingIsometry& rotation = marks.rotations()[centre];
-    marks.carry(moved, centre, twist.is_forth ? rotation.inverse() : rotation);
+    const VaryingIsometry motion = twist.is_forth ? rotation.inverse() : rotation;
+    marks.carry(moved, centre, motion);
   }
   return marks;
 }

@@ -122,12 +122,11 @@ VaryingPoint VaryingMarks::last_corner(int corner) const {
 }
 
 void VaryingMarks::carry(int moved, int other, const VaryingIsometry& motion) {
-  const VaryingIsometry by = motion;  // it may be one of the rotations that change
   std::swap(points_[moved], points_[other]);
   std::swap(rotations_[moved], rotations_[other]);
-  points_[other] = points_[other].seen_through(by);
+  points_[other] = points_[other].seen_through(motion);
   points_[other].position = space_.retract(points_[other].position);
-  rotations_[other] = by * rotations_[other] * by.inverse();
+  rotations_[other] = motion * rotations_[other] * motion.inverse();
 }
 
 // The reflection r moves as exp(v) r exp(-v), and leaves v as it is, turned around: exp(2 v) r.

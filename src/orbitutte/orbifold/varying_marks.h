@@ -25,7 +25,7 @@ class VaryingMarks {
   const std::vector<VaryingIsometry>& rotations() const { return rotations_; }
 
   /// Carries the cone in place `moved` by an isometry. From then on it is met in place `other`, and the cone
-  /// there in its own.
+  /// there in its own. The motion must not be one of rotations(), which change.
   void carry(int moved, int other, const VaryingIsometry& motion);
 
   /// Moduli::generators.

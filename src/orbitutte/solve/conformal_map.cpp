@@ -185,7 +185,7 @@ Forms<Matrix> sum_of_forms(const std::vector<Forms<Matrix>>& forms, const std::v
 
 // Of shapes, one a column, in the basis: real where shapes may not be turned.
 HermitianForm coordinates_in(const TileShapes& shapes, const Eigen::MatrixXcd& columns) {
-  const HermitianForm products = shapes.basis.adjoint() * columns;
+  HermitianForm products = shapes.basis.adjoint() * columns;
   if (shapes.may_be_turned) return products;
   return products.real().cast<PlaneNumber>();
 }

@@ -114,15 +114,6 @@ Placement start_on_free_tile(const GluingProblem& problem, const LaplacianSolver
   return placed;
 }
 
-// Takes the canonical frame, where the first mark lies at (0, 0, 1) and the second in the direction of x, to
-// that of the positions.
-Isometry frame_of_marks(const GluingProblem& problem, const Points& positions) {
-  const Space space = problem.target.space;
-  const Isometry to_origin = space.to_origin(positions.row(problem.cut.marks[0]));
-  const Vector3 second = to_origin * Vector3(positions.row(problem.cut.marks[1]));
-  return to_origin.inverse() * space.rotation(Space::origin(), std::atan2(second.y(), second.x()));
-}
-
 // The map onto a curved tile that has the surface's own shape. It stays where it was found, around (0, 0, 1),
 // since hyperbolic coordinates lose digits with the distance from there.
 Placement place_on_curved_tile(const GluingProblem& problem, const LbfgsOptions& options, Stages& stage) {
@@ -138,6 +129,13 @@ Placement place_on_curved_tile(const GluingProblem& problem, const LbfgsOptions&
 }
 
 }  // namespace
+
+Isometry frame_of_marks(const GluingProblem& problem, const Points& positions) {
+  const Space space = problem.target.space;
+  const Isometry to_origin = space.to_origin(positions.row(problem.cut.marks[0]));
+  const Vector3 second = to_origin * Vector3(positions.row(problem.cut.marks[1]));
+  return to_origin.inverse() * space.rotation(Space::origin(), std::atan2(second.y(), second.x()));
+}
 
 GluedEdges glued_along(const GluingProblem& problem, const BoundaryConditions& boundary) {
   const IntrinsicTriangulation* triangulation = problem.weights.triangulation.get();

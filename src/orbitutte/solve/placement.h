@@ -42,6 +42,10 @@ double energy_of(const GluingProblem& problem, const Placement& placed);
 BoundaryConditions boundary_conditions(const Surface& surface, const CutMesh& cut, const Tile& tile,
                                        const Target& target, Spread spread);
 
+/// Takes the canonical frame of a target with a free tile, where the first mark lies at (0, 0, 1) and the
+/// second in the direction of x, to that of the positions.
+Isometry frame_of_marks(const GluingProblem& problem, const Points& positions);
+
 /// The same moved by an isometry that keeps orientations, its frame with it.
 Placement moved(const GluingProblem& problem, const Isometry& isometry, const Placement& placed);
 

@@ -295,9 +295,10 @@ class Repair {
   static const std::array<Eigen::Vector2d, 8>& directions() {
     static const auto all = [] {
       std::array<Eigen::Vector2d, 8> result;
-      for (int d = 0; d < 8; ++d) {
-        const double angle = std::numbers::pi * (d / 2 * 0.25 + d % 2);
-        result[d] = {std::cos(angle), std::sin(angle)};
+      for (int line = 0; line < 4; ++line) {
+        const double angle = std::numbers::pi * line / 4;
+        result[2 * line] = {std::cos(angle), std::sin(angle)};
+        result[2 * line + 1] = -result[2 * line];
       }
       return result;
     }();

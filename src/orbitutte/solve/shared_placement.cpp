@@ -26,14 +26,6 @@ Placement placed_at(const GluingProblem& problem, Minimum minimum) {
   return placed;
 }
 
-// Takes the canonical frame to that of the positions, which has the first mark at its origin.
-Isometry frame_of_marks(const GluingProblem& problem, const Points& positions) {
-  const Space space = problem.target.space;
-  const Isometry to_origin = space.to_origin(positions.row(problem.cut.marks[0]));
-  const Vector3 second = to_origin * Vector3(positions.row(problem.cut.marks[1]));
-  return to_origin.inverse() * space.rotation(Space::origin(), std::atan2(second.y(), second.x()));
-}
-
 LbfgsOptions telling(const LbfgsOptions& options, const Stages& stage) {
   LbfgsOptions result = options;
   result.callback = [&stage](int iteration, const Iteration& state) {
