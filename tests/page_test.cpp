@@ -13,8 +13,8 @@
 
 #include "base64_text.h"
 #include "orbitutte/export/html_text.h"
-#include "orbitutte/io/base64.h"
 #include "orbitutte/export/palette.h"
+#include "orbitutte/io/base64.h"
 #include "orbitutte/io/bytes.h"
 #include "orbitutte/mesh/triangulation.h"
 #include "orbitutte/page/html_template.h"

@@ -11,8 +11,8 @@
 #include <numbers>
 
 #include "orbitutte/export/html_text.h"
-#include "orbitutte/io/base64.h"
 #include "orbitutte/export/palette.h"
+#include "orbitutte/io/base64.h"
 #include "orbitutte/orbifold/polygon.h"
 #include "orbitutte/orbifold/symmetry_group.h"
 #include "orbitutte/page/html_template.h"

@@ -9,9 +9,9 @@
 #include <span>
 
 #include "orbitutte/export/html_text.h"
-#include "orbitutte/io/base64.h"
 #include "orbitutte/export/palette.h"
 #include "orbitutte/export/tiling.h"
+#include "orbitutte/io/base64.h"
 #include "orbitutte/io/bytes.h"
 #include "orbitutte/report/colour_scale.h"
 
