@@ -111,7 +111,7 @@ int repair_command(const RepairArguments& arguments);
 struct MapArguments {
   std::string a, b, landmarks, output, tour;
   std::string weights = name_of(WeightKind::standard), tile = name_of(TileShape::shared);
-  double clamp = 0.01, tolerance = 1e-9;
+  double clamp = 0.01, tolerance = 1e-13;
   std::uint64_t cut_seed_a = 0, cut_seed_b = 0;
   int max_iterations = 2000, threads = 0;
   bool quiet = false, json = false;

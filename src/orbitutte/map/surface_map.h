@@ -29,8 +29,9 @@ struct NameTable<TileShape> {
 
 /// How to map.
 struct MapOptions {
-  /// How each surface is embedded; its options of cuts and of quotients count for nothing here.
-  EmbedOptions embed;
+  /// How each surface is embedded; its options of cuts and of quotients count for nothing here. The tolerance
+  /// is a fine one, since limbs that shrink show what is left of it in full size on the other surface.
+  EmbedOptions embed = with_fine_tolerance();
 
   /// Which of the cuts through the landmarks are taken. They change nothing about the map.
   CutOptions cut_a, cut_b;
@@ -40,6 +41,12 @@ struct MapOptions {
   /// The order in which the cuts lead through the landmarks (indices); if it is empty, the shortest on A. On
   /// a disk, of the landmarks inside.
   std::vector<int> tour;
+
+  static EmbedOptions with_fine_tolerance() {
+    EmbedOptions options;
+    options.tolerance = 1e-13;
+    return options;
+  }
 };
 
 /// Where the shape of the tile came from, and how sure the isotopy class is. On a sphere with four landmarks
