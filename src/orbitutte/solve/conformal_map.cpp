@@ -15,10 +15,8 @@
 #include "orbitutte/parallel.h"
 
 namespace orbitutte {
-namespace {
 
-using PlaneNumber = std::complex<double>;
-using HermitianForm = Eigen::MatrixXcd;
+// Members of ConformalShapes::State have types that are not this file's own.
 
 // The harmonic map onto the tile of one shape.
 struct ShapeMap {
@@ -26,6 +24,20 @@ struct ShapeMap {
   GluedEdges glued;
   Points positions;
 };
+
+// The forms on the maps of a basis of shapes.
+template <typename Matrix>
+struct Forms {
+  Matrix area, energy;
+
+  // Of the energy around great cones; only if there are such.
+  Matrix energy_at_great_cones;
+};
+
+namespace {
+
+using PlaneNumber = std::complex<double>;
+using HermitianForm = Eigen::MatrixXcd;
 
 PlaneNumber in_plane(const Vector3& p) { return {p.x(), p.y()}; }
 
@@ -141,15 +153,6 @@ Matrix leading_vectors(const Matrix& A, const Matrix& S, int count) {
   const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> solver(A, S);
   return solver.eigenvectors().rightCols(std::min<Eigen::Index>(count, A.cols()));
 }
-
-// The forms on the maps of a basis of shapes.
-template <typename Matrix>
-struct Forms {
-  Matrix area, energy;
-
-  // Of the energy around great cones; only if there are such.
-  Matrix energy_at_great_cones;
-};
 
 // The combination of least energy for its area.
 template <typename Matrix>
