@@ -136,7 +136,7 @@ Target landmark_target(Topology topology, const LandmarkPlaces& places) {
   if (topology == Topology::sphere && inside <= 4) return parse_orbifold(std::string(inside, '2'));
   if (topology == Topology::sphere)
     return parse_orbifold(fmt::format("{}", fmt::join(std::vector<int>(inside, 2), ",")));
-  if (inside == 0 && outside <= 4) return parse_orbifold("*" + std::string(outside, '2'));
+  if (inside == 0 && outside <= 4) return parse_orbifold(fmt::format("*{}", std::string(outside, '2')));
   return flat_landmark_target(topology, places);
 }
 

@@ -31,11 +31,11 @@ constexpr int most_tours = 24;
 constexpr int most_compared = 8;
 
 // One of the two surfaces on the way to its embedding. The parts refer to each other.
-struct Side {
-  Side(const Surface& the_surface, const Target& the_target, const EmbedOptions& the_options)
+struct MappedSide {
+  MappedSide(const Surface& the_surface, const Target& the_target, const EmbedOptions& the_options)
       : surface(the_surface), options(the_options), prepared(prepare(surface, options)), target(the_target) {}
-  Side(const Side&) = delete;
-  Side& operator=(const Side&) = delete;
+  MappedSide(const MappedSide&) = delete;
+  MappedSide& operator=(const MappedSide&) = delete;
 
   EmbedRequest request() const { return {prepared, target, vertices, options}; }
 
@@ -51,9 +51,9 @@ struct Side {
   EmbedResult result;
 };
 
-using Sides = std::array<std::unique_ptr<Side>, 2>;
+using Sides = std::array<std::unique_ptr<MappedSide>, 2>;
 
-CutMesh cut_side(const Side& side, const CutOptions& options) {
+CutMesh cut_side(const MappedSide& side, const CutOptions& options) {
   const int inner = side.target.inner_marks;
   return (side.target.has_free_tile ? cut_along_tour : cut_to_disk)(side.surface, side.vertices, inner,
                                                                     options);
@@ -135,7 +135,7 @@ class Mapping {
       if (!options_.tour.empty()) tours_.insert(tours_.begin(), asked_tour(options_.tour, places_));
     });
     for (int s = 0; s < 2; ++s)
-      sides_[s] = std::make_unique<Side>(*surfaces_[s], target_, quiet(options_.embed));
+      sides_[s] = std::make_unique<MappedSide>(*surfaces_[s], target_, quiet(options_.embed));
     cut_along_next(0);
   }
 
@@ -144,7 +144,7 @@ class Mapping {
     const std::vector<Landmark> marks = in_order(map_.landmarks, places_, tours_[tour]);
     stage_("cut", [&] {
       parallel_for(2, [&](int s) {
-        Side& side = *sides_[s];
+        MappedSide& side = *sides_[s];
         side.vertices.clear();
         for (const Landmark& mark : marks) side.vertices.push_back(s == 0 ? mark.a : mark.b);
         side.cut = cut_side(side, cuts[s]);
@@ -222,7 +222,7 @@ class Mapping {
   void embed_both(const Weights& kinds) {
     stage_("weights", [&] {
       parallel_for(2, [&](int s) {
-        Side& side = *sides_[s];
+        MappedSide& side = *sides_[s];
         side.options.weights.kind = kinds[s];
         side.result = {};
         side.result.weights = find_weights(side.request(), side.cache.weights);
@@ -237,7 +237,7 @@ class Mapping {
 
   void state_problems(Problems& problems) const {
     for (int s = 0; s < 2; ++s) {
-      const Side& side = *sides_[s];
+      const MappedSide& side = *sides_[s];
       problems[s].emplace(gluing_problem(side.request(), side.result.weights, side.cut, side.cache));
     }
   }
@@ -355,7 +355,7 @@ class Mapping {
     // The map stays in its frame, which both surfaces have: more digits come before turning it.
     const std::vector<Remedy> remedies = {with_faces_repaired, with_more_digits, with_limbs_resolved};
     for (int s = 0; s < 2; ++s) {
-      Side& side = *sides_[s];
+      MappedSide& side = *sides_[s];
       EmbedResult& result = side.result;
       result.minimum = placed[s].minimum;
       result.threads = thread_count();
