@@ -294,9 +294,13 @@ class Mapping {
     return isotopy_class_of_four(complex(own[0].cones), complex(own[1].cones));
   }
 
+  // Curved tiles of free shape are found by Newton's method, which goes beyond what is asked for; rounding
+  // keeps it from finer tolerances.
   LbfgsOptions lbfgs() const {
+    constexpr double finest_on_free_tile = 1e-9;
+    const bool is_curved = target_.has_free_tile && !is_flat();
     LbfgsOptions result;
-    result.tolerance = options_.embed.tolerance;
+    result.tolerance = std::max(options_.embed.tolerance, is_curved ? finest_on_free_tile : 0);
     result.max_iterations = options_.embed.max_iterations;
     return result;
   }

@@ -30,7 +30,8 @@ struct NameTable<TileShape> {
 /// How to map.
 struct MapOptions {
   /// How each surface is embedded; its options of cuts and of quotients count for nothing here. The tolerance
-  /// is a fine one, since limbs that shrink show what is left of it in full size on the other surface.
+  /// is a fine one, since limbs that shrink show what is left of it in full size on the other surface; tiles
+  /// of free shape in the hyperbolic plane take 1e-9 if it is finer.
   EmbedOptions embed = with_fine_tolerance();
 
   /// Which of the cuts through the landmarks are taken. They change nothing about the map.
