@@ -328,6 +328,7 @@ class MeshRepair {
       return sum;
     };
     std::vector<double> areas;
+    areas.reserve(all.size());
     for (const std::vector<int>& component : all) areas.push_back(area(component));
     const auto largest = std::max_element(areas.begin(), areas.end()) - areas.begin();
     std::vector<char> is_kept(faces_.size(), 0);

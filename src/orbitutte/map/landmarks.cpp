@@ -27,6 +27,7 @@ struct MarkedSurface {
 
 std::vector<int> vertices_of(const std::vector<Landmark>& landmarks, int Landmark::*vertex) {
   std::vector<int> result;
+  result.reserve(landmarks.size());
   for (const Landmark& landmark : landmarks) result.push_back(landmark.*vertex);
   return result;
 }

@@ -549,6 +549,7 @@ class OverlayExaminer {
     const int count = static_cast<int>(corners(f).size());
     if (count < 3 || count > 6) return false;
     std::vector<std::array<int, 3>> open;
+    open.reserve(2 * count);
     for (int k = 0; k < count; ++k) open.push_back({k, (k + 1) % count, (k + 2) % count});
     for (int k = 2; k + 1 < count; ++k) open.push_back({0, k, k + 1});
     if (!is_positive_in_doubles(f, open)) return false;

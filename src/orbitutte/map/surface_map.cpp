@@ -68,6 +68,7 @@ EmbedOptions quiet(EmbedOptions options) {
 std::vector<Landmark> in_order(const std::vector<Landmark>& landmarks, const LandmarkPlaces& places,
                                const std::vector<int>& tour) {
   std::vector<Landmark> marks;
+  marks.reserve(landmarks.size());
   for (const int k : tour) marks.push_back(landmarks[places.inside[k]]);
   for (const int k : places.on_boundary) marks.push_back(landmarks[k]);
   return marks;

@@ -91,6 +91,7 @@ void require_surfaces(Space space, const MarkOrder& order, double area) {
 // The marks of a sphere with these angles.
 std::vector<Mark> cones_of_angles(const std::vector<double>& angles) {
   std::vector<Mark> marks;
+  marks.reserve(angles.size());
   for (const double angle : angles) marks.push_back({angle, ConeKind::rotation});
   return marks;
 }

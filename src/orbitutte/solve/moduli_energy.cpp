@@ -103,6 +103,7 @@ Eigen::VectorXd ModuliEnergy::cone_gradient(const Points& x, const VaryingMarks&
   const std::vector<VaryingIsometry> varying =
       varying_transforms(marks, marks.points().front().motion.parameters(), Order::first);
   std::vector<Isometry> transform;
+  transform.reserve(varying.size());
   for (const VaryingIsometry& g : varying) transform.push_back(g.value);
   Eigen::Matrix3Xd moments = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(transform.size()));
   Points at_cones = Points::Zero(cones.rows(), 3);
