@@ -413,7 +413,9 @@ void add_map(CLI::App& app, int& code) {
   command.option("--cut-seed-b", command->cut_seed_b, "The same of B")->capture_default_str();
   command
       .option("--tolerance", command->tolerance,
-              "As of embed, but finer: limbs that shrink show what is left in full size on the other surface")
+              "As of embed, but finer: limbs that shrink show what is left in full size on the other "
+              "surface; not "
+              "finer than 1e-9 for hyperbolic tiles")
       ->capture_default_str();
   command.option("--max-iterations", command->max_iterations, "As of embed")->capture_default_str();
   command.option("--threads", command->threads, "Use so many threads; 0: one for every core")
