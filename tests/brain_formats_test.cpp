@@ -127,7 +127,7 @@ TEST(Gifti, KnowsLabelsNamesAndTransforms) {
   const GiftiFile file = read_gifti_file(text);
   ASSERT_EQ(file.labels.size(), 1U);
   EXPECT_EQ(file.labels[0].key, 7);
-  EXPECT_EQ(file.labels[0].text, "insula");
+  EXPECT_EQ(file.labels[0].name, "insula");
   EXPECT_EQ(file.arrays[0].name, "mid");
   EXPECT_TRUE(file.arrays[0].has_transform);
   EXPECT_FALSE(file.arrays[1].has_transform);

@@ -40,4 +40,12 @@ void append_little_endian(std::string& bytes, T... numbers) {
   bytes.append(values.data(), values.size());
 }
 
+/// Appends a number, its highest byte first.
+template <class T>
+void append_big_endian(std::string& bytes, T number) {
+  auto value = little_endian_bytes(number);
+  std::reverse(value.begin(), value.end());
+  bytes.append(value.data(), value.size());
+}
+
 }  // namespace orbitutte

@@ -17,13 +17,6 @@ constexpr std::size_t number_size = 4, three_numbers = 3 * number_size;
 
 std::int32_t load_int(std::string_view bytes) { return load<std::int32_t>(bytes.data(), std::endian::big); }
 
-template <class T>
-void append_big_endian(std::string& bytes, T number) {
-  auto value = little_endian_bytes(number);
-  std::reverse(value.begin(), value.end());
-  bytes.append(value.data(), value.size());
-}
-
 void check_kind(std::string_view bytes) {
   if (bytes.starts_with(triangle_start)) return;
   if (bytes.starts_with(quadrangle_start) || bytes.starts_with(new_quadrangle_start))

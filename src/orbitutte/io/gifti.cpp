@@ -1,21 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "orbitutte/io/gifti.h"
 
-#include <expat.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <limits>
-#include <memory>
-#include <new>
 
 #include "orbitutte/io/base64.h"
 #include "orbitutte/io/bytes.h"
 #include "orbitutte/io/compression.h"
 #include "orbitutte/io/mesh_formats.h"
+#include "orbitutte/io/number_types.h"
 #include "orbitutte/io/text_scanner.h"
+#include "orbitutte/io/xml.h"
 
 namespace orbitutte {
 namespace {
@@ -26,78 +24,31 @@ struct EncodedArray {
   std::vector<int> dimensions;
 };
 
-std::string attribute(const char** attributes, std::string_view name) {
-  for (; *attributes; attributes += 2)
-    if (name == attributes[0]) return attributes[1];
-  return {};
-}
-
-// 0 if it is no number.
-int to_int(std::string_view text) {
-  int value = 0;
-  return parse_number(text, value) == NumberError::none ? value : 0;
-}
-
-struct FreeParser {
-  void operator()(XML_Parser parser) const { XML_ParserFree(parser); }
-};
-
-// Collects what the document says. Nothing is thrown through the parser, which is C: what fails there is
-// memory alone, and is thrown afterwards.
-class Document {
+// Collects what the document says.
+class GiftiDocument : public XmlReader {
  public:
-  explicit Document(std::string_view bytes) {
-    const std::unique_ptr<std::remove_pointer_t<XML_Parser>, FreeParser> parser(XML_ParserCreate(nullptr));
-    if (!parser) throw std::bad_alloc();
-    parser_ = parser.get();
-    XML_SetUserData(parser_, this);
-    XML_SetElementHandler(parser_, on_begin, on_end);
-    XML_SetCharacterDataHandler(parser_, on_text);
-    constexpr std::size_t part = 1 << 24;
-    do {
-      const std::string_view next = bytes.substr(0, part);
-      bytes.remove_prefix(next.size());
-      if (XML_Parse(parser_, next.data(), static_cast<int>(next.size()), bytes.empty()) == XML_STATUS_ERROR)
-        refuse();
-    } while (!bytes.empty());
+  explicit GiftiDocument(std::string_view bytes) {
+    read_xml(bytes, *this);
     if (!is_gifti_)
       throw MeshError("the XML document has no element GIFTI; check that the file is a GIfTI file");
   }
 
-  std::vector<EncodedArray> arrays;
-  std::vector<GiftiLabel> labels;
-
- private:
-  [[noreturn]] void refuse() const {
-    if (ran_out_of_memory_) throw std::bad_alloc();
-    throw MeshError(fmt::format("line {}: the file is no XML: {}; export it again",
-                                XML_GetCurrentLineNumber(parser_),
-                                XML_ErrorString(XML_GetErrorCode(parser_))));
-  }
-
-  void begin(const std::string& element, const char** attributes) {
+  void begin(const std::string& element, const XmlAttributes& attributes) override {
     is_gifti_ = is_gifti_ || element == "GIFTI";
     text_.clear();
-    if (element == "DataArray") {
-      inside_array_ = true;
-      EncodedArray& array = arrays.emplace_back();
-      array.intent = attribute(attributes, "Intent");
-      array.type = attribute(attributes, "DataType");
-      array.encoding = attribute(attributes, "Encoding");
-      array.endian = attribute(attributes, "Endian");
-      array.order = attribute(attributes, "ArrayIndexingOrder");
-      array.external_file = attribute(attributes, "ExternalFileName");
-      const int count = std::clamp(to_int(attribute(attributes, "Dimensionality")), 0, 6);
-      for (int k = 0; k < count; ++k)
-        array.dimensions.push_back(to_int(attribute(attributes, fmt::format("Dim{}", k))));
+    if (element == "DataArray") begin_array(attributes);
+    if (element == "Label") {
+      ValueLabel& label = labels.emplace_back();
+      label.key = attributes.number("Key");
+      label.colour = {attributes.number("Red", 0), attributes.number("Green", 0),
+                      attributes.number("Blue", 0), attributes.number("Alpha", 1)};
     }
-    if (element == "Label") labels.push_back({to_int(attribute(attributes, "Key")), {}});
   }
 
-  void end(const std::string& element) {
+  void end(const std::string& element) override {
     if (element == "DataArray") inside_array_ = false;
     if (element == "Name") name_ = text_;
-    if (element == "Label" && !labels.empty()) labels.back().text = text_;
+    if (element == "Label" && !labels.empty()) labels.back().name = text_;
     if (!inside_array_) return;
     EncodedArray& array = arrays.back();
     if (element == "Value" && name_ == "Name") array.name = text_;
@@ -106,54 +57,28 @@ class Document {
     text_.clear();
   }
 
-  template <class Step>
-  void guarded(const Step& step) {
-    try {
-      step();
-    } catch (const std::bad_alloc&) {
-      ran_out_of_memory_ = true;
-      XML_StopParser(parser_, XML_FALSE);
-    }
+  void text(std::string_view piece) override { text_ += piece; }
+
+  std::vector<EncodedArray> arrays;
+  std::vector<ValueLabel> labels;
+
+ private:
+  void begin_array(const XmlAttributes& attributes) {
+    inside_array_ = true;
+    EncodedArray& array = arrays.emplace_back();
+    array.intent = attributes["Intent"];
+    array.type = attributes["DataType"];
+    array.encoding = attributes["Encoding"];
+    array.endian = attributes["Endian"];
+    array.order = attributes["ArrayIndexingOrder"];
+    array.external_file = attributes["ExternalFileName"];
+    const int count = std::clamp(attributes.number("Dimensionality"), 0, 6);
+    for (int k = 0; k < count; ++k) array.dimensions.push_back(attributes.number(fmt::format("Dim{}", k)));
   }
 
-  static void on_begin(void* self, const char* element, const char** attributes) {
-    auto& document = *static_cast<Document*>(self);
-    document.guarded([&] { document.begin(element, attributes); });
-  }
-  static void on_end(void* self, const char* element) {
-    auto& document = *static_cast<Document*>(self);
-    document.guarded([&] { document.end(element); });
-  }
-  static void on_text(void* self, const char* text, int length) {
-    auto& document = *static_cast<Document*>(self);
-    document.guarded([&] { document.text_.append(text, static_cast<std::size_t>(length)); });
-  }
-
-  XML_Parser parser_ = nullptr;
   std::string text_, name_;
-  bool is_gifti_ = false, inside_array_ = false, ran_out_of_memory_ = false;
+  bool is_gifti_ = false, inside_array_ = false;
 };
-
-template <class T>
-double load_number(const char* bytes, std::endian order) {
-  return static_cast<double>(load<T>(bytes, order));
-}
-
-struct NumberType {
-  std::string_view name;
-  std::size_t size;
-  double (*load)(const char*, std::endian);
-};
-
-constexpr NumberType number_types[] = {{"NIFTI_TYPE_FLOAT32", 4, load_number<float>},
-                                       {"NIFTI_TYPE_FLOAT64", 8, load_number<double>},
-                                       {"NIFTI_TYPE_INT32", 4, load_number<std::int32_t>},
-                                       {"NIFTI_TYPE_UINT32", 4, load_number<std::uint32_t>},
-                                       {"NIFTI_TYPE_INT64", 8, load_number<std::int64_t>},
-                                       {"NIFTI_TYPE_INT16", 2, load_number<std::int16_t>},
-                                       {"NIFTI_TYPE_UINT16", 2, load_number<std::uint16_t>},
-                                       {"NIFTI_TYPE_INT8", 1, load_number<std::int8_t>},
-                                       {"NIFTI_TYPE_UINT8", 1, load_number<std::uint8_t>}};
 
 // One array, number `index` of the file.
 class Decoder {
@@ -216,10 +141,8 @@ class Decoder {
   }
 
   std::vector<double> numbers_of_bytes(std::size_t count) const {
-    const auto* const type = std::find_if(std::begin(number_types), std::end(number_types),
-                                          [&](const NumberType& known) { return known.name == array_.type; });
-    if (type == std::end(number_types))
-      refuse(fmt::format("its DataType {} is not known", in_quotes(array_.type)));
+    const NumberType* const type = find_number_type(&NumberType::gifti, array_.type);
+    if (!type) refuse(fmt::format("its DataType {} is not known", in_quotes(array_.type)));
     const std::string bytes = decoded(count * type->size);
     if (bytes.size() != count * type->size)
       refuse(fmt::format("it holds {} bytes in place of {}", bytes.size(), count * type->size));
@@ -274,41 +197,64 @@ int to_index(double value) {
   return value >= -2147483648.0 && value <= 2147483647.0 ? static_cast<int>(value) : -1;
 }
 
-constexpr std::string_view points_intent = "NIFTI_INTENT_POINTSET",
-                           triangles_intent = "NIFTI_INTENT_TRIANGLE";
-
-// What is written of an array before and after its numbers.
-struct WrittenArray {
-  std::string_view intent, type;
-  Eigen::Index rows;
-};
-
-template <class T, class Matrix>
-void append_array(std::string& text, const WrittenArray& array, const Matrix& numbers) {
+// The numbers of an array as those of another type.
+template <class T>
+std::string bytes_of(const std::vector<double>& values) {
   std::string bytes;
-  bytes.reserve(sizeof(T) * static_cast<std::size_t>(numbers.size()));
-  for (Eigen::Index i = 0; i < numbers.rows(); ++i)
-    append_little_endian(bytes, static_cast<T>(numbers(i, 0)), static_cast<T>(numbers(i, 1)),
-                         static_cast<T>(numbers(i, 2)));
+  bytes.reserve(sizeof(T) * values.size());
+  for (const double value : values) append_little_endian(bytes, static_cast<T>(value));
+  return bytes;
+}
+
+std::string metadata(const GiftiArray& array) {
+  if (array.name.empty()) return "    <MetaData/>\n";
+  return fmt::format("    <MetaData><MD><Name>Name</Name><Value>{}</Value></MD></MetaData>\n",
+                     xml_text(array.name));
+}
+
+void append_array(std::string& text, const GiftiArray& array) {
+  const bool is_whole = array.intent == gifti_triangles || array.intent == gifti_labels;
   text += fmt::format(
-      R"(  <DataArray Intent="{}" DataType="{}" ArrayIndexingOrder="RowMajorOrder" Dimensionality="2" Dim0="{}" )"
-      R"(Dim1="3" Encoding="GZipBase64Binary" Endian="LittleEndian" ExternalFileName="" ExternalFileOffset="0">)"
-      "\n    <MetaData/>\n",
-      array.intent, array.type, array.rows);
-  if (array.intent == points_intent)
+      R"(  <DataArray Intent="{}" DataType="{}" ArrayIndexingOrder="RowMajorOrder" Dimensionality="{}" Dim0="{}" )",
+      array.intent, is_whole ? "NIFTI_TYPE_INT32" : "NIFTI_TYPE_FLOAT32", array.columns == 1 ? 1 : 2,
+      array.rows);
+  if (array.columns != 1) text += fmt::format(R"(Dim1="{}" )", array.columns);
+  text += R"(Encoding="GZipBase64Binary" Endian="LittleEndian" ExternalFileName="" ExternalFileOffset="0">)"
+          "\n";
+  text += metadata(array);
+  if (array.intent == gifti_points)
     text +=
         "    <CoordinateSystemTransformMatrix>\n"
         "      <DataSpace><![CDATA[NIFTI_XFORM_UNKNOWN]]></DataSpace>\n"
         "      <TransformedSpace><![CDATA[NIFTI_XFORM_UNKNOWN]]></TransformedSpace>\n"
         "      <MatrixData>1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</MatrixData>\n"
         "    </CoordinateSystemTransformMatrix>\n";
+  const std::string bytes = is_whole ? bytes_of<std::int32_t>(array.values) : bytes_of<float>(array.values);
   text += fmt::format("    <Data>{}</Data>\n  </DataArray>\n", base64(compress(bytes)));
+}
+
+std::string label_table(const std::vector<ValueLabel>& labels) {
+  if (labels.empty()) return "  <LabelTable/>\n";
+  std::string text = "  <LabelTable>\n";
+  for (const ValueLabel& label : labels)
+    text += fmt::format("    <Label Key=\"{}\" Red=\"{}\" Green=\"{}\" Blue=\"{}\" Alpha=\"{}\">{}</Label>\n",
+                        label.key, label.colour[0], label.colour[1], label.colour[2], label.colour[3],
+                        xml_text(label.name));
+  return text + "  </LabelTable>\n";
+}
+
+GiftiArray triples(std::string_view intent, int rows) {
+  GiftiArray array;
+  array.intent = intent;
+  array.rows = rows;
+  array.columns = 3;
+  return array;
 }
 
 }  // namespace
 
 GiftiFile read_gifti_file(std::string_view bytes) {
-  Document document(bytes);
+  GiftiDocument document(bytes);
   GiftiFile result;
   for (std::size_t k = 0; k < document.arrays.size(); ++k)
     result.arrays.push_back(Decoder(document.arrays[k], k).run());
@@ -318,8 +264,8 @@ GiftiFile read_gifti_file(std::string_view bytes) {
 
 PolygonMesh read_gifti(std::string_view bytes) {
   const GiftiFile file = read_gifti_file(bytes);
-  const GiftiArray& points = array_of(file, points_intent, "points");
-  const GiftiArray& triangles = array_of(file, triangles_intent, "triangles");
+  const GiftiArray& points = array_of(file, gifti_points, "points");
+  const GiftiArray& triangles = array_of(file, gifti_triangles, "triangles");
   PolygonMesh mesh;
   mesh.V = to_points(points.values);
   mesh.face_start.reserve(triangles.rows + std::size_t{1});
@@ -337,14 +283,23 @@ PolygonMesh read_gifti(std::string_view bytes) {
   return mesh;
 }
 
-std::string write_gifti(const Mesh& mesh) {
-  std::string text =
+std::string write_gifti_file(const GiftiFile& file) {
+  std::string text = fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
       "<!DOCTYPE GIFTI SYSTEM \"http://www.nitrc.org/frs/download.php/115/gifti.dtd\">\n"
-      "<GIFTI Version=\"1.0\" NumberOfDataArrays=\"2\">\n  <MetaData/>\n  <LabelTable/>\n";
-  append_array<float>(text, {points_intent, "NIFTI_TYPE_FLOAT32", mesh.V.rows()}, mesh.V);
-  append_array<std::int32_t>(text, {triangles_intent, "NIFTI_TYPE_INT32", mesh.F.rows()}, mesh.F);
+      "<GIFTI Version=\"1.0\" NumberOfDataArrays=\"{}\">\n  <MetaData/>\n{}",
+      file.arrays.size(), label_table(file.labels));
+  for (const GiftiArray& array : file.arrays) append_array(text, array);
   return text + "</GIFTI>\n";
+}
+
+std::string write_gifti(const Mesh& mesh) {
+  GiftiFile file;
+  file.arrays = {triples(gifti_points, static_cast<int>(mesh.V.rows())),
+                 triples(gifti_triangles, static_cast<int>(mesh.F.rows()))};
+  file.arrays[0].values.assign(mesh.V.data(), mesh.V.data() + mesh.V.size());
+  file.arrays[1].values.assign(mesh.F.data(), mesh.F.data() + mesh.F.size());
+  return write_gifti_file(file);
 }
 
 }  // namespace orbitutte

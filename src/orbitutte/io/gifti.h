@@ -7,7 +7,14 @@
 #include <string_view>
 #include <vector>
 
+#include "orbitutte/io/vertex_data.h"
+
 namespace orbitutte {
+
+/// Intents of arrays.
+constexpr std::string_view gifti_points = "NIFTI_INTENT_POINTSET", gifti_triangles = "NIFTI_INTENT_TRIANGLE",
+                           gifti_labels = "NIFTI_INTENT_LABEL", gifti_shape = "NIFTI_INTENT_SHAPE",
+                           gifti_other = "NIFTI_INTENT_NONE";
 
 /// A DataArray.
 struct GiftiArray {
@@ -26,20 +33,19 @@ struct GiftiArray {
   bool has_transform = false;
 };
 
-/// A label of the file's table.
-struct GiftiLabel {
-  int key = 0;
-  std::string text;
-};
-
 struct GiftiFile {
   std::vector<GiftiArray> arrays;
-  std::vector<GiftiLabel> labels;
+  /// The table of labels.
+  std::vector<ValueLabel> labels;
 };
 
 /// The arrays in the file's order: of any number type, byte order and index order, encoded as text, base64 or
 /// compressed base64. Throws MeshError naming the line of XML that is no XML, or the array at fault; arrays
 /// in external files are refused.
 GiftiFile read_gifti_file(std::string_view bytes);
+
+/// The text of a GIfTI file with these arrays, as compressed base64: triangles and labels as int32, which
+/// they have to fit into, everything else in single precision.
+std::string write_gifti_file(const GiftiFile& file);
 
 }  // namespace orbitutte

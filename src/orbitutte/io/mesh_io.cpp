@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <iterator>
 
 #include "orbitutte/io/compression.h"
 #include "orbitutte/io/file.h"
+#include "orbitutte/io/file_ending.h"
 #include "orbitutte/io/mesh_formats.h"
 #include "orbitutte/mesh/triangulation.h"
 
@@ -35,8 +35,6 @@ constexpr FormatRow formats[] = {
     {MeshFormat::freesurfer, ".pial .white .inflated .sphere .orig .smoothwm .reg .nofix", read_freesurfer,
      write_freesurfer, write_freesurfer_polygons}};
 
-constexpr std::string_view compressed_ending = ".gz";
-
 const FormatRow& row(MeshFormat format) {
   return *std::find_if(std::begin(formats), std::end(formats),
                        [format](const FormatRow& known) { return known.format == format; });
@@ -49,29 +47,6 @@ bool is_utf16(std::string_view bytes) {
   if (bytes.size() < 4) return false;
   const bool zero[] = {bytes[0] == 0, bytes[1] == 0, bytes[2] == 0, bytes[3] == 0};
   return zero[0] == zero[2] && zero[1] == zero[3] && zero[0] != zero[1];
-}
-
-std::string lower_case(std::string text) {
-  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return text;
-}
-
-bool has_word(std::string_view words, std::string_view word) {
-  while (!words.empty()) {
-    const std::size_t end = std::min(words.find(' '), words.size());
-    if (words.substr(0, end) == word) return true;
-    words.remove_prefix(std::min(end + 1, words.size()));
-  }
-  return false;
-}
-
-std::string lower_case_ending(const std::filesystem::path& path) {
-  return lower_case(path.extension().string());
-}
-
-// Without `.gz`.
-std::filesystem::path uncompressed(std::filesystem::path path) {
-  return lower_case_ending(path) == compressed_ending ? path.replace_extension() : path;
 }
 
 // "a, b, c" of all endings.
@@ -91,14 +66,14 @@ void write_bytes(const std::string& path, const std::string& bytes) {
 }  // namespace
 
 MeshFormat mesh_format(const std::string& path) {
-  const std::string ending = lower_case_ending(uncompressed(path));
+  const std::string ending = lower_case_ending(without_gz(path));
   for (const FormatRow& known : formats)
     if (!ending.empty() && has_word(known.endings, ending)) return known.format;
   throw ArgumentError(fmt::format(
       "{}: the ending names no known mesh format; use one of {}, each also with .gz", path, known_endings()));
 }
 
-bool is_compressed(const std::string& path) { return lower_case_ending(path) == compressed_ending; }
+bool is_compressed(const std::string& path) { return lower_case_ending(path) == ".gz"; }
 
 PolygonMesh parse_mesh(std::string_view bytes, MeshFormat format) {
   if (bytes.empty()) throw MeshError("the file is empty; export it again");

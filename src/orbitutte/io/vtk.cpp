@@ -5,39 +5,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <iterator>
 
-#include "orbitutte/io/bytes.h"
 #include "orbitutte/io/mesh_formats.h"
+#include "orbitutte/io/number_types.h"
 #include "orbitutte/io/text_scanner.h"
 
 namespace orbitutte {
 namespace {
-
-template <class T>
-double load_as_double(const char* bytes) {
-  return static_cast<double>(load<T>(bytes, std::endian::big));
-}
-
-struct VtkType {
-  std::string_view name;
-  std::size_t size;
-  double (*load)(const char*);
-};
-
-constexpr VtkType vtk_types[] = {{"float", 4, load_as_double<float>},
-                                 {"double", 8, load_as_double<double>},
-                                 {"int", 4, load_as_double<std::int32_t>},
-                                 {"unsigned_int", 4, load_as_double<std::uint32_t>},
-                                 {"long", 8, load_as_double<std::int64_t>},
-                                 {"unsigned_long", 8, load_as_double<std::uint64_t>},
-                                 {"vtktypeint64", 8, load_as_double<std::int64_t>},
-                                 {"vtkIdType", 8, load_as_double<std::int64_t>},
-                                 {"short", 2, load_as_double<std::int16_t>},
-                                 {"unsigned_short", 2, load_as_double<std::uint16_t>},
-                                 {"char", 1, load_as_double<std::int8_t>},
-                                 {"unsigned_char", 1, load_as_double<std::uint8_t>}};
 
 bool is_vtk_blank(char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t'; }
 
@@ -148,17 +123,16 @@ class VtkReader {
   // So many numbers of a type.
   std::vector<double> numbers(std::size_t size, std::string_view type_name) {
     std::vector<double> result(size);
-    const auto* const type = std::find_if(std::begin(vtk_types), std::end(vtk_types),
-                                          [&](const VtkType& known) { return known.name == type_name; });
-    if (type == std::end(vtk_types))
-      refuse(fmt::format("the type {} of numbers is not known", in_quotes(type_name)));
+    const NumberType* const type = find_number_type(&NumberType::legacy_vtk, type_name);
+    if (!type) refuse(fmt::format("the type {} of numbers is not known", in_quotes(type_name)));
     if (!is_binary_) {
       for (double& value : result) value = number<double>("a number");
       return result;
     }
     line();  // the rest of the keyword's
     if (size > (bytes_.size() - at_) / type->size) refuse("the binary numbers are cut short");
-    for (std::size_t k = 0; k < size; ++k) result[k] = type->load(bytes_.data() + at_ + k * type->size);
+    for (std::size_t k = 0; k < size; ++k)
+      result[k] = type->load(bytes_.data() + at_ + k * type->size, std::endian::big);
     at_ += size * type->size;
     return result;
   }
