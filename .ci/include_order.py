@@ -10,7 +10,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 SOURCE = ROOT / "src/orbitutte"
 PLAIN = "plain values"  # files at the root of src/orbitutte that every layer may know
 LAYERS = [PLAIN, "geometry", "mesh", "io", "inspect", "samples", "weights", "cut", "orbifold", "linear", "solve", "verify", "cones", "quotient", "map",
-          "embed", "report", "export", "page", "render"]
+          "resample", "embed", "report", "export", "page", "render"]
 ROOT_FILES = {"names": PLAIN, "types": PLAIN, "errors": PLAIN, "progress": PLAIN, "parallel": PLAIN, "memory": PLAIN, "options": PLAIN, "minimum": PLAIN,
               "version": PLAIN, "embed_types": "embed", "embed": "embed", "certified_map": "embed", "choose": "embed", "distortion_floor": "embed", "preparation": "embed", "warnings": "embed"}
 COMPOSING = {"map/surface_map", "map/composed_map"}  # the part of `map` that composes, as `embed` does

@@ -118,6 +118,14 @@ struct MapArguments {
 };
 int map_command(const MapArguments& arguments);
 
+struct ResampleArguments {
+  std::string embedding, report, mesh, values, grid, kind, output;
+  /// The margin of images.
+  int pad = 0;
+  bool back = false;
+};
+int resample_command(const ResampleArguments& arguments);
+
 struct SampleArguments {
   std::string output, shape = name_of(SampleShape::figure);
   int faces = 20000;

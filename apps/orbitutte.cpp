@@ -425,6 +425,37 @@ void add_map(CLI::App& app, int& code) {
   command.runs(map_command, code);
 }
 
+void add_resample(CLI::App& app, int& code) {
+  Command<ResampleArguments> command(
+      app, "resample", "Take values from a surface to a regular grid of the sphere or the plane, or back");
+  read_embedding_and_mesh_of(command);
+  command.input(
+      "--values", command->values, "the values",
+      "The values at the vertices, or, with --back, at the points of the grid: .npy, .npz, .txt, .csv, "
+      "GIfTI or FreeSurfer's, with --back also .png; without it, only the table is written");
+  command
+      .option("--grid", command->grid,
+              "The grid: ico:7 (an icosphere of level 7), healpix:64, healpix-nested:64, "
+              "equirectangular:512x256, octahedral:256, cube:128; a sphere's file, for its vertices; of "
+              "orbifolds of the plane periodic:256 (the torus that covers it) or tile:256")
+      ->required();
+  command.option("--kind", command->kind,
+                 "linear, nearest, or conservative, which keeps the integral over the surface; if it is not "
+                 "given, nearest for labels, linear for other values");
+  command.flag("--back", command->back, "From the grid to the vertices");
+  command
+      .option("--pad", command->pad, "Give images a margin of so many pixels, whose values the symmetry has")
+      ->capture_default_str();
+  command
+      .output(
+          "-o,--output", command->output,
+          {"-o", "the values", "", {".npy", ".npz", ".txt", ".csv", ".gii", ".png", ".curv", ".annot"}},
+          "Write the values here: .npy, .npz (with the table of weights), .txt, .csv, .shape.gii, .func.gii, "
+          ".label.gii or, of images, .png")
+      ->required();
+  command.runs(resample_command, code);
+}
+
 void add_sample(CLI::App& app, int& code) {
   Command<SampleArguments> command(app, "sample", "Make a mesh to try things on");
   command
@@ -470,6 +501,7 @@ void add_commands(CLI::App& app, int& code) {
   add_compare(app, code);
   add_repair(app, code);
   add_map(app, code);
+  add_resample(app, code);
   add_sample(app, code);
 }
 
