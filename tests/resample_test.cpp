@@ -12,6 +12,7 @@
 #include <random>
 #include <set>
 
+#include "orbitutte/map/point_map.h"
 #include "orbitutte/mesh/connectivity.h"
 #include "orbitutte/orbifold/symmetry_group.h"
 #include "sample_embeddings.h"
@@ -23,8 +24,6 @@ using std::numbers::pi;
 using test::sample_embedding;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<std::string> sphere_grids() {
   return {"ico:0",         "ico:4",
@@ -191,8 +190,8 @@ TEST_P(ThroughTheSphere, LinearFunctionsComeBack) {
   const Eigen::MatrixXd on_grid = apply(there, embedding.positions), again = apply(back, on_grid);
   EXPECT_LT((on_grid - grid.points).cwiseAbs().maxCoeff(), 0.002);
   // The coarsest have 1500 points, of which the poles of the equirectangular one are the least even.
-  EXPECT_LT((again - embedding.positions).cwiseAbs().maxCoeff(), 0.012);
-  EXPECT_LT((again - embedding.positions).norm() / embedding.positions.norm(), 0.004);
+  EXPECT_LT((again - embedding.positions).cwiseAbs().maxCoeff(), 0.02);
+  EXPECT_LT((again - embedding.positions).norm() / embedding.positions.norm(), 0.006);
 }
 
 TEST_P(ThroughTheSphere, RowsAddUpToOne) {
@@ -347,10 +346,13 @@ TEST_P(Image, MarginsHaveNoJump) {
             return grid.points.row(points[(static_cast<std::size_t>(image) * height + row) * width + column]);
           };
           // Corners of a cube have no image.
-          const bool is_corner = (i < around || i >= height - around) && (j < around || j >= width - around);
-          if (is_corner) continue;
-          if (j + 1 < width) largest = std::max(largest, (at(i, j) - at(i, j + 1)).norm());
-          if (i + 1 < height) largest = std::max(largest, (at(i, j) - at(i + 1, j)).norm());
+          const auto is_at = [&](int row, int column) {
+            return (row >= around && row < height - around) || (column >= around && column < width - around);
+          };
+          if (!is_at(i, j)) continue;
+          if (j + 1 < width && is_at(i, j + 1)) largest = std::max(largest, (at(i, j) - at(i, j + 1)).norm());
+          if (i + 1 < height && is_at(i + 1, j))
+            largest = std::max(largest, (at(i, j) - at(i + 1, j)).norm());
         }
     return largest;
   };
@@ -469,6 +471,20 @@ TEST(FlatImages, CoverTheTileAsOftenAsTheGroupHasDirections) {
       tile += embedding.space().area(embedding.positions.row(t[0]), embedding.positions.row(t[1]),
                                      embedding.positions.row(t[2]));
     EXPECT_NEAR(grid.areas.sum(), count * tile, 1e-9 * tile) << signature;
+  }
+}
+
+TEST(FlatImages, OfATileAreTheLowerLeftPartOfThePeriodicOne) {
+  for (const std::string& signature : {std::string("442"), std::string("2222"), std::string("*2222")}) {
+    const Embedding& embedding = sample_embedding(signature).embedding();
+    const bool is_half = signature == "2222";
+    const Grid cell = make_grid(parse_grid("periodic:20x20"), embedding),
+               tile = make_grid(parse_grid(is_half ? "tile:10x20" : "tile:10"), embedding);
+    const int above = 20 - tile.shape[0];
+    for (int row = 0; row < tile.shape[0]; ++row)
+      for (int column = 0; column < 10; ++column)
+        EXPECT_LT((tile.points.row(row * 10 + column) - cell.points.row((row + above) * 20 + column)).norm(),
+                  1e-12);
   }
 }
 

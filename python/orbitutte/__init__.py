@@ -18,6 +18,9 @@ choose_cones(V, F, signature) -> list   well separated vertices to be marked
 fitted_cones(V, F, count) -> FittedCones    cones of the angles that distort least, for embed(V, F, "cones", vertices, angles=angles)
 map_between((V, F), (V, F), landmarks) -> SurfaceMap     a bijection between two surfaces
     to_b(points), to_a(points), pull(values), push(values), matrix(), overlay(), morph(t), write_morph(path), save(folder), load(folder, A, B)
+Resampler(embedding, grid, kind)        values to icospheres, HEALPix, images of sphere or torus and back: resampler(values)
+    back(values), table(), back_table(), matrix(), pad(image, margin), pad_indices(margin), points, areas, shape
+resample(embedding, values, grid) -> values
 verify(embedding[, V, F]) -> dict       the certificate again, from the data alone
 distortion(embedding[, V, F]) -> dict   area and angle distortion again
 distortion_floor(V, F, signature, cones) -> dict    the distortion that the coarseness of the mesh costs
@@ -50,11 +53,12 @@ from ._api import (
 from ._embedding import Cone, EdgeWeights, Embedding, Location, Offsets, Seam
 from ._map import Overlay, SurfaceMap, SurfacePoints, map_between
 from ._orbitutte import __version__
+from ._resample import Resampler, Table, resample
 from .errors import ArgumentError, Cancelled, EmbeddingWarning, Error, FileError, MeshError, MeshWarning
 
 __all__ = [
     "ArgumentError", "Cancelled", "Cone", "EdgeWeights", "Embedding", "EmbeddingWarning", "Error", "FileError",
-    "FittedCones", "Location", "MeshError", "MeshWarning", "Offsets", "Overlay", "Seam", "Solver", "SurfaceMap", "SurfacePoints", "Tiling", "__version__", "build", "choose", "choose_cones", "distortion",
-    "distortion_floor", "embed", "families", "fitted_cones", "info", "keep_freed_memory", "map_between", "read_mesh", "sample_mesh", "signatures", "tile",
+    "FittedCones", "Location", "MeshError", "MeshWarning", "Offsets", "Overlay", "Resampler", "Seam", "Solver", "SurfaceMap", "SurfacePoints", "Table", "Tiling", "__version__", "build", "choose", "choose_cones", "distortion",
+    "distortion_floor", "embed", "families", "fitted_cones", "info", "keep_freed_memory", "map_between", "read_mesh", "resample", "sample_mesh", "signatures", "tile",
     "use_huge_pages", "verify", "write_mesh",
 ]

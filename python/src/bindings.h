@@ -17,6 +17,7 @@ void bind_embedding(py::module_& module);
 void bind_solver(py::module_& module);
 void bind_point_map(py::module_& module);
 void bind_surface_map(py::module_& module);
+void bind_resample(py::module_& module);
 void bind_render(py::module_& module);
 
 }  // namespace orbitutte::python

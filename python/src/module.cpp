@@ -34,5 +34,6 @@ PYBIND11_MODULE(_orbitutte, module) {
   python::bind_solver(module);
   python::bind_point_map(module);
   python::bind_surface_map(module);
+  python::bind_resample(module);
   python::bind_render(module);
 }

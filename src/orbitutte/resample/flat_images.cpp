@@ -89,39 +89,43 @@ std::optional<Vector2d> fixed_point(const std::vector<Isometry>& elements, const
   return std::nullopt;
 }
 
-[[noreturn]] void refuse_tile(const Target& target) {
-  throw ArgumentError(
-      fmt::format("the tile of {} is no image: those of 442, 2222 and *2222 are; take periodic, which all "
-                  "orbifolds of the "
-                  "plane have",
-                  target.signature));
-}
+// Tiles that are part of the cell: a quarter of it for 442 and *2222, a half for 2222.
+enum class TileForm { square, rectangle, half_cell, none };
 
-// Where the tile lies in the cell: at a centre of order 4, or at one of order 2.
-FlatImage tile_of(const std::vector<Isometry>& elements, const Target& target) {
-  FlatImage flat;
-  flat.sheets = sheets_of(elements);
-  const std::array<Vector2d, 2> basis = lattice_basis(elements, target);
-  std::vector<int> orders = target.symbol.rotations;
+TileForm form_of_tile(const ConwaySymbol& symbol) {
+  std::vector<int> orders = symbol.rotations;
   std::sort(orders.begin(), orders.end());
-  const bool is_442 = orders == std::vector<int>{2, 4, 4}, is_2222 = orders == std::vector<int>{2, 2, 2, 2};
-  const bool has_mirrors = orders.empty() && target.symbol.corners == std::vector<int>{2, 2, 2, 2};
-  if (target.symbol.cross || (!has_mirrors && (target.symbol.star || (!is_442 && !is_2222))))
-    refuse_tile(target);
-  Eigen::Matrix2d turn = -Eigen::Matrix2d::Identity();
-  if (is_442) turn << 0, -1, 1, 0;
-  const std::optional<Vector2d> origin = fixed_point(elements, turn);
-  if (!origin) refuse_tile(target);
-  flat.lattice = lattice_matrix(basis, *origin);
-  flat.across = 0.5;
-  flat.up = is_2222 ? 1 : 0.5;
-  return flat;
+  if (symbol.cross) return TileForm::none;
+  if (symbol.star)
+    return orders.empty() && symbol.corners == std::vector<int>{2, 2, 2, 2} ? TileForm::rectangle
+                                                                            : TileForm::none;
+  if (orders == std::vector<int>{2, 4, 4}) return TileForm::square;
+  return orders == std::vector<int>{2, 2, 2, 2} ? TileForm::half_cell : TileForm::none;
 }
 
-FlatImage cell_of(const std::vector<Isometry>& elements, const Target& target) {
+// A corner of the tile: a centre of order 4 or 2, where mirrors meet. Otherwise the origin.
+Vector2d corner_of_cell(const std::vector<Isometry>& elements, TileForm form) {
+  if (form == TileForm::none) return Vector2d::Zero();
+  Eigen::Matrix2d turn = -Eigen::Matrix2d::Identity();
+  if (form == TileForm::square) turn << 0, -1, 1, 0;
+  return fixed_point(elements, turn).value_or(Vector2d::Zero());
+}
+
+// The cell of the translations. A tile is the lower left part of it.
+FlatImage flat_image(const std::vector<Isometry>& elements, const Target& target, GridKind kind) {
   FlatImage flat;
   flat.sheets = sheets_of(elements);
-  flat.lattice = lattice_matrix(lattice_basis(elements, target), Vector2d::Zero());
+  const TileForm form = form_of_tile(target.symbol);
+  flat.lattice = lattice_matrix(lattice_basis(elements, target), corner_of_cell(elements, form));
+  if (kind == GridKind::periodic) return flat;
+  if (form == TileForm::none)
+    throw ArgumentError(
+        fmt::format("the tile of {} is no image: those of 442, 2222 and *2222 are; take periodic, which all "
+                    "orbifolds of the "
+                    "plane have",
+                    target.signature));
+  flat.across = 0.5;
+  flat.up = form == TileForm::half_cell ? 1 : 0.5;
   return flat;
 }
 
@@ -144,8 +148,7 @@ Grid flat_grid(const GridRequest& request, const Embedding& embedding) {
   Grid grid;
   grid.kind = request.kind;
   grid.space = Space::plane();
-  grid.flat = request.kind == GridKind::tile ? tile_of(elements, embedding.target)
-                                             : cell_of(elements, embedding.target);
+  grid.flat = flat_image(elements, embedding.target, request.kind);
   const int height = request.size, width = request.width;
   grid.shape = {height, width};
   grid.points.resize(static_cast<Eigen::Index>(height) * width, 3);

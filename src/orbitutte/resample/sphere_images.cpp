@@ -66,7 +66,9 @@ Triangles triangles_between(const Grid& grid, int images, int size, const Neighb
         const bool inside = row > 0 && row < size && column > 0 && column < size;
         std::array<int, 4> sorted = around;
         std::sort(sorted.begin(), sorted.end());
-        // Places on the sides are seen from several images, or several times.
+        std::fill(std::unique(sorted.begin(), sorted.end()), sorted.end(), sorted.front());
+        // Places on the sides are seen from several images, or several times; at corners of a cube, two of
+        // the four pixels are one.
         if (inside || on_sides.insert(sorted).second) places.push_back(around);
       }
   std::vector<std::array<int, 3>> found;
