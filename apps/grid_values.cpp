@@ -60,7 +60,8 @@ GridValues values_of(const NumpyArray& array, int rows, const std::string& path,
 GridValues read_data(const std::string& path, int rows, const char* what) {
   GridValues result;
   static_cast<VertexData&>(result) = read_vertex_data(path);
-  result.is_label = !result.labels.empty();
+  // A table of labels may be empty.
+  result.is_label = !result.labels.empty() || vertex_data_format(path) == VertexDataFormat::label_gifti;
   if (result.values.rows() != rows)
     refuse_count(path, static_cast<std::size_t>(result.values.rows()), rows, what);
   return result;
