@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "command_arguments.h"
+#include "command_files.h"
 #include "commands.h"
 #include "grid_values.h"
 #include "orbitutte/inspect/recognition.h"
@@ -95,6 +96,9 @@ bool are_labels(const ResampleArguments& arguments, const GridValues& values) {
 }  // namespace
 
 int resample_command(const ResampleArguments& arguments) {
+  if (!is_grid_name(arguments.grid) && is_same_file(arguments.grid, arguments.output))
+    throw ArgumentError(fmt::format(
+        "-o is '{}', which is the sphere that the command reads; name another file", arguments.output));
   Embedding embedding = read_embedding(arguments.embedding, read_report(arguments.report));
   warn(warnings_of_offsets(embedding));
   const Surface surface = read_source(arguments.mesh, embedding);

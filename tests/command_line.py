@@ -18,7 +18,7 @@ import tempfile
 import unittest
 
 PROGRAM = ''
-COMMANDS = ['embed', 'choose', 'info', 'types', 'verify', 'tile', 'export', 'render', 'report', 'compare', 'repair', 'map', 'sample']
+COMMANDS = ['embed', 'choose', 'info', 'types', 'verify', 'tile', 'export', 'render', 'report', 'compare', 'repair', 'map', 'resample', 'sample']
 IS_A_FILE, IS_WRONG, IS_UNSUITABLE, IS_NOT_CONVERGED, IS_NOT_CERTIFIED = 1, 2, 3, 4, 5
 
 
@@ -221,6 +221,67 @@ class Maps(CommandLine):
         (self.folder / 'own').mkdir(exist_ok=True)
         shutil.copy(self.folder / 'figure.obj', self.folder / 'own' / 'overlay_a.obj')
         self.expect(IS_WRONG, 'map', 'own/overlay_a.obj', 'figure.obj', '--landmarks', self.LANDMARKS, '-o', 'own', says='surface A')
+
+
+class Resampling(CommandLine):
+    def resample(self, *options, grid='ico:5', embedding='map'):
+        return ['resample', f'{embedding}.ply', f'{embedding}.json', 'figure.obj', '--grid', grid, *options]
+
+    def numbers(self, name):
+        return [float(line) for line in (self.folder / name).read_text().split()]
+
+    def setUp(self):
+        self.heights = [vertex[1] for vertex in read_obj(self.folder / 'figure.obj')[0]]
+        (self.folder / 'height.txt').write_text(''.join(f'{height!r}\n' for height in self.heights))
+
+    def test_values_come_back(self):
+        for grid in ('ico:6', 'healpix:64', 'equirectangular:256x128', 'octahedral:200', 'cube:80'):
+            with self.subTest(grid):
+                self.expect(0, *self.resample('--values', 'height.txt', '-o', 'there.npy', grid=grid), says='there.npy: [0-9]+ points, linear')
+                self.expect(0, *self.resample('--values', 'there.npy', '--back', '-o', 'back.txt', grid=grid), says='vertices, linear')
+                back = self.numbers('back.txt')
+                self.assertEqual(len(back), len(self.heights))
+                self.assertLess(max(abs(a - b) for a, b in zip(self.heights, back)), 0.1)
+
+    def test_the_integral_is_said_and_kept(self):
+        done = self.expect(0, *self.resample('--values', 'height.txt', '--kind', 'conservative', '-o', 'there.npz'))
+        before, after = map(float, re.search(r'the integral is (\S+) before and (\S+) after', done.stderr).groups())
+        self.assertAlmostEqual(before, after, delta=1e-9 * abs(before) + 1e-10)
+
+    def test_images_are_written_and_read(self):
+        self.expect(0, *self.resample('--values', 'height.txt', '-o', 'picture.png', grid='octahedral:64'), says='black is .*, white is ')
+        self.assertTrue((self.folder / 'picture.png').read_bytes().startswith(b'\x89PNG'))
+        self.expect(0, *self.resample('--values', 'picture.png', '--back', '-o', 'back.txt', grid='octahedral:64'))
+        self.assertTrue(all(0 <= value <= 1 for value in self.numbers('back.txt')))
+
+    def test_flat_orbifolds_have_flat_images(self):
+        self.expect(0, *self.embed('figure.obj', '-o', 'flat.ply', '--report', 'flat.json', '--quiet', orbifold='442'))
+        for grid in ('periodic:64', 'tile:64'):
+            self.expect(0, *self.resample('--values', 'height.txt', '--pad', '2', '-o', 'image.npz', grid=grid, embedding='flat'))
+        self.expect(IS_WRONG, *self.resample('--values', 'height.txt', '-o', 'no.txt', embedding='flat'), says='take periodic or tile')
+
+    def test_a_sphere_is_a_grid(self):
+        self.expect(0, 'embed', 'figure.obj', '--orbifold', 'sphere', '-o', 'sphere.ply', '--report', 'sphere.json', '--quiet')
+        self.expect(0, *self.resample('--values', 'height.txt', '-o', 'same.txt', grid='sphere.ply', embedding='sphere'))
+        self.assertLess(max(abs(a - b) for a, b in zip(self.heights, self.numbers('same.txt'))), 1e-9)
+        self.expect(IS_WRONG, *self.resample('--values', 'height.txt', '-o', 'sphere.txt', grid='sphere.txt', embedding='sphere'), says='which is the sphere')
+        self.expect(IS_UNSUITABLE, *self.resample('--values', 'height.txt', '-o', 'no.txt', grid='figure.obj', embedding='sphere'), says='sphere around the origin')
+
+    def test_what_does_not_fit_is_told_and_nothing_is_written(self):
+        (self.folder / 'short.txt').write_text('1\n2\n')
+        for code, says, options, grid in (
+                (IS_WRONG, 'short.txt has 2 values, but there are [0-9]+ vertices', ['--values', 'short.txt', '-o', 'no.npy'], 'ico:3'),
+                (IS_WRONG, 'has 2 values, but there are 642 points', ['--values', 'short.txt', '--back', '-o', 'no.npy'], 'ico:3'),
+                (IS_WRONG, 'it may be ico, healpix', ['--values', 'height.txt', '-o', 'no.npy'], 'mercator:5'),
+                (IS_WRONG, 'power of two', ['--values', 'height.txt', '-o', 'no.npy'], 'healpix-nested:5'),
+                (IS_WRONG, 'only images can have a margin', ['--values', 'height.txt', '--pad', '1', '-o', 'no.npy'], 'ico:3'),
+                (IS_WRONG, 'only images', ['--values', 'height.txt', '-o', 'no.png'], 'ico:3'),
+                (IS_WRONG, 'without --values', ['-o', 'no.npy'], 'ico:3'),
+                (IS_WRONG, '--kind is .cubic.; it may be linear', ['--values', 'height.txt', '--kind', 'cubic', '-o', 'no.npy'], 'ico:3'),
+                (IS_A_FILE, 'cannot be read', ['--values', 'height.txt', '-o', 'no.npy'], 'none.ply')):
+            with self.subTest(says):
+                self.expect(code, *self.resample(*options, grid=grid), says=says)
+                self.assertFalse((self.folder / options[-1]).exists())
 
 
 class Streams(CommandLine):
