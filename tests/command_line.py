@@ -241,7 +241,8 @@ class Resampling(CommandLine):
                 self.expect(0, *self.resample('--values', 'there.npy', '--back', '-o', 'back.txt', grid=grid), says='vertices, linear')
                 back = self.numbers('back.txt')
                 self.assertEqual(len(back), len(self.heights))
-                self.assertLess(max(abs(a - b) for a, b in zip(self.heights, back)), 0.1)
+                differences = sorted(abs(a - b) for a, b in zip(self.heights, back))
+                self.assertLess(differences[len(back) // 2], 0.01)  # limbs shrink below the distance of the points
 
     def test_the_integral_is_said_and_kept(self):
         done = self.expect(0, *self.resample('--values', 'height.txt', '--kind', 'conservative', '-o', 'there.npz'))

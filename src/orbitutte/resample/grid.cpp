@@ -104,16 +104,22 @@ Mesh unit_icosahedron() {
   return mesh;
 }
 
-// A third of the areas of the triangles around each point.
-Eigen::VectorXd areas_by_triangles(const Points& points, const Triangles& triangles) {
-  Eigen::VectorXd of_triangle(triangles.rows()), areas = Eigen::VectorXd::Zero(points.rows());
+// The signed areas of triangles on the sphere.
+Eigen::VectorXd areas_on_sphere(const Points& points, const Triangles& triangles) {
+  Eigen::VectorXd areas(triangles.rows());
   parallel_ranges(static_cast<int>(triangles.rows()), [&](int begin, int end) {
     for (int t = begin; t < end; ++t)
-      of_triangle[t] = Space::sphere().area(points.row(triangles(t, 0)), points.row(triangles(t, 1)),
-                                            points.row(triangles(t, 2)));
+      areas[t] = Space::sphere().area(points.row(triangles(t, 0)), points.row(triangles(t, 1)),
+                                      points.row(triangles(t, 2)));
   });
-  for (Eigen::Index t = 0; t < triangles.rows(); ++t)
-    for (int k = 0; k < 3; ++k) areas[triangles(t, k)] += of_triangle[t] / 3;
+  return areas;
+}
+
+// A third of the areas of the triangles around each point.
+Eigen::VectorXd areas_around_points(const Grid& grid, const Eigen::VectorXd& of_triangles) {
+  Eigen::VectorXd areas = Eigen::VectorXd::Zero(grid.count());
+  for (Eigen::Index t = 0; t < grid.triangles.rows(); ++t)
+    for (int k = 0; k < 3; ++k) areas[grid.triangles(t, k)] += of_triangles[t] / 3;
   return areas;
 }
 
@@ -128,7 +134,7 @@ Grid icosphere_grid(int level) {
   Grid grid;
   grid.points = std::move(mesh.V);
   grid.triangles = std::move(mesh.F);
-  grid.areas = areas_by_triangles(grid.points, grid.triangles);
+  grid.areas = areas_around_points(grid, areas_on_sphere(grid.points, grid.triangles));
   return grid;
 }
 
@@ -210,15 +216,19 @@ Grid sphere_grid(const Points& V, const Triangles& triangles) {
     grid.points.row(v) /= length;
   }
   grid.triangles = triangles;
-  grid.areas = areas_by_triangles(grid.points, triangles);
-  const double times = grid.areas.sum() / (4 * pi);
-  if (!(std::abs(std::abs(times) - 1) < 1e-6))
-    throw MeshError(fmt::format(
-        "the grid's surface covers the unit sphere {:.3g} times; give a sphere around the origin", times));
-  if (times < 0) {
+  Eigen::VectorXd of_triangles = areas_on_sphere(grid.points, triangles);
+  if (of_triangles.sum() < 0) {
     grid.triangles.col(1).swap(grid.triangles.col(2));
-    grid.areas = -grid.areas;
+    of_triangles = -of_triangles;
   }
+  constexpr double folds = 0.01;  // FreeSurfer's spheres have some
+  const double times = of_triangles.cwiseAbs().sum() / (4 * pi);
+  if (!(std::abs(of_triangles.sum() / (4 * pi) - 1) < 1e-6 && times < 1 + folds))
+    throw MeshError(
+        fmt::format("seen from the origin, the grid's surface covers the sphere {:.3g} times; give a sphere "
+                    "around the origin, without folds",
+                    times));
+  grid.areas = areas_around_points(grid, of_triangles);
   return grid;
 }
 

@@ -120,7 +120,7 @@ Grid make_grid(const GridRequest& request);
 
 /// The vertices of a closed surface around the origin, such as FreeSurfer's `fsaverage` spheres, put onto the
 /// unit sphere. Throws MeshError if a vertex is at the origin, or if the triangles do not cover the sphere
-/// once, up to folds.
+/// once, up to small folds.
 Grid sphere_grid(const Points& V, const Triangles& triangles);
 
 /// The point of an image at a row and a column, which may lie beyond its sides by up to its size: there the
