@@ -36,8 +36,8 @@ Grid grid_by_name(const HeldEmbedding& held, const std::string& text) {
   return make_grid(request, held.embedding);
 }
 
-SparseTable table(const HeldEmbedding& held, const Grid& grid, const std::string& kind,
-                  const std::string& direction) {
+SparseTable resample_table(const HeldEmbedding& held, const Grid& grid, const std::string& kind,
+                           const std::string& direction) {
   const ResampleKind choice = parse_choice<ResampleKind>(kind, "kind");
   const py::gil_scoped_release release;
   return direction == "grid" ? table_to_grid(held.embedding, grid, choice)
@@ -82,7 +82,7 @@ void bind_resample(py::module_& module) {
   module.def("make_grid", &grid_by_name);
   module.def("sphere_grid",
              [](const DoubleArray& V, const IntArray& F) { return sphere_grid(to_points(V), to_faces(F)); });
-  module.def("resample_table", &table);
+  module.def("resample_table", &resample_table);
   module.def("conservative_tables", &conservative);
 }
 

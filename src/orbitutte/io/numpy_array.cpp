@@ -96,9 +96,9 @@ std::size_t npy_count(const std::vector<int>& shape, std::size_t room) {
 }
 
 // Where the number that comes next, row by row, lies in an array by columns.
-class ByColumns {
+class ColumnOrder {
  public:
-  explicit ByColumns(const std::vector<int>& shape) : shape_(shape), index_(shape.size(), 0) {}
+  explicit ColumnOrder(const std::vector<int>& shape) : shape_(shape), index_(shape.size(), 0) {}
 
   std::size_t next() {
     std::size_t at = 0;
@@ -196,7 +196,7 @@ NumpyArray parse_numpy_array(std::string_view bytes) {
   array.is_whole = numbers.is_whole;
   const std::size_t size = numbers.type->size;
   array.values.resize(npy_count(array.shape, parts.numbers.size() / size));
-  ByColumns place(array.shape);
+  ColumnOrder place(array.shape);
   for (std::size_t k = 0; k < array.values.size(); ++k)
     array.values[k] =
         numbers.type->load(parts.numbers.data() + (by_columns ? place.next() : k) * size, numbers.order);

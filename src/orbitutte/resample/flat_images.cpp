@@ -20,13 +20,13 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr int searched_elements = 400;
-constexpr double same_direction = 1e-6;
+constexpr double direction_tolerance = 1e-6;
 
 Eigen::Matrix2d linear_part(const Isometry& element) { return element.matrix().topLeftCorner<2, 2>(); }
 Vector2d translation_part(const Isometry& element) { return element.matrix().topRightCorner<2, 1>(); }
 
 bool have_same_linear_part(const Isometry& a, const Isometry& b) {
-  return (linear_part(a) - linear_part(b)).norm() < same_direction;
+  return (linear_part(a) - linear_part(b)).norm() < direction_tolerance;
 }
 
 double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
@@ -45,12 +45,12 @@ std::array<Vector2d, 2> lattice_basis(const std::vector<Isometry>& elements, con
   std::vector<Vector2d> translations;
   translations.reserve(elements.size());
   for (const Isometry& element : elements)
-    if (have_same_linear_part(element, Isometry()) && translation_part(element).norm() > same_direction)
+    if (have_same_linear_part(element, Isometry()) && translation_part(element).norm() > direction_tolerance)
       translations.push_back(translation_part(element));
   for (const Vector2d& t : translations)
     if (!first || is_better_side(t, *first)) first = t;
   for (const Vector2d& t : translations)
-    if (cross(*first, t) > same_direction * first->norm() * t.norm() &&
+    if (cross(*first, t) > direction_tolerance * first->norm() * t.norm() &&
         (!second || is_better_side(t, *second)))
       second = t;
   if (!second)
@@ -83,7 +83,7 @@ Matrix3 lattice_matrix(const std::array<Vector2d, 2>& basis, const Vector2d& ori
 // The point nearest to the middle that all elements with a linear part leave where it is: (1 - A) x = t.
 std::optional<Vector2d> fixed_point(const std::vector<Isometry>& elements, const Eigen::Matrix2d& linear) {
   for (const Isometry& element : elements) {
-    if ((linear_part(element) - linear).norm() > same_direction) continue;
+    if ((linear_part(element) - linear).norm() > direction_tolerance) continue;
     return (Eigen::Matrix2d::Identity() - linear_part(element)).lu().solve(translation_part(element));
   }
   return std::nullopt;
@@ -130,7 +130,7 @@ FlatImage flat_image(const std::vector<Isometry>& elements, const Target& target
 }
 
 // The number minus the whole number below it, 0 .. 1.
-double fraction(double x) { return x - std::floor(x); }
+double fraction_of(double x) { return x - std::floor(x); }
 
 // By how much a number is outside of 0 .. bound, where 1 is 0 again.
 double outside(double x, double bound) { return x <= bound ? 0 : std::min(x - bound, 1 - x); }
@@ -172,7 +172,7 @@ Vector2d flat_place(const Grid& grid, const Vector3& point) {
   double least = std::numeric_limits<double>::infinity();
   for (const Isometry& sheet : flat.sheets) {
     const Vector3 in_cell = to_cell * (sheet * point);
-    const Vector2d place(fraction(in_cell.x()), fraction(in_cell.y()));
+    const Vector2d place(fraction_of(in_cell.x()), fraction_of(in_cell.y()));
     const double away = std::max(outside(place.x(), flat.across), outside(place.y(), flat.up));
     if (away < least) least = away, best = place;
     if (away == 0) break;

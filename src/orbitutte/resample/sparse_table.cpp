@@ -18,7 +18,7 @@ using TableEntry = std::pair<int, double>;  // a column and its weight
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
 // The entries of a row with ascending columns, each once and none of them zero.
-void tidy(std::vector<TableEntry>& entries) {
+void tidy_entries(std::vector<TableEntry>& entries) {
   std::stable_sort(entries.begin(), entries.end(),
                    [](const TableEntry& a, const TableEntry& b) { return a.first < b.first; });
   std::size_t kept = 0;
@@ -71,7 +71,7 @@ SparseTable table_from_rows(int rows, int columns, const Fill& fill) {
   return table;
 }
 
-void require_rows(const SparseTable& table, const Eigen::MatrixXd& values) {
+void require_a_value_each(const SparseTable& table, const Eigen::MatrixXd& values) {
   if (values.rows() != table.columns)
     throw ArgumentError(
         fmt::format("there are {} values for {} vertices or points", values.rows(), table.columns));
@@ -101,7 +101,7 @@ SparseTable table_of_stencils(int columns, const std::vector<Stencil>& stencils,
       for (int k = 0; k < stencil.count; ++k)
         entries.emplace_back(stencil.index[k], stencil.weight[k] / stencils_per_row);
     }
-    tidy(entries);
+    tidy_entries(entries);
   });
 }
 
@@ -136,7 +136,7 @@ SparseTable sum_of(const ScaledTable& a, const ScaledTable& b) {
     for (const ScaledTable* const part : {&a, &b})
       for (int k = part->table.start[r]; k < part->table.start[r + 1]; ++k)
         entries.emplace_back(part->table.index[k], part->factors[r] * part->table.weight[k]);
-    tidy(entries);
+    tidy_entries(entries);
   });
 }
 
@@ -169,7 +169,7 @@ void normalize_rows(SparseTable& table) {
 }
 
 Eigen::MatrixXd apply(const SparseTable& table, const Eigen::MatrixXd& values) {
-  require_rows(table, values);
+  require_a_value_each(table, values);
   Eigen::MatrixXd result(table.rows(), values.cols());
   parallel_ranges(table.rows(), [&](int begin, int end) {
     for (Eigen::Index map = 0; map < values.cols(); ++map)
@@ -184,7 +184,7 @@ Eigen::MatrixXd apply(const SparseTable& table, const Eigen::MatrixXd& values) {
 }
 
 Eigen::MatrixXd apply_to_labels(const SparseTable& table, const Eigen::MatrixXd& labels) {
-  require_rows(table, labels);
+  require_a_value_each(table, labels);
   Eigen::MatrixXd result(table.rows(), labels.cols());
   parallel_ranges(table.rows(), [&](int begin, int end) {
     std::vector<std::pair<double, double>> of_row;

@@ -14,7 +14,7 @@ namespace orbitutte {
 namespace {
 
 using std::numbers::pi;
-using Cell = std::array<Vector3, 4>;  // the corners of a pixel
+using PixelCorners = std::array<Vector3, 4>;  // the corners of a pixel
 
 double sphere_triangle_area(const Vector3& a, const Vector3& b, const Vector3& c) {
   return std::abs(Space::sphere().area(a, b, c));
@@ -145,10 +145,10 @@ Grid octahedral_grid(int size) {
     for (int column = 0; column < size; ++column) {
       const Eigen::Index k = static_cast<Eigen::Index>(row) * size + column;
       grid.points.row(k) = octahedral_point(place(column + 0.5), -place(row + 0.5)).transpose();
-      const Cell cell = {octahedral_point(place(column), -place(row)),
-                         octahedral_point(place(column + 1), -place(row)),
-                         octahedral_point(place(column + 1), -place(row + 1)),
-                         octahedral_point(place(column), -place(row + 1))};
+      const PixelCorners cell = {octahedral_point(place(column), -place(row)),
+                                 octahedral_point(place(column + 1), -place(row)),
+                                 octahedral_point(place(column + 1), -place(row + 1)),
+                                 octahedral_point(place(column), -place(row + 1))};
       // In the upper left and the lower right quarter the equator runs from the lower left to the upper
       // right.
       const bool rising = (2 * column < size) == (2 * row < size);
@@ -190,10 +190,10 @@ Grid cube_grid(int size) {
     for (int column = 0; column < size; ++column) {
       const Eigen::Index at = static_cast<Eigen::Index>(k) * size + column;
       grid.points.row(at) = cube_point(face, place(column + 0.5), place(row + 0.5)).transpose();
-      const Cell cell = {cube_point(face, place(column), place(row)),
-                         cube_point(face, place(column + 1), place(row)),
-                         cube_point(face, place(column + 1), place(row + 1)),
-                         cube_point(face, place(column), place(row + 1))};
+      const PixelCorners cell = {cube_point(face, place(column), place(row)),
+                                 cube_point(face, place(column + 1), place(row)),
+                                 cube_point(face, place(column + 1), place(row + 1)),
+                                 cube_point(face, place(column), place(row + 1))};
       grid.areas[at] =
           sphere_triangle_area(cell[0], cell[1], cell[2]) + sphere_triangle_area(cell[0], cell[2], cell[3]);
     }

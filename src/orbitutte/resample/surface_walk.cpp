@@ -26,7 +26,7 @@ constexpr int longest_walk = 20000;
 constexpr int most_crossings = 64;  // of seams, before rounding errors are left behind
 
 // The bits of a number below 2^21, each followed by two zeros.
-std::uint64_t spread_bits(std::uint64_t x) {
+std::uint64_t bits_with_gaps(std::uint64_t x) {
   x = (x | x << 32) & 0x1f00000000ffffULL;
   x = (x | x << 16) & 0x1f0000ff0000ffULL;
   x = (x | x << 8) & 0x100f00f00f00f00fULL;
@@ -48,7 +48,7 @@ std::vector<int> along_curve(const Points& points) {
       for (int c = 0; c < 3; ++c) {
         const double share = (points(k, c) - low[c]) / size;
         const auto cell = static_cast<std::uint64_t>(share >= 0 && share <= 1 ? share * cells : 0);
-        key |= spread_bits(cell) << c;
+        key |= bits_with_gaps(cell) << c;
       }
       keys[k] = {key, k};
     }
