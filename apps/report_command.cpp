@@ -43,7 +43,10 @@ int report_command(const ReportArguments& arguments) {
   if (!has_interactive_view()) options.pictures = page_pictures(surface, embedding, claims);
   write_file(arguments.output, report_page({surface, embedding, report}, options));
   if (!has_interactive_view())
-    tell("{} has no interactive view, because this program was built without Node.js\n", arguments.output);
+    tell(
+        "{} has no interactive view, which alone shows colours of vertices, because this program was built "
+        "without Node.js\n",
+        arguments.output);
   return written;
 }
 
