@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "orbitutte/choose.h"
+#include "orbitutte/export/sphere_surface.h"
 #include "orbitutte/export/texture_chart.h"
 #include "orbitutte/export/tiling.h"
 #include "orbitutte/map/surface_map.h"
@@ -77,8 +78,17 @@ int tile_command(const TileArguments& arguments);
 
 struct ExportArguments {
   std::string embedding, report, mesh, output, chart;
+  double radius = brain_sphere_radius;
 };
 int export_command(const ExportArguments& arguments);
+
+struct MeasureArguments {
+  std::string embedding, report, mesh, output, measure = "all";
+  /// 0: that for which image and surface have the same area.
+  double radius = 0;
+  bool faces = false, quiet = false, json = false;
+};
+int measure_command(const MeasureArguments& arguments);
 
 struct RenderArguments {
   std::string embedding, report, mesh, output;
@@ -87,7 +97,7 @@ struct RenderArguments {
 int render_command(const RenderArguments& arguments);
 
 struct ReportArguments {
-  std::string embedding, report, mesh, output;
+  std::string embedding, report, mesh, output, values, map = "0";
 };
 int report_command(const ReportArguments& arguments);
 

@@ -275,6 +275,7 @@ int embed_command(const EmbedArguments& arguments) {
   EmbedResult& result = embedded.result;
   if (arguments.floor) measure_floor(*surface, options, result);
   result.warnings.insert(result.warnings.begin(), reader_warnings.begin(), reader_warnings.end());
+  run.strain = strain_statistics(measure_strain(*surface, result.embedding).at_vertices);
   line.clear();
   for (const std::string& warning : result.warnings) tell("orbitutte: warning: {}\n", warning);
 

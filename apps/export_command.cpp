@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "commands.h"
+#include "orbitutte/export/cut_triangles.h"
 #include "orbitutte/export/export.h"
+#include "orbitutte/export/sphere_surface.h"
 #include "orbitutte/inspect/recognition.h"
 #include "orbitutte/io/mesh_io.h"
 #include "orbitutte/report/embedding_file.h"
@@ -9,12 +11,31 @@
 
 namespace orbitutte::cli {
 
+namespace {
+
+bool is_brain_surface(MeshFormat format) {
+  return format == MeshFormat::gifti || format == MeshFormat::freesurfer;
+}
+
+// The sphere alone.
+int export_sphere(const ExportArguments& arguments, const Embedding& embedding) {
+  require_cut_from(make_surface(read_mesh(arguments.mesh)), embedding);
+  const PolygonMesh sphere = sphere_surface(embedding, arguments.radius);
+  write_mesh(arguments.output, sphere);
+  tell("{}: the sphere of radius {}, {} vertices, {} faces\n", arguments.output, arguments.radius,
+       sphere.vertex_count(), sphere.face_count());
+  return succeeded;
+}
+
+}  // namespace
+
 int export_command(const ExportArguments& arguments) {
   std::optional<TextureChart> asked_for;
   if (!arguments.chart.empty()) asked_for = parse_choice<TextureChart>(arguments.chart, "--chart");
   const Embedding embedding = read_embedding(arguments.embedding, read_report(arguments.report));
-  const TextureChart chart = asked_for.value_or(suitable_chart(embedding));
   warn(warnings_of_offsets(embedding));
+  if (is_brain_surface(mesh_format(arguments.output))) return export_sphere(arguments, embedding);
+  const TextureChart chart = asked_for.value_or(suitable_chart(embedding));
   const ExportedModel model = exported_model(make_surface(read_mesh(arguments.mesh)), embedding, chart);
   write_model(arguments.output, model);
   tell(

@@ -112,11 +112,15 @@ class Command {
   std::vector<Expected<OutputFile>> outputs_;
 };
 
+// What meshes are written as.
+const std::vector<std::string> mesh_endings = {".obj",  ".off", ".ply", ".stl",  ".vtk",   ".vtp",
+                                               ".gltf", ".glb", ".gii", ".pial", ".white", ".orig"};
+
 template <typename Arguments>
 void read_mesh_of(Command<Arguments>& command) {
   command
       .input("mesh", command->mesh, "the mesh",
-             "The mesh: OBJ, OFF, PLY, STL, VTK, GIfTI or FreeSurfer, plain or with .gz")
+             "The mesh: OBJ, OFF, PLY, STL, VTK, VTP, glTF, GIfTI or FreeSurfer, plain or with .gz")
       ->required();
 }
 
@@ -291,14 +295,41 @@ void add_export(CLI::App& app, int& code) {
       app, "export", "Write the mesh with its embedding as texture coordinates, for other programs");
   read_embedding_and_mesh_of(command);
   command
-      .output("-o,--output", command->output, {"-o", "the model", "", {".obj", ".glb", ".ply", ".vtp"}},
-              "Write the model here: .obj, .glb, .ply or .vtp")
+      .output("-o,--output", command->output,
+              {"-o", "the model", "", {".obj", ".glb", ".ply", ".vtp", ".gii", ".sphere", ".reg"}},
+              "Write the model here: .obj, .glb, .ply or .vtp; or the sphere alone as a surface: .surf.gii, "
+              ".sphere or .reg")
       ->required();
   command.option(
       "--chart", command->chart,
       "How the sphere is laid into the texture: stereographic, equirectangular or octahedral; if it "
       "is not given, stereographic, but equirectangular for the whole sphere");
+  command.option("--radius", command->radius, "Of the sphere that is written as a surface")
+      ->capture_default_str();
   command.runs(export_command, code);
+}
+
+void add_measure(CLI::App& app, int& code) {
+  Command<MeasureArguments> command(
+      app, "measure",
+      "Measure how an embedding deforms the surface, at every vertex, as programs for the cortex do");
+  read_embedding_and_mesh_of(command);
+  command.output("-o,--output", command->output,
+                 {"-o", "the measures", "", {".gii", ".curv", ".csv", ".txt", ".npy"}},
+                 "Write the measures here: .shape.gii, .func.gii, .curv (one measure), .csv, .txt or .npy");
+  command
+      .option("--measure", command->measure,
+              "area (of the faces around a vertex), J (area ratio of triangles), R (their elongation), edge "
+              "(lengths), or all; logarithms of base 2")
+      ->capture_default_str();
+  command.flag("--faces", command->faces, "Measure faces in place of vertices; for .csv, .txt and .npy");
+  command.option(
+      "--radius", command->radius,
+      "Of the sphere to which the surface is compared, such as 100; if it is not given, the one with "
+      "the area of the surface");
+  command.flag("--quiet", command->quiet, "Print no table");
+  command.flag("--json", command->json, "Print JSON");
+  command.runs(measure_command, code);
 }
 
 // From where pictures show the mesh.
@@ -335,6 +366,13 @@ void add_report(CLI::App& app, int& code) {
       .output("-o,--output", command->output, {"-o", "the page", "", {".html", ".htm"}},
               "Write the page (HTML) here")
       ->required();
+  CLI::Option* const values = command.input(
+      "--values", command->values, "the values",
+      "Colour the surface by values at its vertices: .shape.gii, .func.gii, .label.gii, .annot, FreeSurfer's "
+      ".curv, .thickness and the like, .csv, .txt or .npy");
+  command.option("--map", command->map, "Which map of that file: its name, or its number from 0")
+      ->capture_default_str()
+      ->needs(values);
   command.runs(report_command, code);
 }
 
@@ -365,9 +403,8 @@ void add_repair(CLI::App& app, int& code) {
       app, "repair", "Weld, clean, cut apart and close a mesh, so that it can be embedded; says what it did");
   read_mesh_of(command);
   command
-      .output("-o,--output", command->output,
-              {"-o", "the mesh", "", {".obj", ".off", ".ply", ".stl", ".vtk", ".gii"}},
-              "Write the repaired mesh here: .obj, .off, .ply, .stl, .vtk or .gii")
+      .output("-o,--output", command->output, {"-o", "the mesh", "", mesh_endings},
+              fmt::format("Write the repaired mesh here: {}", fmt::join(mesh_endings, ", ")))
       ->required();
   command.output("--report", command->report, {"--report", "the report", "", {".json"}},
                  "Write what was done here, and for each vertex that of the input (-1 for new ones): .json");
@@ -390,7 +427,7 @@ void add_repair(CLI::App& app, int& code) {
 void add_map(CLI::App& app, int& code) {
   Command<MapArguments> command(
       app, "map", "Map one surface to another so that landmarks correspond, one to one, and certify it");
-  command.input("a", command->a, "surface A", "Surface A: OBJ, OFF, PLY or STL")->required();
+  command.input("a", command->a, "surface A", "Surface A: a mesh as of embed")->required();
   command.input("b", command->b, "surface B", "Surface B, of the same topology")->required();
   command.option(
       "--landmarks", command->landmarks,
@@ -459,9 +496,8 @@ void add_resample(CLI::App& app, int& code) {
 void add_sample(CLI::App& app, int& code) {
   Command<SampleArguments> command(app, "sample", "Make a mesh to try things on");
   command
-      .output("-o,--output", command->output,
-              {"-o", "the mesh", "", {".obj", ".off", ".ply", ".stl", ".vtk", ".gii"}},
-              "Write the mesh here: .obj, .off, .ply, .stl, .vtk or .gii")
+      .output("-o,--output", command->output, {"-o", "the mesh", "", mesh_endings},
+              fmt::format("Write the mesh here: {}", fmt::join(mesh_endings, ", ")))
       ->required();
   command
       .option("--shape", command->shape,
@@ -496,6 +532,7 @@ void add_commands(CLI::App& app, int& code) {
   add_verify(app, code);
   add_tile(app, code);
   add_export(app, code);
+  add_measure(app, code);
   add_render(app, code);
   add_report(app, code);
   add_compare(app, code);

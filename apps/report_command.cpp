@@ -3,7 +3,9 @@
 
 #include "command_arguments.h"
 #include "commands.h"
+#include "orbitutte/export/value_colours.h"
 #include "orbitutte/io/file.h"
+#include "orbitutte/io/vertex_data.h"
 #include "orbitutte/page/page.h"
 #include "orbitutte/report/embedding_file.h"
 #include "orbitutte/report/report.h"
@@ -12,18 +14,39 @@
 
 namespace orbitutte::cli {
 
+namespace {
+
+// The colours of the values take the place of the mesh's own.
+void show_values(const ReportArguments& arguments, Surface& surface) {
+  const VertexData data = read_vertex_data(arguments.values);
+  if (data.values.rows() != surface.V.rows())
+    throw MeshError(
+        fmt::format("{} has values of {} vertices, but the mesh has {}; take the file of this surface",
+                    arguments.values, data.values.rows(), surface.V.rows()));
+  ValueColours shown = value_colours(data, find_map(data, arguments.map));
+  surface.colours = std::move(shown.colours);
+  if (data.labels.empty())
+    tell("{}: colours of vertices from {:.4g} to {:.4g}\n", arguments.values, shown.low, shown.high);
+}
+
+}  // namespace
+
 int report_command(const ReportArguments& arguments) {
   constexpr int written = 0;
   const Report claims = read_report(arguments.report);
   Embedding embedding = read_embedding(arguments.embedding, claims);
   warn(warnings_of_offsets(embedding));
-  const Surface surface = read_source(arguments.mesh, embedding);
+  Surface surface = read_source(arguments.mesh, embedding);
+  if (!arguments.values.empty()) show_values(arguments, surface);
   const std::string report = read_file(arguments.report);
   PageOptions options;
   if (!has_interactive_view()) options.pictures = page_pictures(surface, embedding, claims);
   write_file(arguments.output, report_page({surface, embedding, report}, options));
   if (!has_interactive_view())
-    tell("{} has no interactive view, because this program was built without Node.js\n", arguments.output);
+    tell(
+        "{} has no interactive view, which alone shows colours of vertices, because this program was built "
+        "without Node.js\n",
+        arguments.output);
   return written;
 }
 

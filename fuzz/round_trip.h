@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What has to hold for any bytes given to a mesh reader. The fuzz targets and the test that replays their
-// corpus both check it.
+// What has to hold for any bytes given to a reader of meshes or of values at vertices. The fuzz targets and
+// the test that replays their corpus both check it.
 #pragma once
 
 #include <algorithm>
@@ -14,6 +14,7 @@
 
 #include "orbitutte/io/mesh_io.h"
 #include "orbitutte/io/ply.h"
+#include "orbitutte/io/vertex_data.h"
 
 namespace orbitutte::fuzz {
 
@@ -93,12 +94,19 @@ inline void check_ply_round_trip(std::string_view bytes) {
   require(serialize_ply(parse_ply(once)) == once, "a PLY file comes back byte by byte");
 }
 
+inline bool keeps_single_precision(MeshFormat format) {
+  constexpr MeshFormat formats[] = {MeshFormat::gifti, MeshFormat::freesurfer, MeshFormat::gltf,
+                                    MeshFormat::glb};
+  return std::find(std::begin(formats), std::end(formats), format) != std::end(formats);
+}
+
 inline void check_accepted(std::string_view bytes, MeshFormat format) {
   const PolygonMesh polygons = parse_mesh(bytes, format);
   check_faces(polygons);
   check_colours(polygons);
   if (!is_indexed_triangle_mesh(polygons)) return;
-  const Mesh mesh = to_triangle_mesh(polygons);
+  Mesh mesh = to_triangle_mesh(polygons);
+  if (keeps_single_precision(format)) mesh.V = mesh.V.cast<float>().cast<double>().eval();
   const Mesh again = to_triangle_mesh(parse_mesh(serialize_mesh(mesh, format), format));
   format == MeshFormat::stl ? check_same_corners(mesh, again) : check_same_mesh(mesh, again);
 }
@@ -111,6 +119,41 @@ void check_or_refuse(Check check) {
   } catch (const MeshError& error) {
     check_message(error.what());
   }
+}
+
+inline bool same_value(double a, double b, VertexDataFormat format) {
+  switch (format) {
+    case VertexDataFormat::annot:
+      return a == b || a == -1;
+    case VertexDataFormat::label_gifti:
+      return a == b;
+    case VertexDataFormat::curv:
+    case VertexDataFormat::shape_gifti:
+    case VertexDataFormat::func_gifti:
+      return same_number(static_cast<float>(a), static_cast<float>(b));
+    default:
+      return same_number(a, b);
+  }
+}
+
+/// Values come back: in single precision from GIfTI and FreeSurfer's curv. Where no label was, an annotation
+/// that has a black label may have that one.
+inline void check_accepted_values(std::string_view bytes, VertexDataFormat format) {
+  const VertexData data = parse_vertex_data(bytes, format);
+  require(data.names.empty() || static_cast<Eigen::Index>(data.names.size()) == data.values.cols(),
+          "all maps have names, or none");
+  const VertexData again = parse_vertex_data(serialize_vertex_data(data, format), format);
+  require(data.values.rows() == again.values.rows() && data.values.cols() == again.values.cols(),
+          "as many values come back");
+  if (format == VertexDataFormat::annot || format == VertexDataFormat::label_gifti)
+    require(data.labels.size() == again.labels.size(), "labels come back");
+  for (Eigen::Index k = 0; k < data.values.size(); ++k)
+    require(same_value(data.values(k), again.values(k), format), "values come back");
+}
+
+/// As check_round_trip, of values at vertices.
+inline void check_value_round_trip(std::string_view bytes, VertexDataFormat format) {
+  check_or_refuse([&] { check_accepted_values(bytes, format); });
 }
 
 /// Throws std::logic_error, or whatever the readers throw by mistake, where a property is violated.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// GIfTI, FreeSurfer and VTK files, and compressed ones.
+// GIfTI, FreeSurfer, VTK, glTF and binary OFF files, and compressed ones.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -51,7 +51,20 @@ INSTANTIATE_TEST_SUITE_P(Files, TheSameTetrahedron,
                                          CornerFile{"freesurfer/tetrahedron", MeshFormat::freesurfer},
                                          CornerFile{"vtk/text.vtk", MeshFormat::vtk},
                                          CornerFile{"vtk/binary.vtk", MeshFormat::vtk},
-                                         CornerFile{"vtk/offsets.vtk", MeshFormat::vtk}));
+                                         CornerFile{"vtk/offsets.vtk", MeshFormat::vtk},
+                                         CornerFile{"off/binary_tetrahedron.off", MeshFormat::off},
+                                         CornerFile{"off/binary_all_columns.off", MeshFormat::off},
+                                         CornerFile{"gltf/tetrahedron.gltf", MeshFormat::gltf},
+                                         CornerFile{"gltf/tetrahedron.glb", MeshFormat::glb},
+                                         CornerFile{"gltf/image.gltf", MeshFormat::gltf},
+                                         CornerFile{"vtp/text.vtp", MeshFormat::vtp},
+                                         CornerFile{"vtp/binary.vtp", MeshFormat::vtp},
+                                         CornerFile{"vtp/binary_zlib.vtp", MeshFormat::vtp},
+                                         CornerFile{"vtp/binary_big_endian.vtp", MeshFormat::vtp},
+                                         CornerFile{"vtp/appended_raw.vtp", MeshFormat::vtp},
+                                         CornerFile{"vtp/appended_raw_zlib.vtp", MeshFormat::vtp},
+                                         CornerFile{"vtp/appended_base64.vtp", MeshFormat::vtp},
+                                         CornerFile{"vtp/appended_base64_zlib.vtp", MeshFormat::vtp}));
 
 struct BadFile {
   std::string name;
@@ -81,7 +94,53 @@ INSTANTIATE_TEST_SUITE_P(
                     BadFile{"freesurfer/negative", MeshFormat::freesurfer, "promises -4 vertices"},
                     BadFile{"vtk/grid.vtk", MeshFormat::vtk, "POLYDATA"},
                     BadFile{"vtk/cut_short.vtk", MeshFormat::vtk, "cut short"},
-                    BadFile{"vtk/promise.vtk", MeshFormat::vtk, "2000000000"}));
+                    BadFile{"vtk/promise.vtk", MeshFormat::vtk, "2000000000"},
+                    BadFile{"off/binary.off", MeshFormat::off, "the number of vertices is 4, but only"},
+                    BadFile{"off/binary_promise.off", MeshFormat::off, "2147483647"},
+                    BadFile{"off/binary_more_bytes.off", MeshFormat::off, "bytes follow"},
+                    BadFile{"gltf/external.gltf", MeshFormat::gltf, "'tetrahedron.bin', which is not read"},
+                    BadFile{"gltf/index_out_of_range.glb", MeshFormat::glb, "names the vertex 9"},
+                    BadFile{"gltf/promise.glb", MeshFormat::glb, "4000000000 elements do not fit"},
+                    BadFile{"gltf/outside.glb", MeshFormat::glb, "do not fit"},
+                    BadFile{"gltf/compressed.glb", MeshFormat::glb, "compressed"},
+                    BadFile{"gltf/cut_short.glb", MeshFormat::glb, "no glTF 2.0"},
+                    BadFile{"gltf/no_meshes.gltf", MeshFormat::gltf, "no triangles"},
+                    BadFile{"vtp/lz4.vtp", MeshFormat::vtp, "vtkLZ4DataCompressor"},
+                    BadFile{"vtp/grid.vtp", MeshFormat::vtp, "UnstructuredGrid"},
+                    BadFile{"vtp/cut_short.vtp", MeshFormat::vtp, "DataArray"},
+                    BadFile{"vtp/offsets_decrease.vtp", MeshFormat::vtp, "the cell 1 ends at 2"},
+                    BadFile{"vtp/index_no_number.vtp", MeshFormat::vtp, "'x' stands where a number"},
+                    BadFile{"vtp/no_connectivity.vtp", MeshFormat::vtp, "'connectivity'"}));
+
+TEST(Gltf, PrimitivesShareTheVerticesOfOneAccessor) {
+  const PolygonMesh mesh = parse_mesh(corpus("gltf/strip_and_triangles.glb"), MeshFormat::glb);
+  EXPECT_EQ(mesh.vertex_count(), 4);
+  EXPECT_EQ(mesh.corners, (std::vector<int>{0, 2, 1, 0, 1, 3, 1, 2, 3, 3, 2, 0}));
+  EXPECT_EQ(mesh.warnings.size(), 1U);  // a node has a transform
+}
+
+TEST(Gltf, OfNothingIsNotWritten) {
+  EXPECT_THROW(serialize_mesh(Mesh{Points(0, 3), Triangles(0, 3)}, MeshFormat::glb), MeshError);
+}
+
+TEST(Vtp, PiecesFollowEachOther) {
+  const PolygonMesh mesh = parse_mesh(corpus("vtp/two_pieces.vtp"), MeshFormat::vtp);
+  EXPECT_EQ(mesh.vertex_count(), 8);
+  EXPECT_EQ(mesh.corners,
+            (std::vector<int>{0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3, 4, 6, 5, 4, 5, 7, 5, 6, 7, 6, 4, 7}));
+}
+
+TEST(Vtp, StripsAreOrientedTriangles) {
+  const PolygonMesh mesh = parse_mesh(corpus("vtp/strip.vtp"), MeshFormat::vtp);
+  EXPECT_EQ(mesh.corners, (std::vector<int>{0, 1, 2, 2, 1, 3}));
+}
+
+TEST(BinaryOff, HasColoursOfVerticesAndSkipsThoseOfFaces) {
+  const PolygonMesh coloured = parse_mesh(corpus("off/binary_all_columns.off"), MeshFormat::off);
+  EXPECT_EQ(coloured.colours, coloured.V);  // as the file was made
+  const PolygonMesh mesh = parse_mesh(corpus("off/binary_face_colours.off"), MeshFormat::off);
+  EXPECT_EQ(mesh.corners, (std::vector<int>{0, 1, 2, 3, 0, 1, 2}));
+}
 
 TEST(Vtk, StripsAreOrientedTriangles) {
   const PolygonMesh mesh = parse_mesh(corpus("vtk/strip.vtk"), MeshFormat::vtk);
@@ -100,18 +159,23 @@ TEST_P(ComesBack, WithTheSameFacesAndTheSamePositionsInSinglePrecision) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, ComesBack,
-                         testing::Values(MeshFormat::gifti, MeshFormat::freesurfer, MeshFormat::vtk));
+                         testing::Values(MeshFormat::gifti, MeshFormat::freesurfer, MeshFormat::vtk,
+                                         MeshFormat::vtp, MeshFormat::gltf, MeshFormat::glb));
 
-TEST(Vtk, KeepsDoublesAndPolygons) {
+class KeepsDoublesAndPolygons : public testing::TestWithParam<MeshFormat> {};
+
+TEST_P(KeepsDoublesAndPolygons, OfAnyMesh) {
   PolygonMesh mesh;
   mesh.V.resize(4, 3);
   mesh.V << 0.1, 0, 0, 1.0 / 3, 1e-300, 0, 1, 1, 0, 0, 1, 0;
   mesh.corners = {0, 1, 2, 3};
   mesh.face_start = {0, 4};
-  const PolygonMesh read = parse_mesh(serialize_mesh(mesh, MeshFormat::vtk), MeshFormat::vtk);
+  const PolygonMesh read = parse_mesh(serialize_mesh(mesh, GetParam()), GetParam());
   EXPECT_EQ(read.V, mesh.V);
   EXPECT_EQ(read.corners, mesh.corners);
 }
+
+INSTANTIATE_TEST_SUITE_P(Vtk, KeepsDoublesAndPolygons, testing::Values(MeshFormat::vtk, MeshFormat::vtp));
 
 TEST(Gifti, KnowsLabelsNamesAndTransforms) {
   std::string text = corpus("gifti/text.gii");

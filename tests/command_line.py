@@ -18,7 +18,7 @@ import tempfile
 import unittest
 
 PROGRAM = ''
-COMMANDS = ['embed', 'choose', 'info', 'types', 'verify', 'tile', 'export', 'render', 'report', 'compare', 'repair', 'map', 'resample', 'sample']
+COMMANDS = ['embed', 'choose', 'info', 'types', 'verify', 'tile', 'export', 'measure', 'render', 'report', 'compare', 'repair', 'map', 'resample', 'sample']
 IS_A_FILE, IS_WRONG, IS_UNSUITABLE, IS_NOT_CONVERGED, IS_NOT_CERTIFIED = 1, 2, 3, 4, 5
 
 
@@ -135,7 +135,8 @@ class Files(CommandLine):
         for arguments in (self.embed('no.obj', '-o', 'out.obj'), self.embed('no.obj', '-o', 'out'), self.embed('no.obj', '--report', 'out.txt'),
                           ['tile', *embedding, '-o', 'out.off'], ['export', *embedding, 'no.obj', '-o', 'out.stl'],
                           ['render', *embedding, 'no.obj', '-o', 'out.jpg'], ['report', *embedding, 'no.obj', '-o', 'out.pdf'],
-                          ['compare', 'no.obj', '-o', 'out.jpg'], ['sample', '-o', 'out.glb']):
+                          ['compare', 'no.obj', '-o', 'out.jpg'], ['sample', '-o', 'out.fbx'],
+                          ['measure', *embedding, 'no.obj', '-o', 'out.json']):
             with self.subTest(arguments):
                 wrong = arguments[-1]
                 self.expect(IS_WRONG, *arguments, says=f"{arguments[-2]} is '{wrong}', but .* is written as [.]\\w+.*; change the ending")
@@ -383,6 +384,56 @@ class WholeSphere(CommandLine):
         done = self.run_program('verify', 'whole.ply', 'whole.json', 'figure.obj')
         self.assertEqual(done.returncode, IS_NOT_CERTIFIED)
         self.assertIn('report_centre', done.stdout + done.stderr)
+
+
+class BrainFiles(CommandLine):
+    files = ['map.ply', 'map.json', 'figure.obj']
+
+    def test_measures_are_written_and_printed(self):
+        vertices = len(read_obj(self.folder / 'figure.obj')[0])
+        done = self.expect(0, 'measure', *self.files, '-o', 'strain.csv')
+        lines = (self.folder / 'strain.csv').read_text().splitlines()
+        self.assertEqual((lines[0], len(lines)), ('"log2 area","log2 J","log2 R","log2 edge"', vertices + 1))
+        self.assertEqual([line.split()[0] for line in done.stdout.splitlines()], ['log2', 'area', 'J', 'R', 'edge'])
+        self.expect(0, 'measure', *self.files, '--faces', '--measure', 'R', '-o', 'faces.txt', '--quiet')
+        elongations = [float(line) for line in (self.folder / 'faces.txt').read_text().splitlines()]
+        self.assertEqual(len(elongations), 500)
+        self.assertGreaterEqual(min(elongations), 0)
+        strain = json.loads((self.folder / 'map.json').read_text())['distortion']['strain']
+        self.assertEqual(json.loads(self.expect(0, 'measure', *self.files, '--json').stdout), strain)
+        self.expect(0, 'measure', *self.files, '--measure', 'J', '-o', 'lh.J.curv')
+
+    def test_measures_that_cannot_be_written_are_refused(self):
+        self.expect(IS_WRONG, 'measure', *self.files, '--measure', 'K', says='area, J, R, edge or all')
+        self.expect(IS_WRONG, 'measure', *self.files, '--radius', -1, says='--radius is -1; give a positive number')
+        self.expect(IS_WRONG, 'measure', *self.files, '--faces', '-o', 'x.shape.gii', says='values of vertices; write those of faces as')
+        self.expect(IS_UNSUITABLE, 'measure', *self.files, '-o', 'x.curv', says='hold one map, but there are 4')
+        self.assertFalse((self.folder / 'x.curv').exists())
+        self.expect(0, 'sample', '--faces', 700, '-o', 'other.obj')
+        self.expect(IS_UNSUITABLE, 'measure', 'map.ply', 'map.json', 'other.obj', says='does not belong to this mesh')
+
+    def test_the_sphere_is_a_surface_of_radius_100(self):
+        self.expect(0, 'embed', 'figure.obj', '--orbifold', '1', '-o', 'whole.ply', '--report', 'whole.json')
+        whole = ['whole.ply', 'whole.json', 'figure.obj']
+        self.expect(0, 'export', *whole, '-o', 'lh.sphere', says='the sphere of radius 100')
+        self.expect(0, 'export', *whole, '-o', 'lh.sphere.surf.gii', '--radius', 2)
+        for name, radius in (('lh.sphere', 100), ('lh.sphere.surf.gii', 2)):
+            info = json.loads(self.expect(0, 'info', name, '--json').stdout)
+            self.assertEqual((info['topology'], info['faces']), ('sphere', 500))
+            self.assertLess(abs(info['area'] / (4 * math.pi * radius ** 2) - 1), 0.2)
+        self.expect(IS_WRONG, 'export', *whole, '-o', 'x.sphere', '--radius', 0, says='--radius is 0; give a positive number')
+        self.expect(0, *self.embed('figure.obj', '-o', 'flat.ply', '--report', 'flat.json', orbifold='442'))
+        self.expect(IS_WRONG, 'export', 'flat.ply', 'flat.json', 'figure.obj', '-o', 'x.sphere', says='only spheres are written as surfaces')
+
+    def test_the_page_shows_values(self):
+        self.expect(0, 'measure', *self.files, '-o', 'strain.shape.gii', '--quiet')
+        self.expect(0, 'report', *self.files, '--values', 'strain.shape.gii', '--map', 'log2 J', '-o', 'page.html', says='colours of vertices from -')
+        self.expect(0, 'report', *self.files, '--values', 'strain.shape.gii', '--map', 3, '-o', 'page.html')
+        self.expect(IS_WRONG, 'report', *self.files, '--values', 'strain.shape.gii', '--map', 'log2 K', '-o', 'x.html', says="there is no map 'log2 K'")
+        (self.folder / 'short.txt').write_text('1\n2\n')
+        self.expect(IS_UNSUITABLE, 'report', *self.files, '--values', 'short.txt', '-o', 'x.html', says='values of 2 vertices, but the mesh has')
+        self.expect(IS_WRONG, 'report', *self.files, '--map', 'J', '-o', 'x.html', says='--values')
+        self.assertFalse((self.folder / 'x.html').exists())
 
 
 class Messages(CommandLine):

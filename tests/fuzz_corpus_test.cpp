@@ -33,13 +33,35 @@ TEST_P(FuzzCorpus, IsReadAndComesBackOrIsRefusedInOneSentence) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Formats, FuzzCorpus,
-                         testing::Values(std::pair{"obj", MeshFormat::obj}, std::pair{"off", MeshFormat::off},
-                                         std::pair{"ply", MeshFormat::ply}, std::pair{"stl", MeshFormat::stl},
-                                         std::pair{"gifti", MeshFormat::gifti},
-                                         std::pair{"freesurfer", MeshFormat::freesurfer},
-                                         std::pair{"vtk", MeshFormat::vtk}),
-                         [](const auto& test) { return test.param.first; });
+INSTANTIATE_TEST_SUITE_P(
+    Formats, FuzzCorpus,
+    testing::Values(std::pair{"obj", MeshFormat::obj}, std::pair{"off", MeshFormat::off},
+                    std::pair{"ply", MeshFormat::ply}, std::pair{"stl", MeshFormat::stl},
+                    std::pair{"gifti", MeshFormat::gifti}, std::pair{"freesurfer", MeshFormat::freesurfer},
+                    std::pair{"vtk", MeshFormat::vtk}, std::pair{"vtp", MeshFormat::vtp},
+                    std::pair{"gltf", MeshFormat::gltf}, std::pair{"gltf", MeshFormat::glb}),
+    [](const auto& test) { return test.param.first + std::to_string(static_cast<int>(test.param.second)); });
+
+class ValuesFuzzCorpus : public testing::TestWithParam<std::pair<std::string, VertexDataFormat>> {};
+
+TEST_P(ValuesFuzzCorpus, IsReadAndComesBackOrIsRefusedInOneSentence) {
+  const auto& [name, format] = GetParam();
+  const std::vector<fs::path> files = corpus(name);
+  EXPECT_FALSE(files.empty());
+  for (const fs::path& file : files) {
+    EXPECT_NO_THROW(fuzz::check_value_round_trip(read_file(file.string()), format)) << file;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Formats, ValuesFuzzCorpus,
+    testing::Values(std::pair{"curv", VertexDataFormat::curv}, std::pair{"annot", VertexDataFormat::annot},
+                    std::pair{"npy", VertexDataFormat::npy}, std::pair{"values_text", VertexDataFormat::csv},
+                    std::pair{"values_text", VertexDataFormat::text},
+                    std::pair{"values_gifti", VertexDataFormat::shape_gifti},
+                    std::pair{"values_gifti", VertexDataFormat::func_gifti},
+                    std::pair{"values_gifti", VertexDataFormat::label_gifti}),
+    [](const auto& test) { return test.param.first + std::to_string(static_cast<int>(test.param.second)); });
 
 }  // namespace
 }  // namespace orbitutte::fuzz_corpus_test

@@ -26,8 +26,10 @@ distortion(embedding[, V, F]) -> dict   area and angle distortion again
 distortion_floor(V, F, signature, cones) -> dict    the distortion that the coarseness of the mesh costs
 tile(embedding) -> (V, F, copy)         |G| copies, welded into one closed mesh
 sample_mesh(shape, faces) -> (V, F)     a mesh to try things with
-read_mesh(path) -> (V, F)               OBJ, OFF, PLY, STL, VTK, GIfTI, FreeSurfer; .gz
+read_mesh(path) -> (V, F)               OBJ, OFF, PLY, STL, VTK, VTP, glTF, GIfTI, FreeSurfer; .gz
 write_mesh(path, V, F)
+read_vertex_data(path) -> VertexData    values, names, labels of GIfTI, FreeSurfer, .csv, .txt, .npy; .gz
+write_vertex_data(path, values[, names, labels])
 build() -> dict                         version, commit, linear algebra
 keep_freed_memory(), use_huge_pages()   for programs that embed many large meshes
 Embedding                               positions, faces, source_vertex, seams, group, energy, certificate, ...;
@@ -54,11 +56,13 @@ from ._embedding import Cone, EdgeWeights, Embedding, Location, Offsets, Seam
 from ._map import Overlay, SurfaceMap, SurfacePoints, map_between
 from ._orbitutte import __version__
 from ._resample import Resampler, Table, resample
+from ._values import ValueLabel, VertexData, read_vertex_data, write_vertex_data
 from .errors import ArgumentError, Cancelled, EmbeddingWarning, Error, FileError, MeshError, MeshWarning
 
 __all__ = [
     "ArgumentError", "Cancelled", "Cone", "EdgeWeights", "Embedding", "EmbeddingWarning", "Error", "FileError",
-    "FittedCones", "Location", "MeshError", "MeshWarning", "Offsets", "Overlay", "Resampler", "Seam", "Solver", "SurfaceMap", "SurfacePoints", "Table", "Tiling", "__version__", "build", "choose", "choose_cones", "distortion",
-    "distortion_floor", "embed", "families", "fitted_cones", "info", "keep_freed_memory", "map_between", "read_mesh", "resample", "sample_mesh", "signatures", "tile",
-    "use_huge_pages", "verify", "write_mesh",
+    "FittedCones", "Location", "MeshError", "MeshWarning", "Offsets", "Overlay", "Resampler", "Seam", "Solver", "SurfaceMap", "SurfacePoints", "Table", "Tiling", "ValueLabel", "VertexData", "__version__",
+    "build", "choose", "choose_cones", "distortion",
+    "distortion_floor", "embed", "families", "fitted_cones", "info", "keep_freed_memory", "map_between", "read_mesh", "read_vertex_data", "resample", "sample_mesh", "signatures", "tile",
+    "use_huge_pages", "verify", "write_mesh", "write_vertex_data",
 ]

@@ -250,7 +250,7 @@ def verify(embedding: Embedding, V: npt.ArrayLike | None = None, F: Any = None, 
 
 
 def distortion(embedding: Embedding, V: npt.ArrayLike | None = None, F: Any = None) -> dict[str, Any]:
-    """Area and angle distortion, measured again: ``area``, ``angle``, ``histogram``, ``measured_faces``."""
+    """Area and angle distortion, measured again: ``area``, ``angle``, ``histogram``, ``measured_faces``, ``strain``."""
     mesh = _mesh_or_none(V, F)
     core = _embedding(embedding)._core
     return (core if mesh is None else core.with_mesh(mesh)).distortion()
@@ -347,7 +347,7 @@ def use_huge_pages() -> None:
 
 
 def read_mesh(path: str | os.PathLike) -> tuple[npt.NDArray[np.float64], _arrays.Faces]:
-    """Read an OBJ, OFF, PLY, STL, VTK, GIfTI or FreeSurfer file, plain or compressed (`.gz`).
+    """Read an OBJ, OFF, PLY, STL, VTK, VTP, glTF, GIfTI or FreeSurfer file, plain or compressed (`.gz`).
 
     Returns
     -------
@@ -372,7 +372,7 @@ def read_mesh(path: str | os.PathLike) -> tuple[npt.NDArray[np.float64], _arrays
 
 
 def write_mesh(path: str | os.PathLike, V: npt.ArrayLike, F: Any) -> None:
-    """Write OBJ, OFF, PLY or (triangles only) STL, as the ending of the path says. The file appears whole or not at all."""
+    """Write OBJ, OFF, PLY, VTK, VTP or (triangles only) STL, glTF, GIfTI or FreeSurfer, as the ending of the path says. The file appears whole or not at all."""
     mesh = _arrays.mesh(_arrays.finite_positions(V), F)
     _arrays.require_vertices(mesh)
     mesh.write(_arrays.path(path))

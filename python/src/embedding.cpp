@@ -28,6 +28,21 @@ py::dict to_dict(const Distortion& measured) {
 
 namespace {
 
+// As in the report.
+py::dict strain_dict(const std::vector<StrainStatistics>& strain) {
+  using namespace py::literals;
+  py::dict result;
+  for (std::size_t k = 0; k < strain.size(); ++k) {
+    py::dict percentiles;
+    for (std::size_t p = 0; p < std::size(StrainStatistics::percents); ++p)
+      percentiles[py::str(std::to_string(StrainStatistics::percents[p]))] = strain[k].percentiles[p];
+    result[py::str(name_of(static_cast<StrainMeasure>(k)))] =
+        py::dict("mean"_a = strain[k].mean, "mean_absolute"_a = strain[k].mean_absolute,
+                 "percentiles"_a = percentiles);
+  }
+  return result;
+}
+
 using Held = std::shared_ptr<HeldEmbedding>;
 using MaybeMesh = std::shared_ptr<const SourceMesh>;
 using Release = py::call_guard<py::gil_scoped_release>;
@@ -92,7 +107,10 @@ py::tuple face_distortion(const HeldEmbedding& held) {
 
 // With the keys of the report.
 py::dict distortion(const HeldEmbedding& held) {
-  return to_dict(measure_distortion(*held.source("distortion").surface(), held.embedding));
+  const Surface& surface = *held.source("distortion").surface();
+  py::dict result = to_dict(measure_distortion(surface, held.embedding));
+  result["strain"] = strain_dict(strain_statistics(measure_strain(surface, held.embedding).at_vertices));
+  return result;
 }
 
 VerificationOptions verification_options(const HeldEmbedding& held, const std::string& weights_file,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Meshes: from arrays, from and to files, and what they are.
+#include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
 #include <memory>
@@ -9,6 +10,7 @@
 #include "orbitutte/embed.h"
 #include "orbitutte/inspect/inspection.h"
 #include "orbitutte/io/mesh_io.h"
+#include "orbitutte/io/vertex_data.h"
 #include "orbitutte/orbifold/signature.h"
 #include "orbitutte/report/inspection_json.h"
 #include "orbitutte/samples/sample.h"
@@ -59,6 +61,35 @@ void write(const SourceMesh& mesh, const std::string& path) {
   write_mesh(path, PolygonMesh{*V, *corners, *start});
 }
 
+// What is no UTF-8 is replaced.
+py::str text(const std::string& bytes) {
+  return py::reinterpret_steal<py::str>(
+      PyUnicode_DecodeUTF8(bytes.data(), static_cast<Py_ssize_t>(bytes.size()), "replace"));
+}
+
+// (values, names, labels), as write_values takes them; a label is (key, name, colour).
+py::tuple read_values(const std::string& path) {
+  VertexData data;
+  {
+    const py::gil_scoped_release release;
+    data = read_vertex_data(path);
+  }
+  py::list labels;
+  for (const ValueLabel& label : data.labels)
+    labels.append(py::make_tuple(label.key, text(label.name), label.colour));
+  return py::make_tuple(data.values, data.names, labels);
+}
+
+using Label = std::tuple<int, std::string, std::array<double, 4>>;
+
+void write_values(const std::string& path, const Eigen::MatrixXd& values,
+                  const std::vector<std::string>& names, const std::vector<Label>& labels) {
+  VertexData data = {values, names, {}};
+  data.labels.reserve(labels.size());
+  for (const auto& [key, name, colour] : labels) data.labels.push_back({key, name, colour});
+  write_vertex_data(path, data);
+}
+
 // As many as the target needs, or three.
 std::vector<int> extremities(const SourceMesh& mesh, const std::optional<Target>& target) {
   const Surface& surface = *mesh.surface();
@@ -94,6 +125,8 @@ void bind_mesh(py::module_& module) {
       .def("write", &write, Release())
       .def("extremities", &extremities, Release())
       .def("cones", &cones_with_angles, Release());
+  module.def("read_values", &read_values);
+  module.def("write_values", &write_values, Release());
   module.def("families", &families_json);
 }
 

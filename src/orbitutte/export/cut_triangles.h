@@ -7,6 +7,10 @@
 
 namespace orbitutte {
 
+/// Throws MeshError if the embedding is not one of the surface: unless each of its faces has the corners of
+/// the input's face.
+void require_cut_from(const Surface& surface, const Embedding& embedding);
+
 /// Is face f of the input turned over in the cut mesh, beginning with the same corner? Some faces of a
 /// projective plane are. The embedding must be one of the surface.
 bool is_turned_face(const Surface& surface, const Embedding& embedding, int f);

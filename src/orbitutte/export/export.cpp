@@ -6,46 +6,21 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <filesystem>
 #include <iterator>
 #include <span>
 #include <utility>
 
 #include "orbitutte/export/cut_triangles.h"
 #include "orbitutte/export/export_files.h"
-#include "orbitutte/export/file_ending.h"
 #include "orbitutte/export/gltf_model.h"
 #include "orbitutte/io/file.h"
+#include "orbitutte/io/file_ending.h"
 #include "orbitutte/io/ply.h"
 #include "orbitutte/io/ply_triangles.h"
 
 namespace orbitutte {
 namespace {
-
-// Does face f of the cut mesh have the corners of the input's face, in either direction from the same corner
-// on?
-bool is_cut_face(const Surface& surface, const Embedding& embedding, int f) {
-  const std::span<const int> face = surface.faces()[f], cut = embedding.faces()[f];
-  if (cut.size() != face.size()) return false;
-  const int vertices = static_cast<int>(embedding.source_vertex.size());
-  for (const int v : cut)
-    if (v < 0 || v >= vertices) return false;
-  for (int k = 0; k < static_cast<int>(face.size()); ++k)
-    if (embedding.source_vertex[cut[cut_corner(surface, embedding, f, k)]] != face[k]) return false;
-  return true;
-}
-
-bool is_cut_from(const Surface& surface, const Embedding& embedding) {
-  const auto vertices = static_cast<Eigen::Index>(embedding.source_vertex.size());
-  if (embedding.positions.rows() != vertices || vertices < surface.V.rows()) return false;
-  const int faces = surface.faces().count();
-  if (embedding.faces().count() != faces) return false;
-  for (int f = 0; f < faces; ++f)
-    if (!is_cut_face(surface, embedding, f)) return false;
-  return true;
-}
 
 // The row of texture coordinates of every corner of the input.
 std::vector<int> texture_rows(const ExportedModel& model) {
@@ -235,8 +210,7 @@ std::string ply_bytes(const ExportedModel& model) {
 }
 
 ExportedModel exported_model(Surface surface, const Embedding& embedding, TextureChart chart) {
-  if (!is_cut_from(surface, embedding))
-    throw MeshError("the embedding does not belong to this mesh; give the mesh that was embedded");
+  require_cut_from(surface, embedding);
   ExportedModel model = {std::move(surface), embedding, texture_coordinates(embedding, chart), {}};
   model.embedding.triangles = cut_triangles(model.surface, embedding);
   model.of_face = distortion_of_faces(model.surface, measure_triangles(model.surface, model.embedding));

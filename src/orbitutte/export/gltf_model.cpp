@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Uses tinygltf; only this file compiles its implementation.
-#define TINYGLTF_IMPLEMENTATION
-#define TINYGLTF_NO_STB_IMAGE
-#define TINYGLTF_NO_STB_IMAGE_WRITE
-#define TINYGLTF_NO_EXTERNAL_IMAGE
+// Uses tinygltf.
 #include "orbitutte/export/gltf_model.h"
 
 #include <fmt/format.h>
-#include <tiny_gltf.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +11,7 @@
 #include <utility>
 
 #include "orbitutte/io/bytes.h"
+#include "orbitutte/io/gltf_library.h"
 
 namespace orbitutte {
 

@@ -11,11 +11,11 @@
 #include <iterator>
 
 #include "orbitutte/export/closed_mesh.h"
-#include "orbitutte/export/file_ending.h"
 #include "orbitutte/export/gltf_model.h"
 #include "orbitutte/inspect/inspection.h"
 #include "orbitutte/io/bytes.h"
 #include "orbitutte/io/file.h"
+#include "orbitutte/io/file_ending.h"
 #include "orbitutte/io/mesh_formats.h"
 #include "orbitutte/io/ply_triangles.h"
 

@@ -17,6 +17,8 @@ PolygonMesh read_stl(std::string_view bytes);
 PolygonMesh read_gifti(std::string_view bytes);
 PolygonMesh read_freesurfer(std::string_view bytes);
 PolygonMesh read_vtk(std::string_view bytes);
+PolygonMesh read_vtp(std::string_view bytes);
+PolygonMesh read_gltf(std::string_view bytes);
 
 std::string write_obj(const Mesh& mesh);
 std::string write_off(const Mesh& mesh);
@@ -26,9 +28,13 @@ std::string write_stl(const Mesh& mesh);
 std::string write_gifti(const Mesh& mesh);
 std::string write_freesurfer(const Mesh& mesh);
 std::string write_vtk(const Mesh& mesh);
+std::string write_vtp(const Mesh& mesh);
+/// Both throw MeshError if the mesh is empty or a position is not finite.
+std::string write_gltf(const Mesh& mesh);
+std::string write_glb(const Mesh& mesh);
 
-// The same of meshes some of whose faces have more than three corners; STL, GIfTI and FreeSurfer have
-// triangles only.
+// The same of meshes some of whose faces have more than three corners; STL, GIfTI, FreeSurfer and
+// glTF have triangles only.
 std::string write_obj_polygons(const PolygonMesh& mesh);
 std::string write_off_polygons(const PolygonMesh& mesh);
 std::string write_ply_polygons(const PolygonMesh& mesh);
@@ -36,6 +42,9 @@ std::string write_stl_polygons(const PolygonMesh& mesh);
 std::string write_gifti_polygons(const PolygonMesh& mesh);
 std::string write_freesurfer_polygons(const PolygonMesh& mesh);
 std::string write_vtk_polygons(const PolygonMesh& mesh);
+std::string write_vtp_polygons(const PolygonMesh& mesh);
+std::string write_gltf_polygons(const PolygonMesh& mesh);
+std::string write_glb_polygons(const PolygonMesh& mesh);
 
 /// An empty text with room for a line of each vertex and face. Room that is not needed is never touched, so
 /// it takes no memory.

@@ -32,6 +32,9 @@ constexpr FormatRow formats[] = {
     {MeshFormat::stl, ".stl", read_stl, write_stl, write_stl_polygons},
     {MeshFormat::gifti, ".gii", read_gifti, write_gifti, write_gifti_polygons},
     {MeshFormat::vtk, ".vtk", read_vtk, write_vtk, write_vtk_polygons},
+    {MeshFormat::vtp, ".vtp", read_vtp, write_vtp, write_vtp_polygons},
+    {MeshFormat::gltf, ".gltf", read_gltf, write_gltf, write_gltf_polygons},
+    {MeshFormat::glb, ".glb", read_gltf, write_glb, write_glb_polygons},
     {MeshFormat::freesurfer, ".pial .white .inflated .sphere .orig .smoothwm .reg .nofix", read_freesurfer,
      write_freesurfer, write_freesurfer_polygons}};
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Mesh files: OBJ, OFF, PLY, STL, GIfTI, FreeSurfer and VTK. The order of vertices and faces in the file is
-// the order in the result.
+// Mesh files: OBJ, OFF, PLY, STL, GIfTI, FreeSurfer, VTK and glTF. The order of vertices and faces in the
+// file is the order in the result.
 #pragma once
 
 #include <string>
@@ -10,11 +10,11 @@
 
 namespace orbitutte {
 
-enum class MeshFormat { obj, off, ply, stl, gifti, freesurfer, vtk };
+enum class MeshFormat { obj, off, ply, stl, gifti, freesurfer, vtk, vtp, gltf, glb };
 
 /// The format that a path's ending names (any case), or the one before `.gz`: .obj, .off, .ply, .stl, .gii
-/// (GIfTI), .vtk; FreeSurfer's .pial, .white, .inflated, .sphere, .orig, .smoothwm, .reg and .nofix. Throws
-/// ArgumentError naming the endings known.
+/// (GIfTI), .vtk, .vtp, .gltf, .glb; FreeSurfer's .pial, .white, .inflated, .sphere, .orig, .smoothwm, .reg
+/// and .nofix. Throws ArgumentError naming the endings known.
 MeshFormat mesh_format(const std::string& path);
 
 /// Does the path end in `.gz` (any case)?
@@ -27,7 +27,7 @@ bool is_compressed(const std::string& path);
 /// - OFF: the keyword (OFF after any of ST, C, N) may be missing; after a keyword, the count of edges may be
 ///   missing, and so may the blank before the counts. With C, vertices may have colours. Other columns and
 ///   comments are ignored. If there are no other columns, the numbers may stand in any lines. Binary files
-///   and dimensions other than three are refused.
+///   (OFF BINARY) have numbers of four bytes, the highest first. Dimensions other than three are refused.
 /// - PLY: ASCII, binary of both byte orders, `face` (vertex_indices or vertex_index) and `tristrips`;
 ///   colours are `red`, `green` and `blue` of the vertices; other elements and properties are ignored.
 /// - STL: ASCII with any number of solids, and binary; corners with the same three coordinates are one
@@ -38,6 +38,11 @@ bool is_compressed(const std::string& path);
 /// - FreeSurfer: surfaces of triangles. What follows the faces is ignored.
 /// - VTK: legacy files of polygonal data, text and binary: polygons and strips of triangles; vertices, lines
 ///   and data are ignored.
+/// - VTP: VTK's XML files of polygonal data, with arrays as text, base64 or raw bytes, inside or appended,
+///   compressed by zlib or not; pieces follow each other. What is ignored is the same.
+/// - glTF: the triangles, strips and fans of all meshes. Vertices are the same where primitives name the same
+///   accessor of positions, and are not welded further. Transforms of nodes are not applied, with a warning;
+///   buffers in other files, sparse accessors and compressed meshes are refused.
 ///
 /// Colours are numbers of 0 .. 1 or 0 .. 255: the latter if they are integers of a PLY or one of them is
 /// above 1. If some vertices have no colour, the mesh has none. If a colour makes no sense, the mesh has
@@ -57,12 +62,13 @@ PolygonMesh parse_mesh_file(const std::string& path, std::string_view bytes);
 /// ArgumentError and MeshError.
 PolygonMesh read_mesh(const std::string& path);
 
-/// The text or bytes of a mesh file. Positions read back as the same doubles (STL, GIfTI, FreeSurfer: rounded
-/// to single precision). Throws MeshError if the format is STL and a face names a vertex that does not exist.
+/// The text or bytes of a mesh file. Positions read back as the same doubles (STL, GIfTI, FreeSurfer, glTF:
+/// rounded to single precision). Throws MeshError if the format is STL and a face names a vertex that does
+/// not exist, or if it is glTF and the mesh is empty or a position not finite.
 std::string serialize_mesh(const Mesh& mesh, MeshFormat format);
 
 /// The same with faces of any number of corners. Throws MeshError if the format has triangles only (STL,
-/// GIfTI, FreeSurfer) and a face is none.
+/// GIfTI, FreeSurfer, glTF) and a face is none.
 std::string serialize_mesh(const PolygonMesh& mesh, MeshFormat format);
 
 /// Writes a file in the format that the path's ending names, as serialize_mesh does, compressed if that is

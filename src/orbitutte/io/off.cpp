@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// OFF, after the Geomview manual, section 4.2.5.
+// OFF, text and binary, after the Geomview manual, section 4.2.5.
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <iterator>
 #include <optional>
 
+#include "orbitutte/io/bytes.h"
 #include "orbitutte/io/mesh_formats.h"
 #include "orbitutte/io/text_colours.h"
 #include "orbitutte/io/text_scanner.h"
@@ -92,7 +94,6 @@ Header read_header(TextScanner& in) {
     in.find_word();
     word = in.word();
   }
-  if (word == "BINARY") in.refuse("binary OFF is not supported, only ASCII");
   Header counts;
   if (keyword) counts.columns = keyword->columns;
   counts.vertices = to_count(in, word, "vertices");
@@ -184,9 +185,112 @@ std::optional<PolygonMesh> read_stream(const TextScanner& in, const Header& head
   }
 }
 
+/// What stands before the numbers of a binary file.
+struct BinaryOff {
+  Columns columns;
+  /// Texture coordinates, behind the colours.
+  bool has_texture = false;
+  std::string_view numbers;
+};
+
+/// Nothing if the word BINARY does not follow the keyword.
+std::optional<BinaryOff> parse_binary_start(std::string_view text) {
+  TextScanner in(text, off_syntax);
+  in.find_word();
+  const std::string_view word = in.word();
+  const std::optional<Keyword> keyword = parse_keyword(word);
+  if (!keyword || !keyword->count.empty() || in.word() != "BINARY") return std::nullopt;
+  const std::size_t end = text.find('\n', static_cast<std::size_t>(word.data() - text.data()));
+  const std::string_view numbers = end == text.npos ? std::string_view() : text.substr(end + 1);
+  return BinaryOff{keyword->columns, word.starts_with("ST"), numbers};
+}
+
+/// Numbers of four bytes, the highest one first.
+class BinaryOffNumbers {
+ public:
+  explicit BinaryOffNumbers(std::string_view bytes) : rest_(bytes), size_(bytes.size()) {}
+
+  template <class T>
+  T take(std::string_view what) {
+    if (rest_.size() < sizeof(T)) refuse(fmt::format("the file ends before {}", what));
+    const T value = load<T>(rest_.data(), std::endian::big);
+    rest_.remove_prefix(sizeof(T));
+    return value;
+  }
+
+  /// A count of things that have so many bytes each, and all of which follow.
+  int take_count(std::string_view what, std::size_t least_size) {
+    const auto count = take<std::int32_t>(what);
+    require_room(count, what, least_size);
+    return count;
+  }
+
+  void require_room(std::int32_t count, std::string_view what, std::size_t least_size) const {
+    if (count < 0 || static_cast<std::size_t>(count) > rest_.size() / least_size)
+      refuse(fmt::format("{} is {}, but only {} bytes follow", what, count, rest_.size()));
+  }
+
+  bool is_at_end() const { return rest_.empty(); }
+
+  /// Throws MeshError.
+  [[noreturn]] void refuse(std::string_view problem) const {
+    throw MeshError(fmt::format("byte {} behind the first line: {}; export the file again",
+                                size_ - rest_.size(), problem));
+  }
+
+ private:
+  std::string_view rest_;
+  std::size_t size_;
+};
+
+void read_binary_vertices(BinaryOffNumbers& in, const BinaryOff& start, int count, PolygonMesh& mesh) {
+  const auto take = [&] { return static_cast<double>(in.take<float>("a number of a vertex")); };
+  mesh.V.resize(count, 3);
+  Points colours(start.columns.has_colours ? count : 0, 3);
+  for (int v = 0; v < count; ++v) {
+    for (double& x : mesh.V.row(v)) x = take();
+    if (start.columns.has_normals)
+      for (int axis = 0; axis < 3; ++axis) take();
+    if (start.columns.has_colours) {
+      for (double& channel : colours.row(v)) channel = take();
+      take();  // alpha
+    }
+    if (start.has_texture)
+      for (int axis = 0; axis < 2; ++axis) take();
+  }
+  if (start.columns.has_colours) give_colours(colours_of_numbers(colours), mesh);
+}
+
+void read_binary_faces(BinaryOffNumbers& in, int count, PolygonMesh& mesh) {
+  mesh.face_start.reserve(count + std::size_t{1});
+  for (int f = 0; f < count; ++f) {
+    const int degree = in.take_count("the number of a face's corners", sizeof(std::int32_t));
+    for (int k = 0; k < degree; ++k) mesh.corners.push_back(in.take<std::int32_t>("a corner"));
+    end_face(mesh);
+    const int colours = in.take_count("the number of a face's colours", sizeof(float));
+    for (int k = 0; k < colours; ++k) in.take<float>("a colour");
+  }
+}
+
+PolygonMesh read_binary_off(const BinaryOff& start) {
+  constexpr std::size_t least_vertex = 3 * sizeof(float), least_face = 2 * sizeof(std::int32_t);
+  BinaryOffNumbers in(start.numbers);
+  const auto vertices = in.take<std::int32_t>("the number of vertices"),
+             faces = in.take<std::int32_t>("the number of faces");
+  in.take<std::int32_t>("the number of edges");
+  in.require_room(vertices, "the number of vertices", least_vertex);
+  in.require_room(faces, "the number of faces", least_face);
+  PolygonMesh mesh;
+  read_binary_vertices(in, start, vertices, mesh);
+  read_binary_faces(in, faces, mesh);
+  if (!in.is_at_end()) in.refuse("bytes follow after the last face");
+  return mesh;
+}
+
 }  // namespace
 
 PolygonMesh read_off(std::string_view text) {
+  if (const std::optional<BinaryOff> start = parse_binary_start(text)) return read_binary_off(*start);
   TextScanner in(text, off_syntax);
   const Header header = read_header(in);
   try {

@@ -50,6 +50,10 @@ std::string write_stl_polygons(const PolygonMesh& mesh) { return write_stl(to_tr
 
 std::string write_gifti_polygons(const PolygonMesh& mesh) { return write_gifti(to_triangle_mesh(mesh)); }
 
+std::string write_gltf_polygons(const PolygonMesh& mesh) { return write_gltf(to_triangle_mesh(mesh)); }
+
+std::string write_glb_polygons(const PolygonMesh& mesh) { return write_glb(to_triangle_mesh(mesh)); }
+
 std::string write_freesurfer_polygons(const PolygonMesh& mesh) {
   return write_freesurfer(to_triangle_mesh(mesh));
 }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <unordered_map>
 
 #include "orbitutte/io/bytes.h"
@@ -169,9 +170,10 @@ void append_text(std::string& bytes, std::string_view text) {
 }
 
 void append_colour_table(std::string& bytes, const std::vector<ValueLabel>& labels) {
-  int largest = -1;
-  for (const ValueLabel& label : labels) largest = std::max(largest, label.key);
-  for (const std::int32_t number : {1, -2, largest + 1}) append_big_endian(bytes, number);
+  int indices = 0;  // one more than the largest
+  for (const ValueLabel& label : labels)
+    indices = std::max(indices, label.key < std::numeric_limits<int>::max() ? label.key + 1 : label.key);
+  for (const std::int32_t number : {1, -2, indices}) append_big_endian(bytes, number);
   append_text(bytes, "orbitutte");
   append_big_endian(bytes, static_cast<std::int32_t>(labels.size()));
   for (const ValueLabel& label : labels) {

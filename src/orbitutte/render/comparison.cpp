@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "orbitutte/export/file_ending.h"
 #include "orbitutte/io/file.h"
+#include "orbitutte/io/file_ending.h"
 #include "orbitutte/render/chart_drawing.h"
 #include "orbitutte/render/default_view.h"
 #include "orbitutte/render/render.h"

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "orbitutte/io/file.h"
+#include "orbitutte/io/file_ending.h"
 #include "orbitutte/render/camera.h"
 #include "orbitutte/render/panels.h"
 
@@ -102,12 +103,6 @@ std::optional<Vector3> to_direction(std::string_view text) {
   }
   if (!direction.allFinite() || !(direction.stableNorm() > 0)) return std::nullopt;
   return direction.stableNormalized();
-}
-
-std::string lower_case_ending(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return ending;
 }
 
 }  // namespace

@@ -112,6 +112,22 @@ Json to_json(const Distortion& distortion) {
           {"measured_faces", distortion.measured_faces}};
 }
 
+Json to_json(const StrainStatistics& statistics) {
+  Json percentiles = Json::object();
+  for (std::size_t k = 0; k < std::size(StrainStatistics::percents); ++k)
+    percentiles[std::to_string(StrainStatistics::percents[k])] = statistics.percentiles[k];
+  return {{"mean", statistics.mean},
+          {"mean_absolute", statistics.mean_absolute},
+          {"percentiles", std::move(percentiles)}};
+}
+
+Json to_json(const std::vector<StrainStatistics>& strain) {
+  Json json = Json::object();
+  for (std::size_t k = 0; k < strain.size(); ++k)
+    json[name_of(static_cast<StrainMeasure>(k))] = to_json(strain[k]);
+  return json;
+}
+
 Json history_json(const std::vector<Iteration>& history) {
   Json rows = Json::array();
   for (const Iteration& row : history)
@@ -353,6 +369,7 @@ std::string report_json(const EmbedResult& result, const RunRecord& run) {
     json["conformality"] = minimum.energy / (2 * target_area(embedding.target));
     if (!minimum.shapes.empty()) json["shapes"] = history_json(minimum.shapes);
   }
+  if (!run.strain.empty()) json["distortion"]["strain"] = to_json(run.strain);
   if (result.floor) json["floor"] = to_json(*result.floor);
   if (!result.moved_vertices.empty()) json["moved_vertices"] = result.moved_vertices;
   if (result.intrinsic_certificate) json["intrinsic_certificate"] = to_json(*result.intrinsic_certificate);
@@ -360,6 +377,10 @@ std::string report_json(const EmbedResult& result, const RunRecord& run) {
 }
 
 std::string distortion_json(const Distortion& distortion) { return to_json(distortion).dump(); }
+
+std::string strain_json(const std::vector<StrainStatistics>& strain) {
+  return to_json(strain).dump(1) + "\n";
+}
 
 Report parse_report(std::string_view text) {
   try {

@@ -8,10 +8,11 @@
 #include <vector>
 
 #include "orbitutte/embed_types.h"
+#include "orbitutte/verify/strain.h"
 
 namespace orbitutte {
 
-/// What the library cannot know of a run.
+/// What the result of a run does not hold.
 struct RunRecord {
   std::string mesh_path;
   /// Hexadecimal.
@@ -22,6 +23,8 @@ struct RunRecord {
   double write_seconds = 0;
   double total_seconds = 0;
   long long peak_memory_bytes = 0;
+  /// How the map deforms the surface around its vertices, as strain_statistics has it; or none.
+  std::vector<StrainStatistics> strain;
 };
 
 /// The report of an embedding, schema orbitutte.report/1; ends with a line break.
@@ -29,6 +32,9 @@ std::string report_json(const EmbedResult& result, const RunRecord& run);
 
 /// The key `distortion` of a report, as JSON.
 std::string distortion_json(const Distortion& distortion);
+
+/// The key `strain` in it: for each StrainMeasure `mean`, `mean_absolute` and `percentiles`.
+std::string strain_json(const std::vector<StrainStatistics>& strain);
 
 /// What a report says that can be checked against the files that it speaks of.
 struct Report {

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <optional>
 
 #include "orbitutte/orbifold/exact_positions.h"
 #include "orbitutte/parallel.h"
+#include "orbitutte/verify/flat_triangles.h"
 
 namespace orbitutte {
 namespace {
@@ -19,28 +19,6 @@ constexpr double area_rounding = 4 * std::numeric_limits<double>::epsilon();
 
 double triangle_area(const Vector3& a, const Vector3& b, const Vector3& c) {
   return 0.5 * (b - a).cross(c - a).norm();
-}
-
-// The third corner of a plane triangle with sides ab, bc, ca whose first two corners are (0, 0) and (1, 0);
-// above them.
-struct Apex {
-  double x, y;
-};
-std::optional<Apex> lay_out(double ab, double bc, double ca) {
-  if (!(ab > 0)) return std::nullopt;
-  const double x = ((ab - bc) * (ab + bc) + ca * ca) / (2 * ab);
-  const double y_squared = (ca - x) * (ca + x);
-  if (!(y_squared > 0)) return std::nullopt;
-  return Apex{x / ab, std::sqrt(y_squared) / ab};
-}
-
-// sigma_1/sigma_2 of the affine map between two triangles with the same first side. It is z -> a z + b
-// conj(z), |a| : |b| = |p - conj(q)| : |p - q|, p and q their apices, and the ratio is (|a| + |b|)/(|a| -
-// |b|).
-double ratio_of_singular_values(const Apex& p, const Apex& q) {
-  const double x = p.x - q.x, far = std::sqrt(x * x + (p.y + q.y) * (p.y + q.y)),
-               near = std::sqrt(x * x + (p.y - q.y) * (p.y - q.y));
-  return std::max(1.0, (far + near) * (far + near) / (4 * p.y * q.y));
 }
 
 // Reorders the values. 0 where there are none.
