@@ -29,8 +29,9 @@ enum ExitCode {
   not_certified = 5
 };
 
-struct EmbedArguments {
-  std::string mesh, orbifold, cones, angles, output, report;
+/// What `embed`, and every job of `batch`, may be asked for beside its files.
+struct EmbedWishes {
+  std::string orbifold, cones, angles;
   std::string objective = name_of(Objective::sigma);
   std::string centre, points;
   std::string polygon, spread = name_of(Spread::arc_length);
@@ -39,10 +40,34 @@ struct EmbedArguments {
   /// Of fitted angles; a sigma of 0 and a count of 0 are none.
   double area = 0, sigma = 0;
   std::uint64_t cut_seed = 0;
-  int count = 0, max_iterations = 2000, threads = 0;
-  bool orders = false, quotient = false, floor = false, quiet = false, json = false;
+  int count = 0, max_iterations = 2000;
+  bool orders = false, quotient = false, floor = false;
+};
+
+struct EmbedArguments : EmbedWishes {
+  std::string mesh, output, report;
+  int threads = 0;
+  bool quiet = false, json = false;
 };
 int embed_command(const EmbedArguments& arguments);
+
+/// Throws what can be said against the arguments before the mesh is read.
+void require_sound(const EmbedArguments& arguments);
+
+struct BatchArguments : EmbedWishes {
+  /// A manifest, or meshes and patterns.
+  std::vector<std::string> inputs;
+  std::string output, memory_limit, shard;
+
+  /// The wishes that were given, as on the command line: "--orbifold=432". They hold for all jobs.
+  std::vector<std::string> common;
+  double time_limit = 0;
+  int jobs = 0;
+  /// Negative: all.
+  int job = -1;
+  bool again = false, list = false, summary = false, quiet = false;
+};
+int batch_command(const BatchArguments& arguments);
 
 struct ChooseArguments {
   std::string mesh, orbifold, cones, output, picture;

@@ -252,6 +252,18 @@ BestEmbedding embed_wish(const std::shared_ptr<const Surface>& surface, const Wi
 
 }  // namespace
 
+void require_sound(const EmbedArguments& arguments) {
+  options_from(arguments);
+  require_fitting_angles(arguments);
+  require_fitted_alone(arguments);
+  parse_choice<Objective>(arguments.objective, "--objective");
+  if (!takes_angles(arguments.orbifold)) {
+    wish_from(arguments);
+  } else if (arguments.angles != fitted_word) {
+    parse_angles(arguments.angles);
+  }
+}
+
 int embed_command(const EmbedArguments& arguments) {
   const Stopwatch total;
   EmbedOptions options = options_from(arguments);

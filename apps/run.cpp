@@ -5,6 +5,9 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <exception>
+#include <new>
+#include <system_error>
 #include <utility>
 
 #include "orbitutte/errors.h"
@@ -14,6 +17,32 @@
 #include "standard_streams.h"
 
 namespace orbitutte::cli {
+
+int complain(const std::string& message, ExitCode code) {
+  tell("orbitutte: {}\n", message);
+  return code;
+}
+
+int run_guarded(const std::function<int()>& command) {
+  try {
+    const int code = command();
+    flush_standard_output();
+    return code;
+  } catch (const FileError& error) {
+    return complain(error.what(), file_trouble);
+  } catch (const std::bad_alloc&) {
+    return complain(memory_ran_out, file_trouble);
+  } catch (const ArgumentError& error) {
+    return complain(error.what(), wrong_usage);
+  } catch (const Error& error) {
+    return complain(error.what(), unsuitable_mesh);
+  } catch (const std::system_error& error) {  // fmt::print throws it
+    const char* const place = std::ferror(stdout) ? "standard output cannot be written: " : "";
+    return complain(place + error.code().message(), file_trouble);
+  } catch (const std::exception& error) {
+    return complain(error.what(), file_trouble);
+  }
+}
 
 long long peak_memory_bytes() {
   rusage usage = {};

@@ -3,15 +3,27 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "commands.h"
 #include "orbitutte/mesh/surface.h"
 #include "orbitutte/progress.h"
 #include "orbitutte/report/report.h"
 
 namespace orbitutte::cli {
+
+/// What the program says if memory ran out.
+inline constexpr const char* memory_ran_out = "memory ran out";
+
+/// Says a sentence on standard error, and returns the code.
+int complain(const std::string& message, ExitCode code);
+
+/// Runs a function that prints and returns an exit code. Every kind of failure has its exit code and one
+/// sentence on standard error.
+int run_guarded(const std::function<int()>& command);
 
 class Stopwatch {
  public:

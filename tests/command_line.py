@@ -18,7 +18,7 @@ import tempfile
 import unittest
 
 PROGRAM = ''
-COMMANDS = ['embed', 'choose', 'info', 'types', 'verify', 'tile', 'export', 'render', 'report', 'compare', 'repair', 'map', 'sample']
+COMMANDS = ['embed', 'choose', 'info', 'types', 'verify', 'tile', 'export', 'render', 'report', 'compare', 'repair', 'map', 'batch', 'sample']
 IS_A_FILE, IS_WRONG, IS_UNSUITABLE, IS_NOT_CONVERGED, IS_NOT_CERTIFIED = 1, 2, 3, 4, 5
 
 
