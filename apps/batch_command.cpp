@@ -14,6 +14,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "command_arguments.h"
+#include "command_files.h"
 #include "commands.h"
 #include "embed_columns.h"
 #include "job_log.h"
@@ -122,7 +124,7 @@ EmbedArguments arguments_of(const BatchJob& job, const std::string& folder) {
   arguments.report = (fs::path(folder) / (job.name + ".json")).string();
   arguments.threads = 1;
   arguments.quiet = true;
-  mesh_format(arguments.mesh);
+  mesh_format(mesh_input(arguments.mesh, arguments.format));
   require_sound(arguments);
   return arguments;
 }
@@ -476,12 +478,6 @@ void require_nobody_at_work(const std::string& folder) {
     if (is_locked(log))
       throw FileError(
           fmt::format("{}: a batch is at work on it; wait for its end, or name another folder", log));
-}
-
-void make_folder(const std::string& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw FileError(fmt::format("{}: cannot be made: {}", folder, error.message()));
 }
 
 std::string page_in(const std::string& folder) { return (fs::path(folder) / "summary.html").string(); }

@@ -31,6 +31,8 @@ enum ExitCode {
 
 /// What `embed`, and every job of `batch`, may be asked for beside its files.
 struct EmbedWishes {
+  /// Of the mesh; none, if it is empty.
+  std::string format;
   std::string orbifold, cones, angles;
   std::string objective = name_of(Objective::sigma);
   std::string centre, points;
@@ -41,7 +43,7 @@ struct EmbedWishes {
   double area = 0, sigma = 0;
   std::uint64_t cut_seed = 0;
   int count = 0, max_iterations = 2000;
-  bool orders = false, quotient = false, floor = false;
+  bool orders = false, quotient = false, floor = false, repair = false;
 };
 
 struct EmbedArguments : EmbedWishes {
@@ -70,7 +72,7 @@ struct BatchArguments : EmbedWishes {
 int batch_command(const BatchArguments& arguments);
 
 struct ChooseArguments {
-  std::string mesh, orbifold, cones, output, picture;
+  std::string mesh, format, orbifold, cones, output, picture;
   std::string objective = name_of(Objective::sigma), weights = name_of(WeightKind::standard);
   int solved = 3, threads = 0;
   bool json = false;
@@ -78,7 +80,7 @@ struct ChooseArguments {
 int choose_command(const ChooseArguments& arguments);
 
 struct InfoArguments {
-  std::string mesh;
+  std::string mesh, format;
   bool json = false;
 };
 int info_command(const InfoArguments& arguments);
@@ -89,7 +91,7 @@ struct TypesArguments {
 int types_command(const TypesArguments& arguments);
 
 struct VerifyArguments {
-  std::string embedding, report, mesh, weights_file;
+  std::string embedding, report, mesh, format, weights_file;
   bool theorem2 = false, json = false;
 };
 int verify_command(const VerifyArguments& arguments);
@@ -101,30 +103,30 @@ struct TileArguments {
 int tile_command(const TileArguments& arguments);
 
 struct ExportArguments {
-  std::string embedding, report, mesh, output, chart;
+  std::string embedding, report, mesh, format, output, chart;
 };
 int export_command(const ExportArguments& arguments);
 
 struct RenderArguments {
-  std::string embedding, report, mesh, output;
+  std::string embedding, report, mesh, format, output;
   std::string panel = name_of(Panel::sheet), view, up, size;
 };
 int render_command(const RenderArguments& arguments);
 
 struct ReportArguments {
-  std::string embedding, report, mesh, output;
+  std::string embedding, report, mesh, format, output;
 };
 int report_command(const ReportArguments& arguments);
 
 struct CompareArguments {
-  std::string mesh, cones = "extremities", weights = name_of(WeightKind::standard), output, view, up;
+  std::string mesh, format, cones = "extremities", weights = name_of(WeightKind::standard), output, view, up;
   std::vector<std::string> orbifolds;
   bool json = false;
 };
 int compare_command(const CompareArguments& arguments);
 
 struct RepairArguments {
-  std::string mesh, output, report;
+  std::string mesh, format, output, report;
   std::vector<std::string> without;
   double weld = 0;
   /// Negative: all holes but the longest.
@@ -135,6 +137,8 @@ int repair_command(const RepairArguments& arguments);
 
 struct MapArguments {
   std::string a, b, landmarks, output, tour;
+  /// Of the one that comes from standard input.
+  std::string format;
   std::string weights = name_of(WeightKind::standard), tile = name_of(TileShape::shared);
   double clamp = 0.01, tolerance = 1e-13;
   std::uint64_t cut_seed_a = 0, cut_seed_b = 0;

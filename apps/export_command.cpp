@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "command_arguments.h"
 #include "commands.h"
 #include "orbitutte/export/export.h"
 #include "orbitutte/inspect/recognition.h"
@@ -12,10 +13,11 @@ namespace orbitutte::cli {
 int export_command(const ExportArguments& arguments) {
   std::optional<TextureChart> asked_for;
   if (!arguments.chart.empty()) asked_for = parse_choice<TextureChart>(arguments.chart, "--chart");
-  const Embedding embedding = read_embedding(arguments.embedding, read_report(arguments.report));
+  const Report report = read_report(arguments.report);
+  const Embedding embedding = read_embedding(arguments.embedding, report);
   const TextureChart chart = asked_for.value_or(suitable_chart(embedding));
   warn(warnings_of_offsets(embedding));
-  const ExportedModel model = exported_model(make_surface(read_mesh(arguments.mesh)), embedding, chart);
+  const ExportedModel model = exported_model(read_embedded(mesh_input(arguments.mesh, arguments.format), report), embedding, chart);
   write_model(arguments.output, model);
   tell(
       "{}: {} vertices, {} texture coordinates, {} faces; largest area distortion of the {} chart "

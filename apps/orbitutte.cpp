@@ -11,6 +11,7 @@
 #include "orbitutte/errors.h"
 #include "orbitutte/inspect/mesh_repair.h"
 #include "orbitutte/io/manifest.h"
+#include "orbitutte/io/mesh_io.h"
 #include "run.h"
 #include "standard_streams.h"
 #include "usage.h"
@@ -93,12 +94,21 @@ class Command {
   std::vector<Expected<OutputFile>> outputs_;
 };
 
+// The format of the mesh.
+template <typename Arguments>
+void format_of(Command<Arguments>& command) {
+  command.option("--format", command->format,
+                 fmt::format("The format of the mesh, if the name does not end in it, as that of standard input: {}",
+                             fmt::join(orbitutte::choices_of<orbitutte::MeshFormat>(), ", ")));
+}
+
 template <typename Arguments>
 void read_mesh_of(Command<Arguments>& command) {
   command
       .input("mesh", command->mesh, "the mesh",
-             "The mesh: OBJ, OFF, PLY, STL, VTK, GIfTI or FreeSurfer, plain or with .gz")
+             "The mesh: OBJ, OFF, PLY, STL, VTK, GIfTI or FreeSurfer, plain or with .gz; '-' is standard input")
       ->required();
+  format_of(command);
 }
 
 // The two files that `embed` writes.
@@ -111,7 +121,8 @@ void read_embedding_of(Command<Arguments>& command) {
 template <typename Arguments>
 void read_embedding_and_mesh_of(Command<Arguments>& command) {
   read_embedding_of(command);
-  command.input("mesh", command->mesh, "the mesh", "The mesh that was embedded")->required();
+  command.input("mesh", command->mesh, "the mesh", "The mesh that was embedded; '-' is standard input")->required();
+  format_of(command);
 }
 
 // Which vertices are marked, and by what the best are chosen.
@@ -190,6 +201,8 @@ void wishes_of(Command<Arguments>& command) {
   command
       .option("--max-iterations", command->max_iterations, "Stop with exit code 4 after so many iterations")
       ->capture_default_str();
+  command.flag("--repair", command->repair,
+               "First do what 'orbitutte repair' does, and say what that was; vertices keep their numbers");
   command.flag("--floor", command->floor,
                "Also measure the distortion that the coarseness of the mesh costs: that of the map of the "
                "same surface "
@@ -256,6 +269,7 @@ void add_batch(CLI::App& app, int& code) {
   command.flag("--list", command->list,
                "Run nothing; print a line of JSON for each job, and whether it is done");
   command.flag("--quiet", command->quiet, "Print no progress and no summary");
+  format_of(command);
   wishes_of(command);
   command.prepares(keep_wishes);
   command.runs(batch_command, code);
@@ -427,8 +441,9 @@ void add_repair(CLI::App& app, int& code) {
 void add_map(CLI::App& app, int& code) {
   Command<MapArguments> command(
       app, "map", "Map one surface to another so that landmarks correspond, one to one, and certify it");
-  command.input("a", command->a, "surface A", "Surface A: OBJ, OFF, PLY or STL")->required();
+  command.input("a", command->a, "surface A", "Surface A, a mesh as embed reads it; '-' is standard input")->required();
   command.input("b", command->b, "surface B", "Surface B, of the same topology")->required();
+  command.option("--format", command->format, "As of embed, of the surface that comes from standard input");
   command.option(
       "--landmarks", command->landmarks,
       "Vertices that correspond, counted from 0: a file with two columns, of A and of B, or a list such as "

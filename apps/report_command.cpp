@@ -17,7 +17,7 @@ int report_command(const ReportArguments& arguments) {
   const Report claims = read_report(arguments.report);
   Embedding embedding = read_embedding(arguments.embedding, claims);
   warn(warnings_of_offsets(embedding));
-  const Surface surface = read_source(arguments.mesh, embedding);
+  const Surface surface = read_source(mesh_input(arguments.mesh, arguments.format), claims, embedding);
   const std::string report = read_file(arguments.report);
   PageOptions options;
   if (!has_interactive_view()) options.pictures = page_pictures(surface, embedding, claims);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "orbitutte/embed_types.h"
+#include "orbitutte/inspect/mesh_repair.h"
 
 namespace orbitutte {
 
@@ -22,6 +23,9 @@ struct RunRecord {
   double write_seconds = 0;
   double total_seconds = 0;
   long long peak_memory_bytes = 0;
+
+  /// If the mesh was repaired before it was embedded.
+  std::optional<RepairSummary> repair = {};
 };
 
 /// The report of an embedding, schema orbitutte.report/1; ends with a line break.
@@ -48,6 +52,9 @@ struct Report {
 
   /// Input vertices.
   std::vector<int> moved_vertices;
+
+  /// Was the mesh repaired in place before it was embedded?
+  bool is_repaired = false;
 
   /// If the map is a quotient.
   std::optional<QuotientRecord> quotient;
