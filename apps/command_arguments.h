@@ -48,12 +48,12 @@ void mark_extremities(const Surface& surface, Wish& wish);
 /// ArgumentError.
 MeshInput mesh_input(const std::string& path, const std::string& format);
 
-/// Reads the mesh of an embedding, and repairs it if that was done before it was embedded. Throws FileError, and
-/// MeshError naming the first defect.
+/// Reads the mesh of an embedding, and repairs it if that was done before it was embedded. Throws FileError,
+/// and MeshError naming the first defect.
 Surface read_embedded(const MeshInput& input, const Report& report);
 
-/// The same, and divides the embedding's faces into the same triangles. Does not check that the embedding is one
-/// of the mesh; functions that take both do.
+/// The same, and divides the embedding's faces into the same triangles. Does not check that the embedding is
+/// one of the mesh; functions that take both do.
 Surface read_source(const MeshInput& input, const Report& report, Embedding& embedding);
 
 }  // namespace orbitutte::cli

@@ -124,13 +124,15 @@ Wish wish_from(const EmbedArguments& arguments) {
 
 // The vertex that a marked one has become by the repair.
 int followed(int vertex, const std::vector<int>& image) {
-  if (vertex < 0 || vertex >= static_cast<int>(image.size())) return vertex;  // refused later, or not chosen yet
+  if (vertex < 0 || vertex >= static_cast<int>(image.size()))
+    return vertex;  // refused later, or not chosen yet
   const int became = image[vertex];
   if (became < 0)
     throw MeshError(fmt::format(
         "vertex {} is marked, but no face at it is left after the repair; mark another vertex", vertex));
   if (became != vertex)
-    tell("orbitutte: warning: vertex {} was welded to vertex {}, which is marked in its place\n", vertex, became);
+    tell("orbitutte: warning: vertex {} was welded to vertex {}, which is marked in its place\n", vertex,
+         became);
   return became;
 }
 

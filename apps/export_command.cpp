@@ -17,7 +17,8 @@ int export_command(const ExportArguments& arguments) {
   const Embedding embedding = read_embedding(arguments.embedding, report);
   const TextureChart chart = asked_for.value_or(suitable_chart(embedding));
   warn(warnings_of_offsets(embedding));
-  const ExportedModel model = exported_model(read_embedded(mesh_input(arguments.mesh, arguments.format), report), embedding, chart);
+  const ExportedModel model =
+      exported_model(read_embedded(mesh_input(arguments.mesh, arguments.format), report), embedding, chart);
   write_model(arguments.output, model);
   tell(
       "{}: {} vertices, {} texture coordinates, {} faces; largest area distortion of the {} chart "

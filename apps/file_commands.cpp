@@ -60,7 +60,8 @@ int verify_command(const VerifyArguments& arguments) {
   VerificationOptions options;
   options.weights_file = arguments.weights_file;
   options.theorem2 = arguments.theorem2;
-  const Verdict verdict = verify(read_embedded(mesh_input(arguments.mesh, arguments.format), report), embedding, report, options);
+  const Verdict verdict =
+      verify(read_embedded(mesh_input(arguments.mesh, arguments.format), report), embedding, report, options);
   if (arguments.json) {
     fmt::print("{}", verdict_json(verdict));
   } else {

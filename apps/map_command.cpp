@@ -76,7 +76,8 @@ struct MappedInput {
 // The format is that of the one that comes from standard input.
 MeshInput surface_input(const std::string& path, const MapArguments& arguments) {
   if (arguments.a == "-" && arguments.b == "-")
-    throw ArgumentError("both surfaces come from standard input, which can be read once; give one of them a file");
+    throw ArgumentError(
+        "both surfaces come from standard input, which can be read once; give one of them a file");
   return mesh_input(path, path == "-" ? arguments.format : "");
 }
 

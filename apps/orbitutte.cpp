@@ -97,16 +97,18 @@ class Command {
 // The format of the mesh.
 template <typename Arguments>
 void format_of(Command<Arguments>& command) {
-  command.option("--format", command->format,
-                 fmt::format("The format of the mesh, if the name does not end in it, as that of standard input: {}",
-                             fmt::join(orbitutte::choices_of<orbitutte::MeshFormat>(), ", ")));
+  command.option(
+      "--format", command->format,
+      fmt::format("The format of the mesh, if the name does not end in it, as that of standard input: {}",
+                  fmt::join(orbitutte::choices_of<orbitutte::MeshFormat>(), ", ")));
 }
 
 template <typename Arguments>
 void read_mesh_of(Command<Arguments>& command) {
   command
-      .input("mesh", command->mesh, "the mesh",
-             "The mesh: OBJ, OFF, PLY, STL, VTK, GIfTI or FreeSurfer, plain or with .gz; '-' is standard input")
+      .input(
+          "mesh", command->mesh, "the mesh",
+          "The mesh: OBJ, OFF, PLY, STL, VTK, GIfTI or FreeSurfer, plain or with .gz; '-' is standard input")
       ->required();
   format_of(command);
 }
@@ -121,7 +123,8 @@ void read_embedding_of(Command<Arguments>& command) {
 template <typename Arguments>
 void read_embedding_and_mesh_of(Command<Arguments>& command) {
   read_embedding_of(command);
-  command.input("mesh", command->mesh, "the mesh", "The mesh that was embedded; '-' is standard input")->required();
+  command.input("mesh", command->mesh, "the mesh", "The mesh that was embedded; '-' is standard input")
+      ->required();
   format_of(command);
 }
 
@@ -441,7 +444,8 @@ void add_repair(CLI::App& app, int& code) {
 void add_map(CLI::App& app, int& code) {
   Command<MapArguments> command(
       app, "map", "Map one surface to another so that landmarks correspond, one to one, and certify it");
-  command.input("a", command->a, "surface A", "Surface A, a mesh as embed reads it; '-' is standard input")->required();
+  command.input("a", command->a, "surface A", "Surface A, a mesh as embed reads it; '-' is standard input")
+      ->required();
   command.input("b", command->b, "surface B", "Surface B, of the same topology")->required();
   command.option("--format", command->format, "As of embed, of the surface that comes from standard input");
   command.option(

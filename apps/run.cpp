@@ -105,8 +105,8 @@ Input read_and_repair(const MeshInput& input, RunRecord& run) {
   const Stopwatch judging;
   RepairInPlace repaired = repair_in_place(mesh);
   if (repaired.mesh.face_count() == 0)
-    throw MeshError(fmt::format("{}: no face is left after the repair; look at the mesh with `orbitutte info`",
-                                input.path));
+    throw MeshError(fmt::format(
+        "{}: no face is left after the repair; look at the mesh with `orbitutte info`", input.path));
   run.repair = std::move(repaired.summary);
   std::shared_ptr<const Surface> surface =
       judged(std::move(repaired.mesh), fmt::format("{}, repaired", input.path));

@@ -129,8 +129,9 @@ PolygonMesh read_mesh(const std::string& path) {
 MeshFormat mesh_format(const MeshInput& input) {
   if (input.format) return *input.format;
   if (input.path != standard_input) return mesh_format(input.path);
-  throw ArgumentError(fmt::format("the mesh comes from standard input, whose format no ending names; give --format {}",
-                                  listed_choices(choices_of<MeshFormat>())));
+  throw ArgumentError(
+      fmt::format("the mesh comes from standard input, whose format no ending names; give --format {}",
+                  listed_choices(choices_of<MeshFormat>())));
 }
 
 std::string read_bytes(const MeshInput& input) {

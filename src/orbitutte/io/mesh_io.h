@@ -17,10 +17,13 @@ enum class MeshFormat { obj, off, ply, stl, gifti, freesurfer, vtk };
 /// Its names.
 template <>
 struct NameTable<MeshFormat> {
-  static constexpr NamedValue<MeshFormat> rows[] = {
-      {MeshFormat::obj, "obj"},     {MeshFormat::off, "off"}, {MeshFormat::ply, "ply"},
-      {MeshFormat::stl, "stl"},     {MeshFormat::vtk, "vtk"}, {MeshFormat::gifti, "gifti"},
-      {MeshFormat::freesurfer, "freesurfer"}};
+  static constexpr NamedValue<MeshFormat> rows[] = {{MeshFormat::obj, "obj"},
+                                                    {MeshFormat::off, "off"},
+                                                    {MeshFormat::ply, "ply"},
+                                                    {MeshFormat::stl, "stl"},
+                                                    {MeshFormat::vtk, "vtk"},
+                                                    {MeshFormat::gifti, "gifti"},
+                                                    {MeshFormat::freesurfer, "freesurfer"}};
 };
 
 /// Where a mesh is read from.
@@ -75,7 +78,8 @@ PolygonMesh parse_mesh_file(const std::string& path, std::string_view bytes);
 /// The format of the input. Throws ArgumentError if nothing names it.
 MeshFormat mesh_format(const MeshInput& input);
 
-/// The bytes of the file or of standard input. Throws ArgumentError if nothing names their format, and FileError.
+/// The bytes of the file or of standard input. Throws ArgumentError if nothing names their format, and
+/// FileError.
 std::string read_bytes(const MeshInput& input);
 
 /// The polygons in the bytes of the input. If its format was given, bytes that begin as gzip's do are
