@@ -233,7 +233,8 @@ std::size_t jobs_at_once(int jobs) {
 // The records
 
 JobOutcome outcome_of(const ProcessEnd& end, const std::string& message) {
-  const bool lacks_memory = message == memory_ran_out || end.messages.find("bad_alloc") != std::string::npos;
+  const bool lacks_memory = end.is_out_of_memory || message == memory_ran_out ||
+                            end.messages.find("bad_alloc") != std::string::npos;
   if (end.is_out_of_time) return JobOutcome::out_of_time;
   if (!end.exit_code) return lacks_memory ? JobOutcome::out_of_memory : JobOutcome::crashed;
   switch (*end.exit_code) {
@@ -275,6 +276,8 @@ void keep_messages(JobRecord& record, std::string_view text) {
 std::string message_of_end(const JobRecord& record, const JobLimits& limits) {
   if (record.outcome == JobOutcome::out_of_time)
     return fmt::format("ended after {:g} s, the limit of --time-limit", limits.seconds.value_or(0));
+  if (record.outcome == JobOutcome::out_of_memory && record.signal && limits.bytes)
+    return fmt::format("ended with more than {:g} MB, the limit of --memory-limit", *limits.bytes / 1e6);
   if (record.signal)
     return fmt::format("the process was ended by signal {} ({})", *record.signal,
                        ::strsignal(*record.signal));

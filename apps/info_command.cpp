@@ -3,6 +3,7 @@
 
 #include <numbers>
 
+#include "command_arguments.h"
 #include "commands.h"
 #include "orbitutte/io/mesh_io.h"
 #include "orbitutte/orbifold/signature.h"

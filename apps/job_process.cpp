@@ -17,6 +17,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <fstream>
 #include <system_error>
 #include <utility>
 
@@ -28,6 +29,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t longest_messages = 1 << 16;
+constexpr double room_for_libraries = 2e9;
+constexpr double memory_pause = 0.05;  // seconds between two looks at the memory of a process
 
 [[noreturn]] void refuse_process() {
   throw FileError(
@@ -39,10 +42,11 @@ void limit(int resource, double value) {
   ::setrlimit(static_cast<decltype(RLIMIT_AS)>(resource), &both);
 }
 
-// A limit of processor time stands behind the one of the clock, in case that nobody is left to look at it.
+// These stand behind those that the parent enforces. Address space is much more than memory; and if there is
+// none left, OpenBLAS 0.3.21 waits for it forever, or ends the process by SIGINT.
 void take_limits(const JobLimits& limits) {
   limit(RLIMIT_CORE, 0);
-  if (limits.bytes) limit(RLIMIT_AS, *limits.bytes);
+  if (limits.bytes) limit(RLIMIT_AS, 2 * *limits.bytes + room_for_libraries);
   if (limits.seconds) limit(RLIMIT_CPU, std::ceil(*limits.seconds) + 1);
 }
 
@@ -67,16 +71,22 @@ void take_streams(int pipe) {
 #endif
 }
 
+// What a process has in memory, in bytes; 0 where /proc does not say.
+double resident_bytes(pid_t process) {
+  std::ifstream file(fmt::format("/proc/{}/statm", process));
+  double total = 0, resident = 0;
+  file >> total >> resident;
+  return file ? resident * static_cast<double>(::sysconf(_SC_PAGESIZE)) : 0;
+}
+
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
 }  // namespace
 
-JobProcess::JobProcess(const std::function<int()>& work, const JobLimits& limits) : start_(Clock::now()) {
-  if (limits.seconds)
-    deadline_ =
-        start_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(*limits.seconds));
+JobProcess::JobProcess(const std::function<int()>& work, const JobLimits& limits)
+    : start_(Clock::now()), limits_(limits) {
   std::array<int, 2> ends = {};
   if (::pipe(ends.data()) != 0) refuse_process();
   ::fcntl(ends[0], F_SETFL, O_NONBLOCK);
@@ -104,14 +114,14 @@ JobProcess::JobProcess(JobProcess&& other) noexcept
     : process_(std::exchange(other.process_, -1)),
       descriptor_(std::exchange(other.descriptor_, -1)),
       start_(other.start_),
-      deadline_(other.deadline_),
+      limits_(other.limits_),
       end_(std::move(other.end_)) {}
 
 JobProcess& JobProcess::operator=(JobProcess&& other) noexcept {
   std::swap(process_, other.process_);
   std::swap(descriptor_, other.descriptor_);
   std::swap(start_, other.start_);
-  std::swap(deadline_, other.deadline_);
+  std::swap(limits_, other.limits_);
   std::swap(end_, other.end_);
   return *this;
 }
@@ -124,10 +134,19 @@ JobProcess::~JobProcess() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-void JobProcess::stop() {
-  end_.is_out_of_time = true;
-  deadline_.reset();
-  if (process_ > 0) ::kill(process_, SIGKILL);
+std::optional<double> JobProcess::seconds_to_check() const {
+  std::optional<double> left;
+  if (limits_.seconds) left = std::max(0.0, *limits_.seconds - seconds_since(start_));
+  if (limits_.bytes) left = std::min(left.value_or(memory_pause), memory_pause);
+  return left;
+}
+
+void JobProcess::enforce_limits() {
+  if (limits_.seconds && seconds_since(start_) >= *limits_.seconds) end_.is_out_of_time = true;
+  if (limits_.bytes && resident_bytes(process_) > *limits_.bytes) end_.is_out_of_memory = true;
+  if (!end_.is_out_of_time && !end_.is_out_of_memory) return;
+  limits_ = {};
+  ::kill(process_, SIGKILL);
 }
 
 std::optional<ProcessEnd> JobProcess::advance() {
@@ -145,7 +164,9 @@ std::optional<ProcessEnd> JobProcess::advance() {
   process_ = -1;
   if (WIFEXITED(status)) end_.exit_code = WEXITSTATUS(status);
   if (WIFSIGNALED(status)) end_.signal = WTERMSIG(status);
+  // It may have ended by itself at the last moment.
   end_.is_out_of_time = end_.signal && (end_.is_out_of_time || *end_.signal == SIGXCPU);
+  end_.is_out_of_memory = end_.signal && end_.is_out_of_memory;
   end_.seconds = seconds_since(start_);
   end_.peak_memory_bytes = static_cast<long long>(usage.ru_maxrss) * 1024;
   return end_;
@@ -154,17 +175,15 @@ std::optional<ProcessEnd> JobProcess::advance() {
 void wait_for_any(std::vector<JobProcess*> processes) {
   std::vector<pollfd> waiting;
   waiting.reserve(processes.size());
-  int timeout = -1;
+  std::optional<double> pause;
   for (JobProcess* process : processes) {
     waiting.push_back({process->descriptor(), POLLIN, 0});
-    if (!process->deadline()) continue;
-    const double left = std::max(0.0, -seconds_since(*process->deadline()));
-    const int milliseconds = static_cast<int>(std::min(1000 * left + 1, 1e6));
-    timeout = timeout < 0 ? milliseconds : std::min(timeout, milliseconds);
+    const std::optional<double> seconds = process->seconds_to_check();
+    if (seconds) pause = std::min(pause.value_or(*seconds), *seconds);
   }
+  const int timeout = pause ? static_cast<int>(std::min(1000 * *pause + 1, 1e6)) : -1;
   ::poll(waiting.data(), static_cast<nfds_t>(waiting.size()), timeout);
-  for (JobProcess* process : processes)
-    if (process->deadline() && Clock::now() >= *process->deadline()) process->stop();
+  for (JobProcess* process : processes) process->enforce_limits();
 }
 
 }  // namespace orbitutte::cli

@@ -15,7 +15,7 @@ struct JobLimits {
   /// By the clock on the wall.
   std::optional<double> seconds;
 
-  /// Of address space.
+  /// Of memory that is in use at once.
   std::optional<double> bytes;
 };
 
@@ -23,7 +23,7 @@ struct JobLimits {
 struct ProcessEnd {
   /// One of both.
   std::optional<int> exit_code, signal;
-  bool is_out_of_time = false;
+  bool is_out_of_time = false, is_out_of_memory = false;
   double seconds = 0;
   long long peak_memory_bytes = 0;
 
@@ -46,11 +46,11 @@ class JobProcess {
   /// Can be read, or is at its end, if something has happened.
   int descriptor() const { return descriptor_; }
 
-  /// When its time is up.
-  std::optional<std::chrono::steady_clock::time_point> deadline() const { return deadline_; }
+  /// How many seconds may pass before enforce_limits is due; nothing if it never is.
+  std::optional<double> seconds_to_check() const;
 
-  /// Ends the process, since its time is up.
-  void stop();
+  /// Ends the process if its time is up, or if it has more memory than it may have.
+  void enforce_limits();
 
   /// Reads what is there to be read. How the process ended, if it has.
   std::optional<ProcessEnd> advance();
@@ -58,7 +58,7 @@ class JobProcess {
  private:
   int process_ = -1, descriptor_ = -1;
   std::chrono::steady_clock::time_point start_;
-  std::optional<std::chrono::steady_clock::time_point> deadline_;
+  JobLimits limits_;
   ProcessEnd end_;
 };
 

@@ -260,7 +260,7 @@ void add_batch(CLI::App& app, int& code) {
   command.option("--time-limit", command->time_limit, "End a job after so many seconds; 0: never")
       ->capture_default_str();
   command.option("--memory-limit", command->memory_limit,
-                 "Give a job no more address space than this, such as 800M or 2G");
+                 "End a job that has more memory than this in use, such as 800M or 2G");
   command.option("--shard", command->shard,
                  "Run only the part I of N, such as 0/10 .. 9/10; parts may run on several machines at once");
   command.option("--job", command->job,
