@@ -70,7 +70,8 @@ int choose_command(const ChooseArguments& arguments) {
   options.objective = parse_choice<Objective>(arguments.objective, "--objective");
   options.embed.weights.kind = parse_choice<WeightKind>(arguments.weights, "--weights");
   options.embed.threads = arguments.threads;
-  const auto surface = std::make_shared<const Surface>(make_surface(read_mesh(arguments.mesh)));
+  const auto surface =
+      std::make_shared<const Surface>(make_surface(read_mesh(mesh_input(arguments.mesh, arguments.format))));
   mark_extremities(*surface, wish);
   options.target = wish.target;
   options.cones = wish.cones;

@@ -10,8 +10,8 @@
 
 #include "orbitutte/choose.h"
 #include "orbitutte/export/cut_triangles.h"
+#include "orbitutte/inspect/mesh_repair.h"
 #include "orbitutte/inspect/recognition.h"
-#include "orbitutte/io/mesh_io.h"
 
 namespace orbitutte::cli {
 namespace {
@@ -103,8 +103,19 @@ void mark_extremities(const Surface& surface, Wish& wish) {
   wish.word = ConesWord::none;
 }
 
-Surface read_source(const std::string& path, Embedding& embedding) {
-  Surface surface = make_surface(read_mesh(path));
+MeshInput mesh_input(const std::string& path, const std::string& format) {
+  MeshInput input = {path};
+  if (!format.empty()) input.format = parse_choice<MeshFormat>(format, "--format");
+  return input;
+}
+
+Surface read_embedded(const MeshInput& input, const Report& report) {
+  PolygonMesh mesh = read_mesh(input);
+  return make_surface(report.is_repaired ? repair_in_place(mesh).mesh : std::move(mesh));
+}
+
+Surface read_source(const MeshInput& input, const Report& report, Embedding& embedding) {
+  Surface surface = read_embedded(input, report);
   if (embedding.polygons.start == surface.polygons.start)
     embedding.triangles = cut_triangles(surface, embedding);
   return surface;

@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "orbitutte/io/mesh_io.h"
 #include "orbitutte/orbifold/embedding.h"
+#include "orbitutte/report/report.h"
 #include "orbitutte/weights/weights.h"
 
 namespace orbitutte::cli {
@@ -42,9 +44,16 @@ Wish parse_wish(const std::string& orbifold, const std::string& cones);
 /// Marks extremities if they are asked for: as many as the target needs, or three.
 void mark_extremities(const Surface& surface, Wish& wish);
 
-/// Reads the mesh of an embedding, and divides the embedding's faces into the same triangles. Throws
-/// FileError, and MeshError naming the first defect. Does not check that the embedding is one of the mesh;
-/// functions that take both do.
-Surface read_source(const std::string& path, Embedding& embedding);
+/// The mesh at a path, or on standard input, in the format that --format names if it is not empty. Throws
+/// ArgumentError.
+MeshInput mesh_input(const std::string& path, const std::string& format);
+
+/// Reads the mesh of an embedding, and repairs it if that was done before it was embedded. Throws FileError,
+/// and MeshError naming the first defect.
+Surface read_embedded(const MeshInput& input, const Report& report);
+
+/// The same, and divides the embedding's faces into the same triangles. Does not check that the embedding is
+/// one of the mesh; functions that take both do.
+Surface read_source(const MeshInput& input, const Report& report, Embedding& embedding);
 
 }  // namespace orbitutte::cli

@@ -81,4 +81,12 @@ void require_sound_files(const std::vector<InputFile>& inputs, const std::vector
   }
 }
 
+void make_folder(const std::string& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (fs::is_directory(folder)) return;
+  throw FileError(fmt::format("the folder '{}' cannot be made: {}", folder,
+                              error ? error.message() : "a file has that name"));
+}
+
 }  // namespace orbitutte::cli

@@ -33,4 +33,7 @@ bool is_same_file(const std::string& first, const std::string& second);
 /// ending that its content does not have. Devices and pipes may be anything. Opens no file.
 void require_sound_files(const std::vector<InputFile>& inputs, const std::vector<OutputFile>& outputs);
 
+/// Makes the folder, and those above it, if it is not there. Throws FileError.
+void make_folder(const std::string& folder);
+
 }  // namespace orbitutte::cli

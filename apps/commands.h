@@ -30,8 +30,11 @@ enum ExitCode {
   not_certified = 5
 };
 
-struct EmbedArguments {
-  std::string mesh, orbifold, cones, angles, output, report;
+/// What `embed`, and every job of `batch`, may be asked for beside its files.
+struct EmbedWishes {
+  /// Of the mesh; none, if it is empty.
+  std::string format;
+  std::string orbifold, cones, angles;
   std::string objective = name_of(Objective::sigma);
   std::string centre, points;
   std::string polygon, spread = name_of(Spread::arc_length);
@@ -40,13 +43,37 @@ struct EmbedArguments {
   /// Of fitted angles; a sigma of 0 and a count of 0 are none.
   double area = 0, sigma = 0;
   std::uint64_t cut_seed = 0;
-  int count = 0, max_iterations = 2000, threads = 0;
-  bool orders = false, quotient = false, floor = false, quiet = false, json = false;
+  int count = 0, max_iterations = 2000;
+  bool orders = false, quotient = false, floor = false, repair = false;
+};
+
+struct EmbedArguments : EmbedWishes {
+  std::string mesh, output, report;
+  int threads = 0;
+  bool quiet = false, json = false;
 };
 int embed_command(const EmbedArguments& arguments);
 
+/// Throws what can be said against the arguments before the mesh is read.
+void require_sound(const EmbedArguments& arguments);
+
+struct BatchArguments : EmbedWishes {
+  /// A manifest, or meshes and patterns.
+  std::vector<std::string> inputs;
+  std::string output, memory_limit, shard;
+
+  /// The wishes that were given, as on the command line: "--orbifold=432". They hold for all jobs.
+  std::vector<std::string> common;
+  double time_limit = 0;
+  int jobs = 0;
+  /// Negative: all.
+  int job = -1;
+  bool again = false, list = false, summary = false, quiet = false;
+};
+int batch_command(const BatchArguments& arguments);
+
 struct ChooseArguments {
-  std::string mesh, orbifold, cones, output, picture;
+  std::string mesh, format, orbifold, cones, output, picture;
   std::string objective = name_of(Objective::sigma), weights = name_of(WeightKind::standard);
   int solved = 3, threads = 0;
   bool json = false;
@@ -54,7 +81,7 @@ struct ChooseArguments {
 int choose_command(const ChooseArguments& arguments);
 
 struct InfoArguments {
-  std::string mesh;
+  std::string mesh, format;
   bool json = false;
 };
 int info_command(const InfoArguments& arguments);
@@ -65,7 +92,7 @@ struct TypesArguments {
 int types_command(const TypesArguments& arguments);
 
 struct VerifyArguments {
-  std::string embedding, report, mesh, weights_file;
+  std::string embedding, report, mesh, format, weights_file;
   bool theorem2 = false, json = false;
 };
 int verify_command(const VerifyArguments& arguments);
@@ -77,13 +104,13 @@ struct TileArguments {
 int tile_command(const TileArguments& arguments);
 
 struct ExportArguments {
-  std::string embedding, report, mesh, output, chart;
+  std::string embedding, report, mesh, format, output, chart;
   double radius = brain_sphere_radius;
 };
 int export_command(const ExportArguments& arguments);
 
 struct MeasureArguments {
-  std::string embedding, report, mesh, output, measure = "all";
+  std::string embedding, report, mesh, format, output, measure = "all";
   /// 0: that for which image and surface have the same area.
   double radius = 0;
   bool faces = false, quiet = false, json = false;
@@ -91,25 +118,25 @@ struct MeasureArguments {
 int measure_command(const MeasureArguments& arguments);
 
 struct RenderArguments {
-  std::string embedding, report, mesh, output;
+  std::string embedding, report, mesh, format, output;
   std::string panel = name_of(Panel::sheet), view, up, size;
 };
 int render_command(const RenderArguments& arguments);
 
 struct ReportArguments {
-  std::string embedding, report, mesh, output, values, map = "0";
+  std::string embedding, report, mesh, format, output, values, map = "0";
 };
 int report_command(const ReportArguments& arguments);
 
 struct CompareArguments {
-  std::string mesh, cones = "extremities", weights = name_of(WeightKind::standard), output, view, up;
+  std::string mesh, format, cones = "extremities", weights = name_of(WeightKind::standard), output, view, up;
   std::vector<std::string> orbifolds;
   bool json = false;
 };
 int compare_command(const CompareArguments& arguments);
 
 struct RepairArguments {
-  std::string mesh, output, report;
+  std::string mesh, format, output, report;
   std::vector<std::string> without;
   double weld = 0;
   /// Negative: all holes but the longest.
@@ -120,6 +147,8 @@ int repair_command(const RepairArguments& arguments);
 
 struct MapArguments {
   std::string a, b, landmarks, output, tour;
+  /// Of the one that comes from standard input.
+  std::string format;
   std::string weights = name_of(WeightKind::standard), tile = name_of(TileShape::shared);
   double clamp = 0.01, tolerance = 1e-13;
   std::uint64_t cut_seed_a = 0, cut_seed_b = 0;
@@ -129,7 +158,7 @@ struct MapArguments {
 int map_command(const MapArguments& arguments);
 
 struct ResampleArguments {
-  std::string embedding, report, mesh, values, grid, kind, output;
+  std::string embedding, report, mesh, format, values, grid, kind, output;
   /// The margin of images.
   int pad = 0;
   bool back = false;

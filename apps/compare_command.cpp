@@ -56,7 +56,7 @@ ComparedMap compared_map(const Surface& surface, const Compared& compared) {
 }  // namespace
 
 int compare_command(const CompareArguments& arguments) {
-  const Surface surface = make_surface(read_mesh(arguments.mesh));
+  const Surface surface = make_surface(read_mesh(mesh_input(arguments.mesh, arguments.format)));
   const Viewpoint viewpoint = parse_viewpoint(arguments.view, arguments.up, surface);
   EmbedOptions options;
   options.weights.kind = parse_choice<WeightKind>(arguments.weights, "--weights");

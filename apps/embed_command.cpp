@@ -100,6 +100,11 @@ Wish wish_for_angles(const EmbedArguments& arguments, const Surface& surface) {
   return {marked.target, ConesWord::none, marked.vertices};
 }
 
+Wish polygon_wish(const std::vector<PolygonCorner>& corners) {
+  const Target target = polygon_target(corners);
+  return {target, ConesWord::none, corner_vertices(target)};
+}
+
 // What is asked for: an orbifold and its cones, as far as they are given, or a polygon with its corners.
 Wish wish_from(const EmbedArguments& arguments) {
   const bool polygon = arguments.orbifold == polygon_signature;
@@ -114,8 +119,35 @@ Wish wish_from(const EmbedArguments& arguments) {
         "--polygon is missing; give the file with the corners of the polygon, a line 'vertex x y z' each");
   if (!arguments.cones.empty())
     throw ArgumentError("leave out --cones: the lines of the file of --polygon name the marked vertices");
-  const Target target = polygon_target(read_corners(arguments.polygon));
-  return {target, ConesWord::none, corner_vertices(target)};
+  return polygon_wish(read_corners(arguments.polygon));
+}
+
+// The vertex that a marked one has become by the repair.
+int followed(int vertex, const std::vector<int>& image) {
+  if (vertex < 0 || vertex >= static_cast<int>(image.size()))
+    return vertex;  // refused later, or not chosen yet
+  const int became = image[vertex];
+  if (became < 0)
+    throw MeshError(fmt::format(
+        "vertex {} is marked, but no face at it is left after the repair; mark another vertex", vertex));
+  if (became != vertex)
+    tell("orbitutte: warning: vertex {} was welded to vertex {}, which is marked in its place\n", vertex,
+         became);
+  return became;
+}
+
+std::vector<PolygonCorner> followed(std::vector<PolygonCorner> corners, const std::vector<int>& image) {
+  for (PolygonCorner& corner : corners) corner.vertex = followed(corner.vertex, image);
+  return corners;
+}
+
+// The same of --cones.
+std::string followed(const std::string& cones, const std::vector<int>& image) {
+  if (cones_word(cones) != ConesWord::none) return cones;
+  std::vector<std::string> entries;
+  for (const int vertex : parse_cones(cones))
+    entries.push_back(vertex == best_vertex ? "best" : std::to_string(followed(vertex, image)));
+  return fmt::format("{}", fmt::join(entries, ","));
 }
 
 EmbedOptions options_from(const EmbedArguments& arguments) {
@@ -252,8 +284,21 @@ BestEmbedding embed_wish(const std::shared_ptr<const Surface>& surface, const Wi
 
 }  // namespace
 
-int embed_command(const EmbedArguments& arguments) {
+void require_sound(const EmbedArguments& arguments) {
+  options_from(arguments);
+  require_fitting_angles(arguments);
+  require_fitted_alone(arguments);
+  parse_choice<Objective>(arguments.objective, "--objective");
+  if (!takes_angles(arguments.orbifold)) {
+    wish_from(arguments);
+  } else if (arguments.angles != fitted_word) {
+    parse_angles(arguments.angles);
+  }
+}
+
+int embed_command(const EmbedArguments& asked) {
   const Stopwatch total;
+  EmbedArguments arguments = asked;
   EmbedOptions options = options_from(arguments);
   require_fitting_angles(arguments);
   require_fitted_alone(arguments);
@@ -262,7 +307,18 @@ int embed_command(const EmbedArguments& arguments) {
   const Objective objective = parse_choice<Objective>(arguments.objective, "--objective");
 
   RunRecord run;
-  const auto [surface, reader_warnings] = read_input(arguments.mesh, run);
+  const MeshInput source = mesh_input(arguments.mesh, arguments.format);
+  const auto [surface, reader_warnings, image] =
+      arguments.repair ? read_and_repair(source, run) : read_input(source, run);
+  if (image) {
+    if (!arguments.quiet) tell_steps(run.repair->records);
+    arguments.cones = followed(arguments.cones, *image);
+    options.quotient.points = followed(options.quotient.points, *image);
+    if (arguments.orbifold == polygon_signature)
+      wish = polygon_wish(followed(read_corners(arguments.polygon), *image));
+    else if (!has_angles)
+      wish = wish_from(arguments);
+  }
 
   if (has_angles) wish = wish_for_angles(arguments, *surface);
   mark_extremities(*surface, wish);

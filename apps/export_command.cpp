@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "command_arguments.h"
 #include "commands.h"
 #include "orbitutte/export/cut_triangles.h"
 #include "orbitutte/export/export.h"
@@ -18,8 +19,8 @@ bool is_brain_surface(MeshFormat format) {
 }
 
 // The sphere alone.
-int export_sphere(const ExportArguments& arguments, const Embedding& embedding) {
-  require_cut_from(make_surface(read_mesh(arguments.mesh)), embedding);
+int export_sphere(const ExportArguments& arguments, const Embedding& embedding, const Report& report) {
+  require_cut_from(read_embedded(mesh_input(arguments.mesh, arguments.format), report), embedding);
   const PolygonMesh sphere = sphere_surface(embedding, arguments.radius);
   write_mesh(arguments.output, sphere);
   tell("{}: the sphere of radius {}, {} vertices, {} faces\n", arguments.output, arguments.radius,
@@ -32,11 +33,13 @@ int export_sphere(const ExportArguments& arguments, const Embedding& embedding) 
 int export_command(const ExportArguments& arguments) {
   std::optional<TextureChart> asked_for;
   if (!arguments.chart.empty()) asked_for = parse_choice<TextureChart>(arguments.chart, "--chart");
-  const Embedding embedding = read_embedding(arguments.embedding, read_report(arguments.report));
+  const Report report = read_report(arguments.report);
+  const Embedding embedding = read_embedding(arguments.embedding, report);
   warn(warnings_of_offsets(embedding));
-  if (is_brain_surface(mesh_format(arguments.output))) return export_sphere(arguments, embedding);
+  if (is_brain_surface(mesh_format(arguments.output))) return export_sphere(arguments, embedding, report);
   const TextureChart chart = asked_for.value_or(suitable_chart(embedding));
-  const ExportedModel model = exported_model(make_surface(read_mesh(arguments.mesh)), embedding, chart);
+  const ExportedModel model =
+      exported_model(read_embedded(mesh_input(arguments.mesh, arguments.format), report), embedding, chart);
   write_model(arguments.output, model);
   tell(
       "{}: {} vertices, {} texture coordinates, {} faces; largest area distortion of the {} chart "

@@ -2,6 +2,7 @@
 // verify, tile and sample: from files to files.
 #include <fmt/format.h>
 
+#include "command_arguments.h"
 #include "commands.h"
 #include "orbitutte/export/tiling.h"
 #include "orbitutte/inspect/recognition.h"
@@ -59,7 +60,8 @@ int verify_command(const VerifyArguments& arguments) {
   VerificationOptions options;
   options.weights_file = arguments.weights_file;
   options.theorem2 = arguments.theorem2;
-  const Verdict verdict = verify(make_surface(read_mesh(arguments.mesh)), embedding, report, options);
+  const Verdict verdict =
+      verify(read_embedded(mesh_input(arguments.mesh, arguments.format), report), embedding, report, options);
   if (arguments.json) {
     fmt::print("{}", verdict_json(verdict));
   } else {

@@ -3,6 +3,7 @@
 
 #include <numbers>
 
+#include "command_arguments.h"
 #include "commands.h"
 #include "orbitutte/io/mesh_io.h"
 #include "orbitutte/orbifold/signature.h"
@@ -46,7 +47,7 @@ void print_text(const std::string& path, const Inspection& inspection, const std
 }  // namespace
 
 int info_command(const InfoArguments& arguments) {
-  const PolygonMesh mesh = read_mesh(arguments.mesh);
+  const PolygonMesh mesh = read_mesh(mesh_input(arguments.mesh, arguments.format));
   const Inspection inspection = inspect(mesh);
   const std::vector<WeakPlace> places = weak_places_if_sound(mesh, inspection);
   for (const std::string& warning : mesh.warnings) tell("orbitutte: warning: {}\n", warning);

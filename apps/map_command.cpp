@@ -49,14 +49,6 @@ void require_inputs_kept(const MapArguments& arguments) {
   require_sound_files(inputs, files_in(arguments.output));
 }
 
-void make_folder(const std::string& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (fs::is_directory(folder)) return;
-  throw FileError(fmt::format("the folder '{}' cannot be made: {}", folder,
-                              error ? error.message() : "a file has that name"));
-}
-
 std::vector<Landmark> landmarks_from(const std::string& text) {
   if (text.empty()) return {};
   return is_landmark_list(text) ? parse_landmarks(text) : read_landmarks(text);
@@ -81,11 +73,19 @@ struct MappedInput {
   RunRecord run;
 };
 
-MappedInput read_surface(const std::string& path) {
+// The format is that of the one that comes from standard input.
+MeshInput surface_input(const std::string& path, const MapArguments& arguments) {
+  if (arguments.a == "-" && arguments.b == "-")
+    throw ArgumentError(
+        "both surfaces come from standard input, which can be read once; give one of them a file");
+  return mesh_input(path, path == "-" ? arguments.format : "");
+}
+
+MappedInput read_surface(const MeshInput& input) {
   MappedInput result;
-  result.input = read_input(path, result.run);
+  result.input = read_input(input, result.run);
   for (const std::string& warning : result.input.warnings)
-    tell("orbitutte: warning: {}: {}\n", path, warning);
+    tell("orbitutte: warning: {}: {}\n", input.path, warning);
   return result;
 }
 
@@ -171,7 +171,8 @@ int map_command(const MapArguments& arguments) {
   require_inputs_kept(arguments);
   MapOptions options = options_from(arguments);
   const std::vector<Landmark> landmarks = landmarks_from(arguments.landmarks);
-  MappedInput a = read_surface(arguments.a), b = read_surface(arguments.b);
+  MappedInput a = read_surface(surface_input(arguments.a, arguments));
+  MappedInput b = read_surface(surface_input(arguments.b, arguments));
   const ProgressLine line(arguments.quiet);
   options.embed.progress = [&](const Progress& progress) {
     line.show(progress);

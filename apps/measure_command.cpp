@@ -63,9 +63,10 @@ int measure_command(const MeasureArguments& arguments) {
   if (arguments.faces && !arguments.output.empty()) require_format_for_faces(arguments.output);
   if (!(arguments.radius >= 0))
     throw ArgumentError(fmt::format("--radius is {}; give a positive number", arguments.radius));
-  Embedding embedding = read_embedding(arguments.embedding, read_report(arguments.report));
+  const Report report = read_report(arguments.report);
+  Embedding embedding = read_embedding(arguments.embedding, report);
   warn(warnings_of_offsets(embedding));
-  const Surface surface = read_source(arguments.mesh, embedding);
+  const Surface surface = read_source(mesh_input(arguments.mesh, arguments.format), report, embedding);
   require_cut_from(surface, embedding);
   const SurfaceStrain strain = measure_strain(surface, embedding, arguments.radius);
   const StrainMap& map = arguments.faces ? strain.on_faces : strain.at_vertices;

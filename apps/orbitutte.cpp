@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
 // The command line: docs/file-formats.md and `orbitutte --help` say what it does; the library does it.
 #include <CLI/CLI.hpp>
-#include <exception>
-#include <functional>
 #include <memory>
-#include <new>
 #include <sstream>
-#include <system_error>
 
 #include "command_files.h"
 #include "command_line.h"
 #include "commands.h"
+#include "embed_columns.h"
 #include "orbitutte/errors.h"
 #include "orbitutte/inspect/mesh_repair.h"
+#include "orbitutte/io/manifest.h"
+#include "orbitutte/io/mesh_io.h"
+#include "run.h"
 #include "standard_streams.h"
 #include "usage.h"
 
@@ -20,40 +20,17 @@ namespace {
 
 using namespace orbitutte::cli;
 
-int complain(const std::string& message, ExitCode code) {
-  tell("orbitutte: {}\n", message);
-  return code;
-}
-
-// Runs a function that prints and returns an exit code. Every kind of failure has its exit code and one
-// sentence on standard error.
-int run(const std::function<int()>& command) {
-  try {
-    const int code = command();
-    flush_standard_output();
-    return code;
-  } catch (const orbitutte::FileError& error) {
-    return complain(error.what(), file_trouble);
-  } catch (const std::bad_alloc&) {
-    return complain("memory ran out", file_trouble);
-  } catch (const orbitutte::ArgumentError& error) {
-    return complain(error.what(), wrong_usage);
-  } catch (const orbitutte::Error& error) {
-    return complain(error.what(), unsuitable_mesh);
-  } catch (const std::system_error& error) {  // fmt::print throws it
-    const char* const place = std::ferror(stdout) ? "standard output cannot be written: " : "";
-    return complain(place + error.code().message(), file_trouble);
-  } catch (const std::exception& error) {
-    return complain(error.what(), file_trouble);
-  }
-}
-
 // A command while it is being defined. Its input and output files are checked before it runs.
 template <typename Arguments>
 class Command {
  public:
   Command(CLI::App& app, const std::string& name, const std::string& description)
       : command_(app.add_subcommand(name, description)) {}
+
+  std::vector<const CLI::Option*> options() const {
+    const CLI::App* const command = command_;
+    return command->get_options();
+  }
 
   // Where the values of the options go.
   Arguments* operator->() const { return arguments_.get(); }
@@ -80,11 +57,15 @@ class Command {
     return command_->add_option(names, path, description);
   }
 
+  // Runs before the command itself.
+  void prepares(void (*function)(const CLI::App&, Arguments&)) { prepare_ = function; }
+
   // The last step: `code` gets the exit code, and must outlive the application.
   void runs(int (*function)(const Arguments&), int& code) {
     command_->callback([command = *this, function, &code] {
-      code = run([&] {
+      code = run_guarded([&] {
         require_sound_files(given(command.inputs_), given(command.outputs_));
+        if (command.prepare_) command.prepare_(*command.command_, *command.arguments_);
         return function(*command.arguments_);
       });
     });
@@ -107,6 +88,7 @@ class Command {
   }
 
   CLI::App* command_;
+  void (*prepare_)(const CLI::App&, Arguments&) = nullptr;
   std::shared_ptr<Arguments> arguments_ = std::make_shared<Arguments>();
   std::vector<Expected<InputFile>> inputs_;
   std::vector<Expected<OutputFile>> outputs_;
@@ -115,13 +97,23 @@ class Command {
 // What meshes are written as.
 const std::vector<std::string> mesh_endings = {".obj",  ".off", ".ply", ".stl",  ".vtk",   ".vtp",
                                                ".gltf", ".glb", ".gii", ".pial", ".white", ".orig"};
+// The format of the mesh.
+template <typename Arguments>
+void format_of(Command<Arguments>& command) {
+  command.option(
+      "--format", command->format,
+      fmt::format("The format of the mesh, if the name does not end in it, as that of standard input: {}",
+                  fmt::join(orbitutte::choices_of<orbitutte::MeshFormat>(), ", ")));
+}
 
 template <typename Arguments>
 void read_mesh_of(Command<Arguments>& command) {
   command
       .input("mesh", command->mesh, "the mesh",
-             "The mesh: OBJ, OFF, PLY, STL, VTK, VTP, glTF, GIfTI or FreeSurfer, plain or with .gz")
+             "The mesh: OBJ, OFF, PLY, STL, VTK, VTP, glTF, GIfTI or FreeSurfer, plain or with .gz; '-' is "
+             "standard input")
       ->required();
+  format_of(command);
 }
 
 // The two files that `embed` writes.
@@ -134,7 +126,9 @@ void read_embedding_of(Command<Arguments>& command) {
 template <typename Arguments>
 void read_embedding_and_mesh_of(Command<Arguments>& command) {
   read_embedding_of(command);
-  command.input("mesh", command->mesh, "the mesh", "The mesh that was embedded")->required();
+  command.input("mesh", command->mesh, "the mesh", "The mesh that was embedded; '-' is standard input")
+      ->required();
+  format_of(command);
 }
 
 // Which vertices are marked, and by what the best are chosen.
@@ -151,9 +145,9 @@ void marks_of(Command<Arguments>& command) {
       ->capture_default_str();
 }
 
-void add_embed(CLI::App& app, int& code) {
-  Command<EmbedArguments> command(app, "embed", "Embed a mesh into an orbifold and certify the result");
-  read_mesh_of(command);
+// What `embed` and every job of `batch` may be asked for.
+template <typename Arguments>
+void wishes_of(Command<Arguments>& command) {
   command.option(
       "--orbifold", command->orbifold,
       "Conway's symbol, such as 432, *532 or 2,2,12 ('orbitutte types' lists all); 'best', of least "
@@ -193,10 +187,6 @@ void add_embed(CLI::App& app, int& code) {
               "How boundary vertices are spread along the sides of the polygon: arc-length or equidistant")
       ->capture_default_str()
       ->needs(polygon);
-  command.output("-o,--output", command->output, {"-o", "the embedding", "", {".ply"}},
-                 "Write the embedding (binary PLY) here");
-  command.output("--report", command->report, {"--report", "the report", "", {".json"}},
-                 "Write the report (JSON) here");
   command
       .option("--weights", command->weights,
               "cotan, delaunay, mean-value, uniform, or standard: delaunay if all faces are triangles, "
@@ -217,15 +207,78 @@ void add_embed(CLI::App& app, int& code) {
   command
       .option("--max-iterations", command->max_iterations, "Stop with exit code 4 after so many iterations")
       ->capture_default_str();
-  command.option("--threads", command->threads, "Use so many threads; 0: one for every core")
-      ->capture_default_str();
+  command.flag("--repair", command->repair,
+               "First do what 'orbitutte repair' does, and say what that was; vertices keep their numbers");
   command.flag("--floor", command->floor,
                "Also measure the distortion that the coarseness of the mesh costs: that of the map of the "
                "same surface "
                "subdivided twice, at the vertices of this mesh; embeds a mesh with 16 times as many faces");
+}
+
+Command<EmbedArguments> embed_definition(CLI::App& app) {
+  Command<EmbedArguments> command(app, "embed", "Embed a mesh into an orbifold and certify the result");
+  read_mesh_of(command);
+  wishes_of(command);
+  command.output("-o,--output", command->output, {"-o", "the embedding", "", {".ply"}},
+                 "Write the embedding (binary PLY) here");
+  command.output("--report", command->report, {"--report", "the report", "", {".json"}},
+                 "Write the report (JSON) here");
+  command.option("--threads", command->threads, "Use so many threads; 0: one for every core")
+      ->capture_default_str();
   command.flag("--quiet", command->quiet, "Print no progress and no summary");
   command.flag("--json", command->json, "Print the report on standard output");
-  command.runs(embed_command, code);
+  return command;
+}
+
+void add_embed(CLI::App& app, int& code) { embed_definition(app).runs(embed_command, code); }
+
+// The options of `embed` that were given, as on the command line.
+void keep_wishes(const CLI::App& app, BatchArguments& arguments) {
+  for (const orbitutte::ManifestColumn& column : embed_columns()) {
+    const CLI::Option* const option = app.get_option_no_throw("--" + column.name);
+    if (!option || option->count() == 0) continue;
+    const bool is_flag = column.kind == orbitutte::ManifestColumn::Kind::flag;
+    arguments.common.push_back(option->get_name() + (is_flag ? "" : "=" + option->results().back()));
+  }
+}
+
+void add_batch(CLI::App& app, int& code) {
+  Command<BatchArguments> command(
+      app, "batch",
+      "Embed many meshes, each in a process of its own; started again, it goes on "
+      "where it was ended");
+  command
+      .option(
+          "manifest", command->inputs,
+          "A table (.csv) with a row for each job: mesh, orbifold, cones and further options of embed; or "
+          "meshes, or patterns in quotes such as 'meshes/*.off'")
+      ->required();
+  command
+      .option("-o,--output", command->output,
+              "Write NAME.ply and NAME.json of each job, jobs.jsonl, summary.csv and summary.html into this "
+              "folder, which is made if it is not there")
+      ->required();
+  command.option("--jobs", command->jobs, "Run so many at once, each with one thread; 0: one for every core")
+      ->capture_default_str();
+  command.option("--time-limit", command->time_limit, "End a job after so many seconds; 0: never")
+      ->capture_default_str();
+  command.option("--memory-limit", command->memory_limit,
+                 "End a job that has more memory than this in use, such as 800M or 2G");
+  command.option("--shard", command->shard,
+                 "Run only the part I of N, such as 0/10 .. 9/10; parts may run on several machines at once");
+  command.option("--job", command->job,
+                 "Run this job alone, counted from 0, and print its record, which jobs.jsonl does not get");
+  command.flag("--again", command->again,
+               "Also run jobs again that a crash, a limit or trouble with a file has ended");
+  command.flag("--summary", command->summary,
+               "Run nothing; write summary.csv and summary.html of what is done");
+  command.flag("--list", command->list,
+               "Run nothing; print a line of JSON for each job, and whether it is done");
+  command.flag("--quiet", command->quiet, "Print no progress and no summary");
+  format_of(command);
+  wishes_of(command);
+  command.prepares(keep_wishes);
+  command.runs(batch_command, code);
 }
 
 void add_choose(CLI::App& app, int& code) {
@@ -427,8 +480,10 @@ void add_repair(CLI::App& app, int& code) {
 void add_map(CLI::App& app, int& code) {
   Command<MapArguments> command(
       app, "map", "Map one surface to another so that landmarks correspond, one to one, and certify it");
-  command.input("a", command->a, "surface A", "Surface A: a mesh as of embed")->required();
+  command.input("a", command->a, "surface A", "Surface A, a mesh as embed reads it; '-' is standard input")
+      ->required();
   command.input("b", command->b, "surface B", "Surface B, of the same topology")->required();
+  command.option("--format", command->format, "As of embed, of the surface that comes from standard input");
   command.option(
       "--landmarks", command->landmarks,
       "Vertices that correspond, counted from 0: a file with two columns, of A and of B, or a list such as "
@@ -522,6 +577,41 @@ int answer(const CLI::App& app, const CLI::ParseError& error) {
 
 namespace orbitutte::cli {
 
+std::vector<orbitutte::ManifestColumn> embed_columns() {
+  using Kind = orbitutte::ManifestColumn::Kind;
+  constexpr std::string_view not_of_jobs[] = {"help",  "output", "report", "threads",
+                                              "quiet", "json",   "format"};
+  constexpr std::string_view files[] = {"points", "polygon", "weights-file"};
+  const auto is_in = [](const auto& names, const std::string& name) {
+    return std::find(std::begin(names), std::end(names), name) != std::end(names);
+  };
+  CLI::App app;
+  const Command<EmbedArguments> command = embed_definition(app);
+  std::vector<orbitutte::ManifestColumn> columns;
+  for (const CLI::Option* option : command.options()) {
+    if (option->get_lnames().empty()) continue;
+    const std::string name = option->get_lnames().front();
+    const Kind kind = is_in(files, name)             ? Kind::file
+                      : option->get_type_size() == 0 ? Kind::flag
+                                                     : Kind::value;
+    if (!is_in(not_of_jobs, name)) columns.push_back({name, kind});
+  }
+  return columns;
+}
+
+EmbedArguments parse_embed(const std::string& mesh, const std::vector<std::string>& options) {
+  CLI::App app;
+  const Command<EmbedArguments> command = embed_definition(app);
+  std::vector<std::string> words(options.rbegin(), options.rend());  // CLI11 takes the last one first
+  words.insert(words.end(), {mesh, "embed"});
+  try {
+    app.parse(words);
+  } catch (const CLI::ParseError& error) {
+    throw orbitutte::ArgumentError(error.what());
+  }
+  return *command.operator->();
+}
+
 void add_commands(CLI::App& app, int& code) {
   app.set_version_flag("--version", version_text());
   app.require_subcommand(1);
@@ -539,6 +629,7 @@ void add_commands(CLI::App& app, int& code) {
   add_repair(app, code);
   add_map(app, code);
   add_resample(app, code);
+  add_batch(app, code);
   add_sample(app, code);
 }
 
@@ -549,7 +640,7 @@ int run_command_line(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return run([&] { return answer(app, error); });
+    return run_guarded([&] { return answer(app, error); });
   }
   return code;
 }

@@ -36,7 +36,7 @@ int render_command(const RenderArguments& arguments) {
   const Report report = read_report(arguments.report);
   Embedding embedding = read_embedding(arguments.embedding, report);
   warn(warnings_of_offsets(embedding));
-  const Surface surface = read_source(arguments.mesh, embedding);
+  const Surface surface = read_source(mesh_input(arguments.mesh, arguments.format), report, embedding);
   const Viewpoint viewpoint = parse_viewpoint(arguments.view, arguments.up, surface);
   options.view = viewpoint.view;
   options.up = viewpoint.up;

@@ -9,6 +9,7 @@
 #include "orbitutte/inspect/mesh_repair.h"
 #include "orbitutte/io/file.h"
 #include "orbitutte/io/mesh_io.h"
+#include "run.h"
 #include "standard_streams.h"
 
 namespace orbitutte::cli {
@@ -38,15 +39,10 @@ nlohmann::ordered_json to_json(const RepairedMesh& repaired, const Inspection& i
   return json;
 }
 
-void tell_steps(const RepairedMesh& repaired) {
-  if (repaired.records.empty()) tell("orbitutte: nothing had to be repaired\n");
-  for (const RepairRecord& record : repaired.records) tell("{}: {}\n", name_of(record.step), record.message);
-}
-
 }  // namespace
 
 int repair_command(const RepairArguments& arguments) {
-  const PolygonMesh mesh = read_mesh(arguments.mesh);
+  const PolygonMesh mesh = read_mesh(mesh_input(arguments.mesh, arguments.format));
   for (const std::string& warning : mesh.warnings) tell("orbitutte: warning: {}\n", warning);
   const RepairedMesh repaired = repair_mesh(mesh, options_of(arguments));
   if (repaired.mesh.face_count() == 0)
@@ -59,7 +55,7 @@ int repair_command(const RepairArguments& arguments) {
   if (arguments.json) {
     fmt::print("{}\n", json.dump(1));
   } else {
-    tell_steps(repaired);
+    tell_steps(repaired.records);
     tell("{}: {} vertices, {} faces, {}\n", arguments.output, repaired.mesh.vertex_count(),
          repaired.mesh.face_count(),
          inspection.defects.empty() ? name_of(inspection.topology) : "still defective");

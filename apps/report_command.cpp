@@ -36,7 +36,7 @@ int report_command(const ReportArguments& arguments) {
   const Report claims = read_report(arguments.report);
   Embedding embedding = read_embedding(arguments.embedding, claims);
   warn(warnings_of_offsets(embedding));
-  Surface surface = read_source(arguments.mesh, embedding);
+  Surface surface = read_source(mesh_input(arguments.mesh, arguments.format), claims, embedding);
   if (!arguments.values.empty()) show_values(arguments, surface);
   const std::string report = read_file(arguments.report);
   PageOptions options;

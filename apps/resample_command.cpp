@@ -99,9 +99,10 @@ int resample_command(const ResampleArguments& arguments) {
   if (!is_grid_name(arguments.grid) && is_same_file(arguments.grid, arguments.output))
     throw ArgumentError(fmt::format(
         "-o is '{}', which is the sphere that the command reads; name another file", arguments.output));
-  Embedding embedding = read_embedding(arguments.embedding, read_report(arguments.report));
+  const Report report = read_report(arguments.report);
+  Embedding embedding = read_embedding(arguments.embedding, report);
   warn(warnings_of_offsets(embedding));
-  const Surface surface = read_source(arguments.mesh, embedding);
+  const Surface surface = read_source(mesh_input(arguments.mesh, arguments.format), report, embedding);
   const Stopwatch making_grid;
   const Grid grid = grid_from(arguments.grid, embedding);
   const double grid_seconds = making_grid.seconds();

@@ -5,6 +5,9 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <exception>
+#include <new>
+#include <system_error>
 #include <utility>
 
 #include "orbitutte/errors.h"
@@ -14,6 +17,32 @@
 #include "standard_streams.h"
 
 namespace orbitutte::cli {
+
+int complain(const std::string& message, ExitCode code) {
+  tell("orbitutte: {}\n", message);
+  return code;
+}
+
+int run_guarded(const std::function<int()>& command) {
+  try {
+    const int code = command();
+    flush_standard_output();
+    return code;
+  } catch (const FileError& error) {
+    return complain(error.what(), file_trouble);
+  } catch (const std::bad_alloc&) {
+    return complain(memory_ran_out, file_trouble);
+  } catch (const ArgumentError& error) {
+    return complain(error.what(), wrong_usage);
+  } catch (const Error& error) {
+    return complain(error.what(), unsuitable_mesh);
+  } catch (const std::system_error& error) {  // fmt::print throws it
+    const char* const place = std::ferror(stdout) ? "standard output cannot be written: " : "";
+    return complain(place + error.code().message(), file_trouble);
+  } catch (const std::exception& error) {
+    return complain(error.what(), file_trouble);
+  }
+}
 
 long long peak_memory_bytes() {
   rusage usage = {};
@@ -37,23 +66,57 @@ void ProgressLine::clear() const {
   if (shown_) tell("\r\033[K");
 }
 
-Input read_input(const std::string& path, RunRecord& run) {
+namespace {
+
+// Reads the mesh, and records what the report says about its file.
+PolygonMesh read_recorded(const MeshInput& input, RunRecord& run) {
   const Stopwatch reading;
-  mesh_format(path);  // refuses what has no known ending before it is read
-  const std::string bytes = read_file(path);
-  run.mesh_path = path;
+  const std::string bytes = read_bytes(input);
+  run.mesh_path = input.path;
   run.input_sha256 = sha256(bytes);
-  PolygonMesh mesh = parse_mesh_file(path, bytes);
-  std::vector<std::string> warnings = std::move(mesh.warnings);
+  PolygonMesh mesh = parse_mesh_input(input, bytes);
   run.read_seconds = reading.seconds();
-  const Stopwatch judging;
+  return mesh;
+}
+
+// Messages begin with `name`.
+std::shared_ptr<const Surface> judged(PolygonMesh mesh, const std::string& name) {
   try {
-    Surface surface = make_surface(std::move(mesh));
-    run.validate_seconds = judging.seconds();
-    return {std::make_shared<const Surface>(std::move(surface)), std::move(warnings)};
+    return std::make_shared<const Surface>(make_surface(std::move(mesh)));
   } catch (const MeshError& error) {
-    throw MeshError(fmt::format("{}: {}", path, error.what()));
+    throw MeshError(fmt::format("{}: {}", name, error.what()));
   }
+}
+
+}  // namespace
+
+Input read_input(const MeshInput& input, RunRecord& run) {
+  PolygonMesh mesh = read_recorded(input, run);
+  std::vector<std::string> warnings = std::move(mesh.warnings);
+  const Stopwatch judging;
+  std::shared_ptr<const Surface> surface = judged(std::move(mesh), input.path);
+  run.validate_seconds = judging.seconds();
+  return {std::move(surface), std::move(warnings)};
+}
+
+Input read_and_repair(const MeshInput& input, RunRecord& run) {
+  PolygonMesh mesh = read_recorded(input, run);
+  std::vector<std::string> warnings = std::move(mesh.warnings);
+  const Stopwatch judging;
+  RepairInPlace repaired = repair_in_place(mesh);
+  if (repaired.mesh.face_count() == 0)
+    throw MeshError(fmt::format(
+        "{}: no face is left after the repair; look at the mesh with `orbitutte info`", input.path));
+  run.repair = std::move(repaired.summary);
+  std::shared_ptr<const Surface> surface =
+      judged(std::move(repaired.mesh), fmt::format("{}, repaired", input.path));
+  run.validate_seconds = judging.seconds();
+  return {std::move(surface), std::move(warnings), std::move(repaired.image)};
+}
+
+void tell_steps(const std::vector<RepairRecord>& records) {
+  if (records.empty()) tell("orbitutte: nothing had to be repaired\n");
+  for (const RepairRecord& record : records) tell("{}: {}\n", name_of(record.step), record.message);
 }
 
 }  // namespace orbitutte::cli

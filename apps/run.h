@@ -3,15 +3,29 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "commands.h"
+#include "orbitutte/io/mesh_io.h"
 #include "orbitutte/mesh/surface.h"
 #include "orbitutte/progress.h"
 #include "orbitutte/report/report.h"
 
 namespace orbitutte::cli {
+
+/// What the program says if memory ran out.
+inline constexpr const char* memory_ran_out = "memory ran out";
+
+/// Says a sentence on standard error, and returns the code.
+int complain(const std::string& message, ExitCode code);
+
+/// Runs a function that prints and returns an exit code. Every kind of failure has its exit code and one
+/// sentence on standard error.
+int run_guarded(const std::function<int()>& command);
 
 class Stopwatch {
  public:
@@ -44,9 +58,18 @@ struct Input {
   std::shared_ptr<const Surface> surface;
   /// Of the reader.
   std::vector<std::string> warnings;
+
+  /// If the mesh was repaired: what became of each vertex (RepairInPlace).
+  std::optional<std::vector<int>> image = {};
 };
 
 /// Reads the mesh, and records what the report says about its file. Messages begin with the path.
-Input read_input(const std::string& path, RunRecord& run);
+Input read_input(const MeshInput& input, RunRecord& run);
+
+/// The same, and repairs the mesh.
+Input read_and_repair(const MeshInput& input, RunRecord& run);
+
+/// Tells what each step of a repair did, or that there was nothing to do.
+void tell_steps(const std::vector<RepairRecord>& records);
 
 }  // namespace orbitutte::cli

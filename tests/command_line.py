@@ -6,6 +6,7 @@ usage: tests/command_line.py PROGRAM [UNITTEST OPTION ...]
 
 Needs nothing but the built program, which makes the meshes itself.
 """
+import gzip
 import json
 import math
 import os
@@ -18,7 +19,7 @@ import tempfile
 import unittest
 
 PROGRAM = ''
-COMMANDS = ['embed', 'choose', 'info', 'types', 'verify', 'tile', 'export', 'measure', 'render', 'report', 'compare', 'repair', 'map', 'resample', 'sample']
+COMMANDS = ['embed', 'choose', 'info', 'types', 'verify', 'tile', 'export', 'measure', 'render', 'report', 'compare', 'repair', 'map', 'resample', 'batch', 'sample']
 IS_A_FILE, IS_WRONG, IS_UNSUITABLE, IS_NOT_CONVERGED, IS_NOT_CERTIFIED = 1, 2, 3, 4, 5
 
 
@@ -510,6 +511,109 @@ class Messages(CommandLine):
                       f"shrunk by more than 64 on {100 * distortion['below_64']:.1f} %\n", done.stderr)
         self.assertIn(f"angles: median distortion {distortion['angle']['median']:.4g}, where 1 is none\n", done.stderr)
         self.assertTrue(0 < distortion['within_4'] <= 1 and 0 <= distortion['below_64'] <= 1 - distortion['within_4'] and distortion['sigma'] > 0)
+
+
+class StandardInput(CommandLine):
+    def pipe(self, code, *arguments, given, says=()):
+        done = subprocess.run([PROGRAM, *map(str, arguments)], cwd=self.folder, input=given, capture_output=True)
+        stderr = done.stderr.decode()
+        self.assertEqual(done.returncode, code, f'{arguments}: {stderr}')
+        for pattern in [says] if isinstance(says, str) else says:
+            self.assertRegex(stderr, pattern)
+        return done.stdout.decode()
+
+    def test_every_format_reads_from_a_pipe_as_from_a_file(self):
+        expected = self.run_program('info', 'figure.obj', '--json').stdout
+        for name, ending in [('off', 'off'), ('ply', 'ply'), ('stl', 'stl'), ('vtk', 'vtk'), ('gifti', 'gii'), ('obj', 'obj')]:
+            with self.subTest(name):
+                self.run_program('repair', 'figure.obj', '-o', f'in.{ending}')
+                content = (self.folder / f'in.{ending}').read_bytes()
+                from_file = json.loads(self.run_program('info', f'in.{ending}', '--json').stdout)
+                for given in (content, gzip.compress(content)):
+                    from_pipe = json.loads(self.pipe(0, 'info', '-', '--format', name, '--json', given=given))
+                    self.assertEqual(from_pipe.pop('path', '-'), '-')
+                    from_file.pop('path', None)
+                    self.assertEqual(from_pipe, from_file)
+        self.assertTrue(expected)
+
+    def test_an_embedding_of_a_pipe_is_that_of_the_file(self):
+        content = (self.folder / 'figure.obj').read_bytes()
+        self.pipe(0, *self.embed('-', '--format', 'obj', '-o', 'piped.ply', '--report', 'piped.json'), given=content)
+        self.assertEqual((self.folder / 'piped.ply').read_bytes(), (self.folder / 'map.ply').read_bytes())
+        reports = [json.loads((self.folder / name).read_text()) for name in ('piped.json', 'map.json')]
+        self.assertEqual(reports[0]['mesh']['path'], '-')
+        self.assertEqual(*(report['environment']['input_sha256'] for report in reports))
+        self.pipe(0, 'verify', 'piped.ply', 'piped.json', '-', '--format', 'obj', given=content)
+        self.pipe(0, 'export', 'piped.ply', 'piped.json', '-', '--format', 'obj', '-o', 'piped.obj', given=content)
+        self.pipe(0, 'repair', '-', '--format', 'obj', '-o', 'repaired.off', given=content)
+
+    def test_what_is_missing_or_wrong_is_one_sentence(self):
+        for command in (['info', '-'], self.embed('-'), ['repair', '-', '-o', 'x.off'], ['choose', '-'], ['compare', '-'], ['map', '-', 'figure.obj']):
+            with self.subTest(command):
+                self.pipe(IS_WRONG, *command, given=b'', says='comes from standard input, whose format no ending names; give --format obj, ')
+        self.pipe(IS_WRONG, 'info', '-', '--format', 'step', given=b'', says="--format is 'step'; it may be obj")
+        self.pipe(IS_UNSUITABLE, 'info', '-', '--format', 'off', given=b'', says='-: the file is empty')
+        self.pipe(IS_UNSUITABLE, 'info', '-', '--format', 'off', given=b'OFF 1', says='^orbitutte: -: ')
+        self.pipe(IS_WRONG, 'map', '-', '-', '--format', 'obj', given=b'', says='both surfaces come from standard input')
+
+    def test_a_format_goes_before_the_ending(self):
+        shutil.copy(self.folder / 'figure.obj', self.folder / 'figure.dat')
+        self.expect(IS_WRONG, 'info', 'figure.dat', says='names no known mesh format')
+        self.expect(0, 'info', 'figure.dat', '--format', 'obj')
+
+
+class Repair(CommandLine):
+    """embed --repair"""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        vertices, faces = read_obj(cls.folder / 'figure.obj')
+        cls.count = len(vertices)
+        faces[7] = faces[7][::-1]
+        faces.append(faces[3])
+        # the corners of the last but one face at vertices of their own
+        doubled = faces[-2]
+        faces[-2] = [len(vertices) + k for k in range(3)]
+        vertices += [vertices[v] for v in doubled]
+        # a component of its own
+        faces.append([len(vertices) + k for k in range(3)])
+        vertices += [(9.0, 9.0, 9.0), (9.0, 9.1, 9.0), (9.1, 9.0, 9.0)]
+        write_obj(cls.folder / 'broken.obj', vertices, faces)
+        cls.doubled = doubled
+
+    def report(self, name='out.json'):
+        return json.loads((self.folder / name).read_text())
+
+    def test_a_broken_mesh_is_embedded_and_the_report_says_what_was_done(self):
+        cones = ','.join(str(cone['vertex']) for cone in self.report('map.json')['cones'])
+        self.expect(IS_UNSUITABLE, *self.embed('broken.obj', cones=cones))
+        self.expect(0, *self.embed('broken.obj', '--repair', '-o', 'out.ply', '--report', 'out.json', cones=cones), says=['^weld: 3 vertices', 'orient: 1 face', 'keep_largest: 1 smaller'])
+        report = self.report()
+        self.assertEqual([step['step'] for step in report['repair']['steps']], ['weld', 'drop_duplicates', 'orient', 'keep_largest'])
+        self.assertEqual(report['repair']['added_vertices'], [])
+        self.assertEqual(report['cones'][0]['vertex'], self.report('map.json')['cones'][0]['vertex'])
+        self.assertAlmostEqual(report['energy'], self.report('map.json')['energy'], places=9)
+        self.expect(0, 'verify', 'out.ply', 'out.json', 'broken.obj')
+        self.expect(0, 'export', 'out.ply', 'out.json', 'broken.obj', '-o', 'out.obj')
+        self.expect(0, 'report', 'out.ply', 'out.json', 'broken.obj', '-o', 'out.html')
+
+    def test_cones_follow_the_repair(self):
+        far = [v for v in range(self.count) if v not in self.doubled][:2]
+        done = self.expect(0, *self.embed('broken.obj', '--repair', '--report', 'out.json', cones=f'{self.count},{far[0]},{far[1]}'),
+                           says=f'warning: vertex {self.count} was welded to vertex {self.doubled[0]}')
+        self.assertEqual(self.report()['cones'][0]['vertex'], self.doubled[0], done.stderr)
+        self.expect(IS_UNSUITABLE, *self.embed('broken.obj', '--repair', cones=f'{self.count + 4},{far[0]},{far[1]}'),
+                    says=f'vertex {self.count + 4} is marked, but no face at it is left after the repair')
+
+    def test_a_sound_mesh_is_left_as_it_is(self):
+        self.expect(0, *self.embed('figure.obj', '--repair', '-o', 'out.ply', '--report', 'out.json'), says='nothing had to be repaired')
+        self.assertEqual((self.folder / 'out.ply').read_bytes(), (self.folder / 'map.ply').read_bytes())
+        self.assertEqual(self.report()['repair'], {'steps': [], 'added_vertices': []})
+
+    def test_what_cannot_be_repaired_says_so(self):
+        (self.folder / 'nothing.off').write_text('OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 0 1\n')
+        self.expect(IS_UNSUITABLE, *self.embed('nothing.off', '--repair'), says='no face is left after the repair')
 
 
 if __name__ == '__main__':

@@ -217,5 +217,73 @@ TEST(MeshRepair, DropsWhatIsNotFinite) {
   EXPECT_EQ(repaired.mesh.vertex_count(), mesh.vertex_count() - 1);
 }
 
+// The faces as points in space, in order.
+std::vector<std::vector<Vector3>> faces_in_space(const PolygonMesh& mesh) {
+  std::vector<std::vector<Vector3>> faces(mesh.face_count());
+  for (int f = 0; f < mesh.face_count(); ++f)
+    for (int k = mesh.face_start[f]; k < mesh.face_start[f + 1]; ++k)
+      faces[f].emplace_back(mesh.V.row(mesh.corners[k]));
+  return faces;
+}
+
+RC_GTEST_PROP(RepairInPlace, IsTheSameRepairAndVerticesKeepTheirNumbers, ()) {
+  PolygonMesh mesh = soup(grid(5, {7, 12}));
+  const auto turned = *rc::gen::container<std::vector<int>>(4, rc::gen::inRange(0, mesh.face_count()));
+  for (const int f : turned) std::swap(mesh.corners[3 * f], mesh.corners[3 * f + 1]);
+  const RepairedMesh repaired = repair_mesh(mesh);
+  const RepairInPlace in_place = repair_in_place(mesh);
+  const int n = mesh.vertex_count();
+  RC_ASSERT(faces_in_space(in_place.mesh) == faces_in_space(repaired.mesh));
+  RC_ASSERT(in_place.mesh.vertex_count() == n + static_cast<int>(in_place.summary.added.size()));
+  for (const int v : in_place.mesh.corners) {
+    if (v < n) RC_ASSERT(in_place.mesh.V.row(v) == mesh.V.row(v));
+    if (v < n) RC_ASSERT(in_place.image[v] == v);
+  }
+  for (int v = 0; v < n; ++v) {
+    const int became = in_place.image[v];
+    if (became >= 0) RC_ASSERT(in_place.mesh.V.row(became) == mesh.V.row(v));
+  }
+  RC_ASSERT(inspect(in_place.mesh).topology == Topology::disk);
+}
+
+TEST(RepairInPlace, SaysWhatBecameOfEachVertex) {
+  // Two triangles beside each other that are not welded, one far away, and a vertex without a face.
+  const PolygonMesh mesh = mesh_of({{0, 0, 0},
+                                    {4, 0, 0},
+                                    {0, 4, 0},
+                                    {4, 0, 0},
+                                    {4, 4, 0},
+                                    {0, 4, 0},
+                                    {9, 9, 9},
+                                    {9, 8, 9},
+                                    {8, 9, 9},
+                                    {0, 0, std::numeric_limits<double>::infinity()}},
+                                   {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}});
+  const RepairInPlace repaired = repair_in_place(mesh);
+  EXPECT_THAT(repaired.image, testing::ElementsAre(0, 1, 2, 1, 4, 2, -1, -1, -1, -1));
+  EXPECT_THAT(repaired.summary.added, testing::ElementsAre(-1)) << "in the middle of the edge inside";
+  EXPECT_TRUE(repaired.mesh.V.allFinite());
+  EXPECT_EQ(topology(repaired.mesh), Topology::disk);
+}
+
+TEST(RepairInPlace, NamesTheVerticesOfCopies) {
+  const PolygonMesh mesh =
+      mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}}, {{0, 1, 2}, {0, 3, 4}});
+  MeshRepairOptions options;
+  options.without = {RepairStep::keep_largest, RepairStep::fill_holes};
+  const RepairInPlace repaired = repair_in_place(mesh, options);
+  EXPECT_THAT(repaired.summary.added, testing::ElementsAre(0));
+  EXPECT_EQ(repaired.image[0], 0);
+}
+
+TEST(MeshRepair, LeavesOutStepsWithoutLookingAtBadFaces) {
+  PolygonMesh mesh = figure();
+  mesh.corners[3] = mesh.vertex_count() + 5;
+  MeshRepairOptions options;
+  options.without = {RepairStep::drop_bad_faces, RepairStep::keep_largest};
+  const RepairedMesh repaired = repair_mesh(mesh, options);
+  EXPECT_EQ(repaired.mesh.corners[3], mesh.vertex_count() + 5) << "it is there still, for inspect to name";
+}
+
 }  // namespace
 }  // namespace orbitutte::mesh_repair_test

@@ -10,6 +10,7 @@
 
 #include "../command_line.h"
 #include "../commands.h"
+#include "orbitutte/io/mesh_io.h"
 #include "orbitutte/orbifold/signature.h"
 
 namespace orbitutte::cli {
@@ -21,6 +22,7 @@ const std::map<std::string, std::vector<std::string>> words_of_options = {
     {"--cones", {"best", "extremities"}},
     {"--objective", choices_of<Objective>()},
     {"--weights", choices_of<WeightKind>()},
+    {"--format", choices_of<MeshFormat>()},
     {"--spread", choices_of<Spread>()},
     {"--chart", choices_of<TextureChart>()},
     {"--panel", choices_of<Panel>()},

@@ -13,14 +13,14 @@ import numpy.typing as npt
 
 from . import _arrays, _deprecated, _options, _orbitutte
 from ._embedding import Embedding
-from .errors import ArgumentError, EmbeddingWarning, MeshWarning
+from .errors import ArgumentError, EmbeddingWarning, MeshError, MeshWarning
 
 Progress = Callable[[str, int, float, float], Union[bool, None]]
 Cones = Union[Sequence[Union[int, str]], npt.NDArray[np.integer], str, None]
 
 
 def embed(V: npt.ArrayLike, F: Any, signature: str = "best", cones: Cones = "best", *, objective: str = "sigma", progress: Progress | None = None,
-          angles: Any = None, polygon: Any = None, geometry: str | None = None, **options: Any) -> Embedding:
+          angles: Any = None, polygon: Any = None, geometry: str | None = None, repair: bool = False, **options: Any) -> Embedding:
     """Embed a mesh into an orbifold of the sphere or the plane.
 
     Parameters
@@ -48,6 +48,9 @@ def embed(V: npt.ArrayLike, F: Any, signature: str = "best", cones: Cones = "bes
         The corners, for the signature "polygon": counterclockwise, on the unit sphere.
     geometry : "spherical" or "euclidean"
         Deprecated: the signature decides the space.
+    repair : bool
+        First do what ``orbitutte repair`` does. Vertices keep their numbers, and new ones follow: ``report["repair"]`` says what was done, and
+        of which vertex each new one is a copy. A vertex in `cones` that was welded to another stands for that one.
     weights : str, (i, j, w), or scipy sparse matrix
         "standard" (the default: delaunay, or cotan for polygons), "cotan", "delaunay", "mean-value" or "uniform"; or
         a weight >= 0 for every edge, once.
@@ -89,13 +92,29 @@ def embed(V: npt.ArrayLike, F: Any, signature: str = "best", cones: Cones = "bes
         If `progress` returned False.
     """
     chosen = _options.options(**options)
-    known = _options.target(signature, cones, polygon, geometry, angles)
     mesh = _arrays.mesh(V, F)
+    if _options.flag(repair, "repair"):
+        mesh, image = mesh.repaired()
+        cones = _followed(cones, image)
+    known = _options.target(signature, cones, polygon, geometry, angles)
     target, vertices, is_choice = _options.wish(mesh, known, signature, cones, angles)
     if is_choice:
         wanted = _orbitutte.ChooseOptions(target, vertices, _options.text(objective, "objective"), chosen)
         return _told(Embedding._of(_orbitutte.embed_best(mesh, wanted, _callable(progress))))
     return _told(Embedding._of(_orbitutte.embed(mesh, target, vertices, chosen, _callable(progress))))
+
+
+def _followed(cones: Cones, image: npt.NDArray[np.int32]) -> Cones:
+    """The cones after a repair that has made vertex image[v] of the vertex v, or -1 if no face is left there."""
+    if cones is None or isinstance(cones, str):
+        return cones
+    followed: list[int | str] = []
+    for cone in cones:
+        is_known = not isinstance(cone, str) and 0 <= cone < len(image)
+        if is_known and image[cone] < 0:
+            raise MeshError(f"vertex {cone} is marked, but no face at it is left after the repair; mark another vertex")
+        followed.append(int(image[cone]) if is_known else cone)
+    return followed
 
 
 def choose(V: npt.ArrayLike, F: Any, signature: str = "best", cones: Cones = "best", *, objective: str = "sigma", solved: int = 3,

@@ -123,12 +123,19 @@ VerificationOptions verification_options(const HeldEmbedding& held, const std::s
   return options;
 }
 
+// The mesh that an embedding is of: repaired if its report says that it was, and this one has not been yet.
+MaybeMesh as_embedded(MaybeMesh mesh, const Report& report) {
+  return mesh && report.is_repaired && !mesh->repair() ? MaybeMesh(mesh->repaired().first) : mesh;
+}
+
 // Judges the embedding from the data alone. If no file is named, the weights that the caller gave are used,
 // if they are known.
 std::string verify_again(const HeldEmbedding& held, const MaybeMesh& mesh, const std::string& weights_file,
                          const std::string& depth) {
-  const SourceMesh& judge = mesh ? *mesh : held.source("verification");
-  return verdict_json(verify(*judge.surface(), held.embedding, parse_report(held.report),
+  const Report claims = parse_report(held.report);
+  const MaybeMesh given = as_embedded(mesh, claims);
+  const SourceMesh& judge = given ? *given : held.source("verification");
+  return verdict_json(verify(*judge.surface(), held.embedding, claims,
                              verification_options(held, weights_file, depth)));
 }
 
@@ -159,7 +166,9 @@ py::tuple offsets(const HeldEmbedding& held) {
 }
 
 Held loaded(Embedding embedding, std::string report, MaybeMesh mesh) {
-  embedding = with_report(std::move(embedding), parse_report(report));
+  const Report claims = parse_report(report);
+  embedding = with_report(std::move(embedding), claims);
+  mesh = as_embedded(std::move(mesh), claims);
   if (mesh) embedding = mesh->belonging(std::move(embedding));
   return std::make_shared<HeldEmbedding>(
       HeldEmbedding{std::move(embedding), std::move(report), std::move(mesh), std::nullopt});
@@ -182,6 +191,7 @@ void save(const HeldEmbedding& held, const std::string& ply, const std::string& 
 
 Held with_mesh(const HeldEmbedding& held, MaybeMesh mesh) {
   auto result = std::make_shared<HeldEmbedding>(held);
+  mesh = as_embedded(std::move(mesh), parse_report(held.report));
   result->embedding = mesh->belonging(std::move(result->embedding));
   result->mesh = std::move(mesh);
   return result;

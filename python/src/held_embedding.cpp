@@ -41,8 +41,10 @@ HeldEmbedding hold(BestEmbedding best, std::shared_ptr<const SourceMesh> mesh, d
   RunRecord run;
   run.total_seconds = total_seconds;
   run.peak_memory_bytes = peak_memory_bytes();
-  if (mesh)
+  if (mesh) {
+    run.repair = mesh->repair();
     run.strain = strain_statistics(measure_strain(*mesh->surface(), best.result.embedding).at_vertices);
+  }
   std::string report = report_json(best, run);
   EmbedResult& result = best.result;
   return {std::move(result.embedding), std::move(report), std::move(mesh), std::move(result.weights)};

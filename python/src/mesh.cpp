@@ -121,6 +121,16 @@ void bind_mesh(py::module_& module) {
           [](const std::shared_ptr<SourceMesh>& mesh) { return view(*mesh->arrays().V, py::cast(mesh)); })
       .def_property_readonly("faces", &faces_of, "(m x 3, None), or (corners, start) of polygons")
       .def_property_readonly("warnings", &SourceMesh::warnings)
+      .def(
+          "repaired",
+          [](const SourceMesh& mesh) {
+            auto repaired = [&] {
+              const py::gil_scoped_release release;
+              return mesh.repaired();
+            }();
+            return py::make_tuple(std::move(repaired.first), copy(repaired.second));
+          },
+          "(mesh, what became of each vertex)")
       .def("info", &info, Release())
       .def("write", &write, Release())
       .def("extremities", &extremities, Release())

@@ -3,10 +3,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
+#include "orbitutte/inspect/mesh_repair.h"
 #include "orbitutte/mesh/polygon_mesh.h"
 #include "orbitutte/mesh/surface.h"
 #include "orbitutte/orbifold/embedding.h"
@@ -18,6 +21,12 @@ class SourceMesh {
  public:
   explicit SourceMesh(Mesh mesh);
   explicit SourceMesh(PolygonMesh mesh);
+
+  /// The mesh repaired, vertices keeping their numbers, and what became of each (RepairInPlace::image).
+  std::pair<std::shared_ptr<SourceMesh>, std::vector<int>> repaired() const;
+
+  /// What was done, if this is a mesh that was repaired.
+  const std::optional<RepairSummary>& repair() const { return repair_; }
 
   /// What the reader of the file ignored.
   const std::vector<std::string>& warnings() const { return warnings_; }
@@ -52,6 +61,7 @@ class SourceMesh {
   static Input judged_triangles_or_polygons(PolygonMesh mesh);
 
   std::vector<std::string> warnings_;
+  std::optional<RepairSummary> repair_;
   Input input_;
 };
 

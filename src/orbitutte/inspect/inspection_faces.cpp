@@ -12,6 +12,23 @@
 namespace orbitutte::inspection {
 namespace {
 
+// Well-formed faces in an order in which those with the same vertices are neighbours, the smallest face
+// first.
+std::vector<int> faces_by_vertices(const InspectedMesh& s, const std::vector<int>& sorted) {
+  const auto& start = s.mesh.face_start;
+  const auto smallest = [&](int f) { return s.well_formed(f) ? sorted[start[f]] : -1; };
+  Groups faces = group_by(s.mesh.face_count(), s.mesh.vertex_count(), smallest);
+  const auto before = [&](int f, int g) {
+    const auto order =
+        std::lexicographical_compare_three_way(sorted.begin() + start[f], sorted.begin() + start[f + 1],
+                                               sorted.begin() + start[g], sorted.begin() + start[g + 1]);
+    return std::is_eq(order) ? f < g : std::is_lt(order);
+  };
+  for (int v = 0; v < faces.size(); ++v)
+    std::sort(faces.items.begin() + faces.start[v], faces.items.begin() + faces.start[v + 1], before);
+  return std::move(faces.items);
+}
+
 void report_indices(InspectedMesh& s, Inspection& result) {
   int faces = 0, first = -1;
   for (int c = 0; c < s.corner_count(); ++c) {
@@ -78,14 +95,6 @@ void report_corner_counts(InspectedMesh& s, Inspection& result) {
                   degree == 0 ? "no" : std::to_string(degree), degree == 1 ? "" : "s", such(faces, "faces")));
 }
 
-// The corners of every face in ascending order of their vertices: faces with the same vertices have the same.
-std::vector<int> sorted_corners(const PolygonMesh& mesh) {
-  std::vector<int> corners = mesh.corners;
-  for (int f = 0; f < mesh.face_count(); ++f)
-    std::sort(corners.begin() + mesh.face_start[f], corners.begin() + mesh.face_start[f + 1]);
-  return corners;
-}
-
 void report_repeated_vertices(InspectedMesh& s, const std::vector<int>& sorted, Inspection& result) {
   int faces = 0, first = -1, vertex = -1;
   for (int f = 0; f < result.faces; ++f) {
@@ -101,36 +110,13 @@ void report_repeated_vertices(InspectedMesh& s, const std::vector<int>& sorted, 
                   such(faces, "faces")));
 }
 
-// Well-formed faces in an order in which those with the same vertices are neighbours, the smallest face
-// first.
-std::vector<int> faces_by_vertices(const InspectedMesh& s, const std::vector<int>& sorted) {
-  const auto& start = s.mesh.face_start;
-  const auto smallest = [&](int f) { return s.well_formed(f) ? sorted[start[f]] : -1; };
-  Groups faces = group_by(s.mesh.face_count(), s.mesh.vertex_count(), smallest);
-  const auto before = [&](int f, int g) {
-    const auto order =
-        std::lexicographical_compare_three_way(sorted.begin() + start[f], sorted.begin() + start[f + 1],
-                                               sorted.begin() + start[g], sorted.begin() + start[g + 1]);
-    return std::is_eq(order) ? f < g : std::is_lt(order);
-  };
-  for (int v = 0; v < faces.size(); ++v)
-    std::sort(faces.items.begin() + faces.start[v], faces.items.begin() + faces.start[v + 1], before);
-  return std::move(faces.items);
-}
-
 void report_duplicates(InspectedMesh& s, const std::vector<int>& sorted, Inspection& result) {
-  const auto& start = s.mesh.face_start;
-  const auto same = [&](int f, int g) {
-    return std::equal(sorted.begin() + start[f], sorted.begin() + start[f + 1], sorted.begin() + start[g],
-                      sorted.begin() + start[g + 1]);
-  };
-  int duplicates = 0, original = -1;
+  const std::vector<int> originals = first_doubles(s, sorted);
+  int duplicates = 0;
   std::pair<int, int> first = {result.faces, result.faces};
-  for (const int f : faces_by_vertices(s, sorted)) {
-    if (original < 0 || !same(original, f)) {
-      original = f;
-      continue;
-    }
+  for (int f = 0; f < result.faces; ++f) {
+    const int original = originals[f];
+    if (original < 0 || original == f) continue;
     s.state[f] = FaceState::duplicate;
     s.has_double[original] = s.has_double[f] = 1;
     first = std::min(first, {original, f});
@@ -143,6 +129,28 @@ void report_duplicates(InspectedMesh& s, const std::vector<int>& sorted, Inspect
 }
 
 }  // namespace
+
+std::vector<int> sorted_corners(const PolygonMesh& mesh) {
+  std::vector<int> corners = mesh.corners;
+  for (int f = 0; f < mesh.face_count(); ++f)
+    std::sort(corners.begin() + mesh.face_start[f], corners.begin() + mesh.face_start[f + 1]);
+  return corners;
+}
+
+std::vector<int> first_doubles(const InspectedMesh& s, const std::vector<int>& sorted) {
+  const auto& start = s.mesh.face_start;
+  const auto same = [&](int f, int g) {
+    return std::equal(sorted.begin() + start[f], sorted.begin() + start[f + 1], sorted.begin() + start[g],
+                      sorted.begin() + start[g + 1]);
+  };
+  std::vector<int> originals(s.mesh.face_count(), -1);
+  int original = -1;
+  for (const int f : faces_by_vertices(s, sorted)) {
+    if (original < 0 || !same(original, f)) original = f;
+    originals[f] = original;
+  }
+  return originals;
+}
 
 void inspect_faces(InspectedMesh& inspected, Inspection& result) {
   const std::vector<int> sorted = sorted_corners(inspected.mesh);

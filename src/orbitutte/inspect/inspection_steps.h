@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "orbitutte/inspect/inspection.h"
+#include "orbitutte/mesh/disjoint_sets.h"
 #include "orbitutte/mesh/groups.h"
 
 namespace orbitutte::inspection {
@@ -58,6 +59,18 @@ struct InspectedMesh {
 inline bool in_range(const PolygonMesh& mesh, int vertex) {
   return vertex >= 0 && vertex < mesh.vertex_count();
 }
+
+// The corners of every face in ascending order of their vertices: faces with the same vertices have the same.
+std::vector<int> sorted_corners(const PolygonMesh& mesh);
+
+// For each well-formed face, the first one with the same vertices, most often itself; -1 for the others.
+std::vector<int> first_doubles(const InspectedMesh& inspected, const std::vector<int>& sorted);
+
+// Fills `edges`.
+void find_edges(InspectedMesh& inspected);
+
+// Corners of well-formed faces, united across edges of two faces: a fan of faces around a vertex is one set.
+DisjointSets corner_fans(const InspectedMesh& inspected);
 
 // The steps, in their order. Each reports one kind of defect, or a few related ones, and leaves out what
 // earlier defects have made meaningless.

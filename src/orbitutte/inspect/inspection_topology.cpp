@@ -9,10 +9,8 @@
 
 #include "orbitutte/inspect/coincidence.h"
 #include "orbitutte/inspect/inspection_steps.h"
-#include "orbitutte/mesh/disjoint_sets.h"
 
 namespace orbitutte::inspection {
-namespace {
 
 void find_edges(InspectedMesh& s) {
   const auto lower = [&](int h) { return s.well_formed(s.face_of[h]) ? s.lower(h) : -1; };
@@ -32,6 +30,18 @@ void find_edges(InspectedMesh& s) {
   s.edges.items = std::move(half_edges);
 }
 
+DisjointSets corner_fans(const InspectedMesh& s) {
+  DisjointSets fans(s.corner_count());
+  for (int e = 0; e < s.edge_count(); ++e) {
+    if (s.faces_on(e) != 2) continue;
+    const int g = s.half_edge(e, 0), h = s.half_edge(e, 1);
+    for (const int v : {s.origin(g), s.target(g)}) fans.unite(s.corner_at(v, g), s.corner_at(v, h));
+  }
+  return fans;
+}
+
+namespace {
+
 void report_edges(const InspectedMesh& s, Inspection& result) {
   int edges = 0, first = -1;
   for (int e = 0; e < s.edge_count(); ++e) {
@@ -47,17 +57,6 @@ void report_edges(const InspectedMesh& s, Inspection& result) {
                   "one or two",
                   s.lower(s.half_edge(first, 0)), s.upper(s.half_edge(first, 0)), faces.size(), listed(faces),
                   such(edges, "edges")));
-}
-
-// Corners of well-formed faces, united across edges of two faces: a fan of faces around a vertex is one set.
-DisjointSets corner_fans(const InspectedMesh& s) {
-  DisjointSets fans(s.corner_count());
-  for (int e = 0; e < s.edge_count(); ++e) {
-    if (s.faces_on(e) != 2) continue;
-    const int g = s.half_edge(e, 0), h = s.half_edge(e, 1);
-    for (const int v : {s.origin(g), s.target(g)}) fans.unite(s.corner_at(v, g), s.corner_at(v, h));
-  }
-  return fans;
 }
 
 // Vertices of malformed faces, and of faces on an edge with too many faces. They may have one fan once those

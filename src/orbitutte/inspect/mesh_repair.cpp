@@ -9,38 +9,118 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <set>
+#include <span>
 #include <utility>
 
+#include "orbitutte/inspect/inspection_steps.h"
 #include "orbitutte/mesh/disjoint_sets.h"
+#include "orbitutte/mesh/point_numbers.h"
 
 namespace orbitutte {
 namespace {
 
 using Polygon = std::vector<int>;
 using Edge = std::pair<int, int>;
+using inspection::InspectedMesh;
 
 constexpr std::size_t largest_triangulated_hole = 200;
 constexpr double flat = 1e-12;  // of a face's longest edge, squared, its doubled area
 
 Edge undirected(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
-// A face's side from corner k to the next.
-struct FaceSide {
-  int face, k;
+// Faces, one after the other.
+struct FaceList {
+  std::vector<int> corners;
+  std::vector<int> start = {0};
+
+  int count() const { return static_cast<int>(start.size()) - 1; }
+
+  template <class Corners>
+  void append(const Corners& face) {
+    corners.insert(corners.end(), face.begin(), face.end());
+    start.push_back(static_cast<int>(corners.size()));
+  }
+
+  void append_all(const FaceList& faces) {
+    for (int f = 0; f < faces.count(); ++f)
+      append(std::span(faces.corners).subspan(faces.start[f], faces.start[f + 1] - faces.start[f]));
+  }
+};
+
+// The next vertex around a face.
+template <class Corners>
+int next(const Corners& face, std::size_t k) {
+  return face[(k + 1) % face.size()];
+}
+
+// The corners but the first, in the other direction.
+void turn_over(std::span<int> face) { std::reverse(face.begin() + 1, face.end()); }
+
+bool names_a_vertex_twice(std::span<const int> face) {
+  constexpr std::size_t small = 8;
+  if (face.size() > small) return std::set<int>(face.begin(), face.end()).size() < face.size();
+  for (auto corner = face.begin(); corner != face.end(); ++corner)
+    if (std::find(face.begin(), corner, *corner) != corner) return true;
+  return false;
+}
+
+// Points by cells as wide as a tolerance; without one, every point is a cell.
+class Neighbourhoods {
+ public:
+  Neighbourhoods(const Points& V, double tolerance)
+      : V_(V), tolerance_(tolerance), before_(static_cast<std::size_t>(V.rows()), -1) {}
+
+  // Calls meet(u) for each point in the cells around that of v, and puts v into its own.
+  template <class Meet>
+  void add(int v, const Meet& meet) {
+    const PointNumbers::Point cell = cell_of(v);
+    const int reach = tolerance_ > 0 ? 1 : 0;
+    for (int x = -reach; x <= reach; ++x)
+      for (int y = -reach; y <= reach; ++y)
+        for (int z = -reach; z <= reach; ++z) {
+          const std::optional<int> there = cells_.find({cell[0] + x, cell[1] + y, cell[2] + z});
+          for (int u = there ? last_[*there] : -1; u >= 0; u = before_[u]) meet(u);
+        }
+    const int number = cells_.number_of(cell);
+    if (number == static_cast<int>(last_.size())) last_.push_back(-1);
+    before_[v] = std::exchange(last_[number], v);
+  }
+
+ private:
+  PointNumbers::Point cell_of(int v) const {
+    PointNumbers::Point cell = {V_(v, 0), V_(v, 1), V_(v, 2)};
+    if (tolerance_ > 0)
+      for (double& x : cell) x = std::floor(x / tolerance_);
+    return cell;
+  }
+
+  const Points& V_;
+  double tolerance_;
+  PointNumbers cells_;
+
+  // The last point in each cell, and the one before each point in its cell; -1 where there is none.
+  std::vector<int> last_, before_;
+};
+
+struct FaceComponents {
+  // The faces of each, found across edges with two faces.
+  std::vector<std::vector<int>> faces;
+
+  // Must a face be turned, so that neighbours agree?
+  std::vector<int> is_turned;
 };
 
 class MeshRepair {
  public:
   MeshRepair(const PolygonMesh& mesh, const MeshRepairOptions& options)
-      : options_(options), colours_(mesh.colours) {
-    for (int v = 0; v < mesh.vertex_count(); ++v) {
-      V_.push_back(mesh.V.row(v));
-      source_.push_back(v);
-    }
-    for (int f = 0; f < mesh.face_count(); ++f)
-      faces_.emplace_back(mesh.corners.begin() + mesh.face_start[f],
-                          mesh.corners.begin() + mesh.face_start[f + 1]);
+      : options_(options),
+        colours_(mesh.colours),
+        mesh_{mesh.V, mesh.corners, mesh.face_start},
+        image_(static_cast<std::size_t>(mesh.vertex_count())) {
+    std::iota(image_.begin(), image_.end(), 0);
+    source_ = image_;
   }
 
   RepairedMesh run() {
@@ -58,6 +138,7 @@ class MeshRepair {
       if (std::count(options_.without.begin(), options_.without.end(), step) > 0) continue;
       step_ = step;
       (this->*run_step)();
+      keep_new_vertices();
     }
     return result();
   }
@@ -67,79 +148,85 @@ class MeshRepair {
     if (count > 0) result_.records.push_back({step_, count, message});
   }
 
-  const Vector3& at(int v) const { return V_[v]; }
+  Vector3 at(int v) const { return mesh_.V.row(v); }
 
-  bool is_vertex(int v) const { return v >= 0 && v < static_cast<int>(V_.size()); }
+  int vertex_count() const { return mesh_.vertex_count(); }
 
-  bool is_good(const Polygon& face) const {
-    const auto is_usable = [&](int v) { return is_vertex(v) && V_[v].allFinite(); };
-    return face.size() >= 3 && std::all_of(face.begin(), face.end(), is_usable) &&
-           std::set<int>(face.begin(), face.end()).size() == face.size();
+  int face_count() const { return mesh_.face_count(); }
+
+  std::span<const int> face(int f) const {
+    return std::span(mesh_.corners).subspan(mesh_.face_start[f], mesh_.face_degree(f));
+  }
+
+  bool is_vertex(int v) const { return inspection::in_range(mesh_, v); }
+
+  bool is_good(int f) const {
+    const std::span<const int> corners = face(f);
+    const auto is_usable = [&](int v) { return is_vertex(v) && mesh_.V.row(v).allFinite(); };
+    return corners.size() >= 3 && std::all_of(corners.begin(), corners.end(), is_usable) &&
+           !names_a_vertex_twice(corners);
+  }
+
+  // The mesh with its edges; kept as long as the faces stay as they are.
+  const InspectedMesh& inspected() {
+    if (inspected_) return *inspected_;
+    inspected_.emplace(mesh_);
+    for (int f = 0; f < face_count(); ++f)
+      if (!is_good(f)) inspected_->state[f] = inspection::FaceState::malformed;
+    find_edges(*inspected_);
+    return *inspected_;
+  }
+
+  void take_faces(FaceList faces) {
+    inspected_.reset();
+    components_.reset();
+    mesh_.corners = std::move(faces.corners);
+    mesh_.face_start = std::move(faces.start);
+  }
+
+  template <class IsKept>
+  void keep_faces(const IsKept& is_kept) {
+    FaceList kept;
+    kept.corners.reserve(mesh_.corners.size());
+    kept.start.reserve(mesh_.face_start.size());
+    for (int f = 0; f < face_count(); ++f)
+      if (is_kept(f)) kept.append(face(f));
+    take_faces(std::move(kept));
   }
 
   // The faces for which `is_bad`; records "<count> faces <what>, the first face <f>".
   template <class IsBad>
   void drop_faces(const IsBad& is_bad, std::string_view what) {
-    std::vector<Polygon> kept;
+    std::vector<char> is_dropped(face_count(), 0);
     int count = 0, first = -1;
-    for (int f = 0; f < static_cast<int>(faces_.size()); ++f) {
-      if (!is_bad(f)) {
-        kept.push_back(std::move(faces_[f]));
-      } else if (count++ == 0) {
-        first = f;
-      }
+    for (int f = 0; f < face_count(); ++f) {
+      if (!is_bad(f)) continue;
+      is_dropped[f] = 1;
+      if (count++ == 0) first = f;
     }
-    faces_ = std::move(kept);
+    if (count > 0) keep_faces([&](int f) { return !is_dropped[f]; });
     record(count, count == 1
                       ? fmt::format("1 face {} was dropped: face {}", what, first)
                       : fmt::format("{} faces {} were dropped, the first was face {}", count, what, first));
   }
 
   void drop_bad_faces() {
-    drop_faces([&](int f) { return !is_good(faces_[f]); },
+    drop_faces([&](int f) { return !is_good(f); },
                "with missing vertices, positions that are not finite or a vertex named twice");
-  }
-
-  using Cell = std::array<double, 3>;
-
-  // Of a grid as wide as the tolerance; without one, every point is a cell.
-  Cell cell_of(const Vector3& p) const {
-    Cell cell;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double tolerance = options_.weld_tolerance;
-      cell[axis] = (tolerance > 0 ? std::floor(p[axis] / tolerance) : p[axis]) + 0.0;  // -0 is 0
-    }
-    return cell;
-  }
-
-  // Calls `meet` for each vertex in the cells around one that are filled.
-  template <class Meet>
-  void around(const std::map<Cell, std::vector<int>>& cells, const Cell& cell, const Meet& meet) const {
-    const int reach = options_.weld_tolerance > 0 ? 1 : 0;
-    for (int x = -reach; x <= reach; ++x)
-      for (int y = -reach; y <= reach; ++y)
-        for (int z = -reach; z <= reach; ++z) {
-          const auto there = cells.find({cell[0] + x, cell[1] + y, cell[2] + z});
-          if (there == cells.end()) continue;
-          for (const int v : there->second) meet(v);
-        }
   }
 
   // Sets of vertices of faces, each within the tolerance of another of its set.
   DisjointSets vertices_together() const {
-    std::vector<char> is_used(V_.size(), 0);
-    for (const Polygon& face : faces_)
-      for (const int v : face)
-        if (is_vertex(v)) is_used[v] = V_[v].allFinite();
-    DisjointSets sets(static_cast<int>(V_.size()));
-    std::map<Cell, std::vector<int>> cells;
-    for (int v = 0; v < static_cast<int>(V_.size()); ++v) {
+    std::vector<char> is_used(vertex_count(), 0);
+    for (const int v : mesh_.corners)
+      if (is_vertex(v)) is_used[v] = mesh_.V.row(v).allFinite();
+    DisjointSets sets(vertex_count());
+    Neighbourhoods near(mesh_.V, options_.weld_tolerance);
+    for (int v = 0; v < vertex_count(); ++v) {
       if (!is_used[v]) continue;
-      const Cell cell = cell_of(at(v));
-      around(cells, cell, [&](int u) {
+      near.add(v, [&](int u) {
         if ((at(u) - at(v)).norm() <= options_.weld_tolerance) sets.unite(u, v);
       });
-      cells[cell].push_back(v);
     }
     return sets;
   }
@@ -147,133 +234,138 @@ class MeshRepair {
   void weld() {
     DisjointSets sets = vertices_together();
     int count = 0, first = -1;
-    std::vector<int> image(V_.size());
-    for (int v = 0; v < static_cast<int>(V_.size()); ++v) {
-      image[v] = sets.find(v);
-      if (image[v] != v && count++ == 0) first = v;
+    for (int v = 0; v < vertex_count(); ++v) {
+      image_[v] = sets.find(v);
+      if (image_[v] != v && count++ == 0) first = v;
     }
     record(count,
            fmt::format("{} {} welded to others at the same place, the first was vertex {} to {}", count,
-                       count == 1 ? "vertex was" : "vertices were", first, first < 0 ? -1 : image[first]));
+                       count == 1 ? "vertex was" : "vertices were", first, first < 0 ? -1 : image_[first]));
     if (count == 0) return;
-    for (Polygon& face : faces_) {
-      for (int& v : face) v = image[v];
-      face.erase(std::unique(face.begin(), face.end()), face.end());
-      while (face.size() > 1 && face.front() == face.back()) face.pop_back();
-    }
-    drop_faces([&](int f) { return !is_good(faces_[f]); }, "that fell together when vertices were welded");
+    FaceList welded;
+    for (int f = 0; f < face_count(); ++f) welded.append(image_of(face(f)));
+    take_faces(std::move(welded));
+    drop_faces([&](int f) { return !is_good(f); }, "that fell together when vertices were welded");
+  }
+
+  // The face after welding; neighbours that are one vertex now are named once.
+  Polygon image_of(std::span<const int> face) const {
+    Polygon image;
+    image.reserve(face.size());
+    for (const int v : face) image.push_back(is_vertex(v) ? image_[v] : v);
+    image.erase(std::unique(image.begin(), image.end()), image.end());
+    while (image.size() > 1 && image.front() == image.back()) image.pop_back();
+    return image;
   }
 
   void drop_duplicates() {
-    std::set<Polygon> seen;
-    drop_faces(
-        [&](int f) {
-          Polygon sorted = faces_[f];
-          std::sort(sorted.begin(), sorted.end());
-          return !seen.insert(std::move(sorted)).second;
-        },
-        "with the same vertices as an earlier one");
+    const std::vector<int> first = first_doubles(inspected(), inspection::sorted_corners(mesh_));
+    drop_faces([&](int f) { return first[f] >= 0 && first[f] != f; },
+               "with the same vertices as an earlier one");
   }
 
-  Vector3 vector_area(const Polygon& face) const {
+  // Zero of a face that is not good.
+  Vector3 vector_area(int f) const {
     Vector3 sum = Vector3::Zero();
-    for (std::size_t k = 1; k + 1 < face.size(); ++k)
-      sum += (at(face[k]) - at(face[0])).cross(at(face[k + 1]) - at(face[0]));
+    if (!is_good(f)) return sum;
+    const std::span<const int> corners = face(f);
+    for (std::size_t k = 1; k + 1 < corners.size(); ++k)
+      sum += (at(corners[k]) - at(corners[0])).cross(at(corners[k + 1]) - at(corners[0]));
     return 0.5 * sum;
   }
 
-  void drop_flat_faces() {
-    drop_faces(
-        [&](int f) {
-          double longest = 0;
-          for (std::size_t k = 0; k < faces_[f].size(); ++k)
-            longest = std::max(longest, (at(faces_[f][k]) - at(next(faces_[f], k))).squaredNorm());
-          return !(2 * vector_area(faces_[f]).norm() > flat * longest);
-        },
-        "without area");
+  bool is_flat(int f) const {
+    const std::span<const int> corners = face(f);
+    double longest = 0;
+    for (std::size_t k = 0; k < corners.size(); ++k)
+      longest = std::max(longest, (at(corners[k]) - at(next(corners, k))).squaredNorm());
+    return !(2 * vector_area(f).norm() > flat * longest);
   }
 
-  static int next(const Polygon& face, std::size_t k) { return face[(k + 1) % face.size()]; }
-
-  std::map<Edge, std::vector<FaceSide>> sides() const {
-    std::map<Edge, std::vector<FaceSide>> result;
-    for (int f = 0; f < static_cast<int>(faces_.size()); ++f)
-      for (std::size_t k = 0; k < faces_[f].size(); ++k)
-        result[undirected(faces_[f][k], next(faces_[f], k))].push_back({f, static_cast<int>(k)});
-    return result;
+  void drop_flat_faces() {
+    drop_faces([&](int f) { return is_good(f) && is_flat(f); }, "without area");
   }
 
   // Corners stay together across edges with two faces. What is left apart at a vertex gets copies of it.
   void split_non_manifold() {
-    std::vector<int> first_corner = {0};
-    for (const Polygon& face : faces_)
-      first_corner.push_back(first_corner.back() + static_cast<int>(face.size()));
-    DisjointSets fans(first_corner.back());
-    for (const auto& [edge, at_edge] : sides()) {
-      if (at_edge.size() != 2) continue;
-      const auto corner = [&](const FaceSide& side, int v) {
-        const Polygon& face = faces_[side.face];
-        const int k = face[side.k] == v ? side.k : (side.k + 1) % static_cast<int>(face.size());
-        return first_corner[side.face] + k;
-      };
-      for (const int v : {edge.first, edge.second}) fans.unite(corner(at_edge[0], v), corner(at_edge[1], v));
-    }
-    std::map<Edge, int> copy;  // by vertex and fan
-    std::vector<char> has_fan(V_.size(), 0);
+    DisjointSets fans = corner_fans(inspected());
+    FaceList split = {mesh_.corners, mesh_.face_start};
+    std::vector<int> vertex_of_fan(split.corners.size(), -1);  // by its first corner
+    std::vector<char> has_fan(vertex_count(), 0);
     int count = 0, first = -1;
-    for (int f = 0; f < static_cast<int>(faces_.size()); ++f)
-      for (std::size_t k = 0; k < faces_[f].size(); ++k) {
-        int& v = faces_[f][k];
-        const auto [known, is_new] =
-            copy.try_emplace({v, fans.find(first_corner[f] + static_cast<int>(k))}, v);
-        if (is_new && std::exchange(has_fan[v], 1)) {
-          if (count++ == 0) first = v;
-          known->second = add_vertex(at(v), source_[v]);
-        }
-        v = known->second;
+    for (std::size_t c = 0; c < split.corners.size(); ++c) {
+      int& v = split.corners[c];
+      if (!is_vertex(v)) continue;
+      int& known = vertex_of_fan[fans.find(static_cast<int>(c))];
+      if (known < 0) {
+        const bool needs_copy = std::exchange(has_fan[v], 1);
+        if (needs_copy && count++ == 0) first = v;
+        known = needs_copy ? add_vertex(at(v), source_[v]) : v;
       }
+      v = known;
+    }
+    if (count > 0) take_faces(std::move(split));
     record(count, fmt::format("{} {} added where faces do not form one fan, the first for vertex {}", count,
                               count == 1 ? "copy was" : "copies were", first));
   }
 
+  // A vertex of the mesh when the step ends.
   int add_vertex(const Vector3& position, int source) {
-    V_.push_back(position);
+    new_positions_.push_back(position);
     source_.push_back(source);
-    return static_cast<int>(V_.size()) - 1;
+    return static_cast<int>(source_.size()) - 1;
   }
 
-  struct Components {
-    // The faces of each, found across edges with two faces.
-    std::vector<std::vector<int>> faces;
+  void keep_new_vertices() {
+    if (new_positions_.empty()) return;
+    inspected_.reset();
+    const int count = vertex_count();
+    mesh_.V.conservativeResize(static_cast<Eigen::Index>(source_.size()), 3);
+    for (std::size_t k = 0; k < new_positions_.size(); ++k)
+      mesh_.V.row(count + static_cast<int>(k)) = new_positions_[k];
+    new_positions_.clear();
+  }
 
-    // Must a face be turned, so that neighbours agree?
-    std::vector<int> is_turned;
-  };
+  // The neighbours of each face, in the order of the edges between them: half-edges of the face, in groups.
+  Groups sides_by_face(const InspectedMesh& s) const {
+    Groups sides;
+    sides.start.assign(static_cast<std::size_t>(face_count()) + 1, 0);
+    for (int e = 0; e < s.edge_count(); ++e)
+      for (int i = 0; s.faces_on(e) == 2 && i < 2; ++i) ++sides.start[s.face_of[s.half_edge(e, i)] + 1];
+    std::partial_sum(sides.start.begin(), sides.start.end(), sides.start.begin());
+    sides.items.resize(static_cast<std::size_t>(sides.start.back()));
+    std::vector<int> fill(sides.start.begin(), sides.start.end() - 1);
+    for (int e = 0; e < s.edge_count(); ++e)
+      for (int i = 0; s.faces_on(e) == 2 && i < 2; ++i)
+        sides.items[fill[s.face_of[s.half_edge(e, i)]]++] = s.half_edge(e, 1 - i);  // that of the neighbour
+    return sides;
+  }
 
-  Components components() const {
-    std::vector<std::vector<std::pair<int, int>>> neighbours(faces_.size());  // and: do they disagree?
-    for (const auto& [edge, at_edge] : sides()) {
-      if (at_edge.size() != 2) continue;
-      const FaceSide a = at_edge[0], b = at_edge[1];
-      const int disagree = faces_[a.face][a.k] == faces_[b.face][b.k];
-      neighbours[a.face].emplace_back(b.face, disagree);
-      neighbours[b.face].emplace_back(a.face, disagree);
-    }
-    Components result;
+  // Kept as long as the faces stay, even if some are turned over.
+  const FaceComponents& components() {
+    if (components_) return *components_;
+    const InspectedMesh& s = inspected();
+    std::vector<int> edge_of(mesh_.corners.size(), -1);  // of half-edges
+    for (int e = 0; e < s.edge_count(); ++e)
+      for (int i = 0; i < s.faces_on(e); ++i) edge_of[s.half_edge(e, i)] = e;
+    const Groups across = sides_by_face(s);
+    FaceComponents& result = components_.emplace();
     std::vector<int>& is_turned = result.is_turned;
-    is_turned.assign(faces_.size(), -1);
-    for (int seed = 0; seed < static_cast<int>(faces_.size()); ++seed) {
+    is_turned.assign(face_count(), -1);
+    for (int seed = 0; seed < face_count(); ++seed) {
       if (is_turned[seed] >= 0) continue;
-      std::vector<int>& component = result.faces.emplace_back();
-      component.push_back(seed);
+      std::vector<int> component = {seed};
       is_turned[seed] = 0;
       for (std::size_t k = 0; k < component.size(); ++k)
-        for (const auto& [face, disagree] : neighbours[component[k]]) {
+        for (int i = across.start[component[k]]; i < across.start[component[k] + 1]; ++i) {
+          const int face = s.face_of[across.items[i]];
           if (is_turned[face] >= 0) continue;
-          is_turned[face] = is_turned[component[k]] ^ disagree;
+          is_turned[face] =
+              is_turned[component[k]] ^ static_cast<int>(s.runs_twice(edge_of[across.items[i]]));
           component.push_back(face);
         }
       prefer_fewer_turned(component, is_turned);
+      result.faces.push_back(std::move(component));
     }
     return result;
   }
@@ -285,72 +377,85 @@ class MeshRepair {
     for (const int f : component) is_turned[f] ^= 1;
   }
 
-  double volume(const std::vector<int>& component) const {
-    const Vector3 middle = at(faces_[component.front()].front());
+  double volume(const std::vector<int>& component, const std::vector<int>& corners) const {
+    const Vector3 middle = at(corners[mesh_.face_start[component.front()]]);
     double sum = 0;
-    for (const int f : component)
-      for (std::size_t k = 1; k + 1 < faces_[f].size(); ++k)
-        sum +=
-            (at(faces_[f][0]) - middle).dot((at(faces_[f][k]) - middle).cross(at(faces_[f][k + 1]) - middle));
+    for (const int f : component) {
+      const auto around = std::span(corners).subspan(mesh_.face_start[f], mesh_.face_degree(f));
+      for (std::size_t k = 1; k + 1 < around.size(); ++k)
+        sum += (at(around[0]) - middle).dot((at(around[k]) - middle).cross(at(around[k + 1]) - middle));
+    }
     return sum;
   }
 
-  void turn_over(int f) { std::reverse(faces_[f].begin() + 1, faces_[f].end()); }
+  // Faces on edges with another number of faces than two, and those that are not good.
+  std::vector<char> open_faces() {
+    const InspectedMesh& s = inspected();
+    std::vector<char> is_open(face_count(), 0);
+    for (int f = 0; f < face_count(); ++f) is_open[f] = !s.well_formed(f);
+    for (int e = 0; e < s.edge_count(); ++e)
+      for (int i = 0; s.faces_on(e) != 2 && i < s.faces_on(e); ++i) is_open[s.face_of[s.half_edge(e, i)]] = 1;
+    return is_open;
+  }
 
   void orient() {
-    Components all = components();
-    for (int f = 0; f < static_cast<int>(faces_.size()); ++f)
-      if (all.is_turned[f]) turn_over(f);
-    std::vector<char> is_open(faces_.size(), 0);
-    for (const auto& [edge, at_edge] : sides())
-      if (at_edge.size() != 2)
-        for (const FaceSide& side : at_edge) is_open[side.face] = 1;
+    const FaceComponents& all = components();
+    std::vector<int> is_turned = all.is_turned;
+    FaceList oriented = {mesh_.corners, mesh_.face_start};
+    const auto turn = [&](int f) {
+      turn_over(std::span(oriented.corners).subspan(mesh_.face_start[f], mesh_.face_degree(f)));
+    };
+    for (int f = 0; f < face_count(); ++f)
+      if (is_turned[f]) turn(f);
+    const std::vector<char> is_open = open_faces();
     for (const std::vector<int>& component : all.faces) {
       if (std::any_of(component.begin(), component.end(), [&](int f) { return is_open[f]; })) continue;
-      if (!(volume(component) < 0)) continue;
+      if (!(volume(component, oriented.corners) < 0)) continue;
       for (const int f : component) {
-        turn_over(f);
-        all.is_turned[f] ^= 1;
+        turn(f);
+        is_turned[f] ^= 1;
       }
     }
-    const auto turned = std::count(all.is_turned.begin(), all.is_turned.end(), 1);
-    const auto first = std::find(all.is_turned.begin(), all.is_turned.end(), 1) - all.is_turned.begin();
+    const auto turned = std::count(is_turned.begin(), is_turned.end(), 1);
+    const auto first = std::find(is_turned.begin(), is_turned.end(), 1) - is_turned.begin();
+    if (turned > 0) turn_faces(std::move(oriented));
     record(turned, fmt::format("{} {} turned over, the first was face {}", turned,
                                turned == 1 ? "face was" : "faces were", first));
   }
 
+  // Components stay what they are if faces are turned.
+  void turn_faces(FaceList oriented) {
+    std::optional<FaceComponents> kept = std::move(components_);
+    take_faces(std::move(oriented));
+    components_ = std::move(kept);
+  }
+
   void keep_largest() {
-    const std::vector<std::vector<int>> all = components().faces;
+    const std::vector<std::vector<int>>& all = components().faces;
     if (all.size() < 2) return;
-    const auto area = [&](const std::vector<int>& component) {
-      double sum = 0;
-      for (const int f : component) sum += vector_area(faces_[f]).norm();
-      return sum;
-    };
     std::vector<double> areas;
     areas.reserve(all.size());
-    for (const std::vector<int>& component : all) areas.push_back(area(component));
+    for (const std::vector<int>& component : all) {
+      double sum = 0;
+      for (const int f : component) sum += vector_area(f).norm();
+      areas.push_back(sum);
+    }
     const auto largest = std::max_element(areas.begin(), areas.end()) - areas.begin();
-    std::vector<char> is_kept(faces_.size(), 0);
+    std::vector<char> is_kept(face_count(), 0);
     for (const int f : all[largest]) is_kept[f] = 1;
-    const std::size_t before = faces_.size();
-    std::vector<Polygon> kept;
-    for (std::size_t f = 0; f < before; ++f)
-      if (is_kept[f]) kept.push_back(std::move(faces_[f]));
-    faces_ = std::move(kept);
+    const int before = face_count();
     const auto dropped = static_cast<long long>(all.size()) - 1;
+    keep_faces([&](int f) { return is_kept[f]; });
     record(dropped, fmt::format("{} smaller {} dropped, {} faces in all", dropped,
-                                dropped == 1 ? "component was" : "components were", before - faces_.size()));
+                                dropped == 1 ? "component was" : "components were", before - face_count()));
   }
 
   // Boundary curves, against the direction of the faces, so that triangles along them fit.
-  std::vector<Polygon> boundary_curves() const {
+  std::vector<Polygon> boundary_curves() {
+    const InspectedMesh& s = inspected();
     std::map<int, int> after;
-    for (const auto& [edge, at_edge] : sides()) {
-      if (at_edge.size() != 1) continue;
-      const Polygon& face = faces_[at_edge[0].face];
-      after[next(face, at_edge[0].k)] = face[at_edge[0].k];
-    }
+    for (int e = 0; e < s.edge_count(); ++e)
+      if (s.faces_on(e) == 1) after[s.target(s.half_edge(e, 0))] = s.origin(s.half_edge(e, 0));
     std::vector<Polygon> curves;
     while (!after.empty()) {
       Polygon curve;
@@ -370,35 +475,52 @@ class MeshRepair {
     return curves;
   }
 
-  void fill_holes() {
-    const std::vector<Polygon> curves = boundary_curves();
-    int count = 0;
-    std::size_t triangles = faces_.size();
+  // All edges between vertices of the curves.
+  std::set<Edge> edges_between(const std::vector<Polygon>& curves) {
+    const InspectedMesh& s = inspected();
+    std::vector<char> is_concerned(vertex_count(), 0);
+    for (const Polygon& curve : curves)
+      for (const int v : curve) is_concerned[v] = 1;
     std::set<Edge> edges;
-    for (const auto& [edge, at_edge] : sides()) edges.insert(edge);
-    for (std::size_t c = options_.largest_hole ? 0 : 1; c < curves.size(); ++c) {
-      if (options_.largest_hole && static_cast<int>(curves[c].size()) > *options_.largest_hole) continue;
-      if (curves[c].size() < 3) continue;
-      fill(curves[c], edges);
-      ++count;
+    for (int e = 0; e < s.edge_count(); ++e) {
+      const int h = s.half_edge(e, 0);
+      if (is_concerned[s.lower(h)] && is_concerned[s.upper(h)]) edges.emplace(s.lower(h), s.upper(h));
     }
-    triangles = faces_.size() - triangles;
-    record(count, fmt::format("{} {} filled with {} triangles", count, count == 1 ? "hole was" : "holes were",
-                              triangles));
+    return edges;
+  }
+
+  bool is_to_be_filled(const Polygon& curve) const {
+    return curve.size() >= 3 &&
+           (!options_.largest_hole || static_cast<int>(curve.size()) <= *options_.largest_hole);
+  }
+
+  void fill_holes() {
+    std::vector<Polygon> curves = boundary_curves();
+    if (!options_.largest_hole && !curves.empty()) curves.erase(curves.begin());
+    std::erase_if(curves, [&](const Polygon& curve) { return !is_to_be_filled(curve); });
+    if (curves.empty()) return;
+    std::set<Edge> edges = edges_between(curves);
+    FaceList filled = {mesh_.corners, mesh_.face_start};
+    for (const Polygon& curve : curves) fill(curve, edges, filled);
+    const int triangles = filled.count() - face_count();
+    take_faces(std::move(filled));
+    record(static_cast<long long>(curves.size()),
+           fmt::format("{} {} filled with {} triangles", curves.size(),
+                       curves.size() == 1 ? "hole was" : "holes were", triangles));
   }
 
   // The triangulation of least area whose inner edges the mesh does not have yet; if there is none, or the
   // curve is long, a fan around its middle.
-  void fill(const Polygon& curve, std::set<Edge>& edges) {
-    if (curve.size() <= largest_triangulated_hole && triangulate(curve, edges)) return;
+  void fill(const Polygon& curve, std::set<Edge>& edges, FaceList& faces) {
+    if (curve.size() <= largest_triangulated_hole && triangulate(curve, edges, faces)) return;
     Vector3 middle = Vector3::Zero();
     for (const int v : curve) middle += at(v) / static_cast<double>(curve.size());
     const int tip = add_vertex(middle, -1);
-    for (std::size_t k = 0; k < curve.size(); ++k) faces_.push_back({curve[k], next(curve, k), tip});
+    for (std::size_t k = 0; k < curve.size(); ++k) faces.append(std::array{curve[k], next(curve, k), tip});
   }
 
   // By dynamic programming over stretches i .. j of the curve.
-  bool triangulate(const Polygon& curve, std::set<Edge>& edges) {
+  bool triangulate(const Polygon& curve, std::set<Edge>& edges, FaceList& faces) {
     constexpr double impossible = std::numeric_limits<double>::infinity();
     const std::size_t n = curve.size();
     std::vector<std::vector<double>> least(n, std::vector<double>(n, 0));
@@ -424,7 +546,7 @@ class MeshRepair {
       waiting.pop_back();
       if (j - i < 2) continue;
       const std::size_t k = choice[i][j];
-      faces_.push_back({curve[i], curve[k], curve[j]});
+      faces.append(std::array{curve[i], curve[k], curve[j]});
       edges.insert(undirected(curve[i], curve[j]));
       waiting.emplace_back(i, k);
       waiting.emplace_back(k, j);
@@ -433,19 +555,22 @@ class MeshRepair {
   }
 
   void split_ears() {
-    const auto all = sides();
-    std::vector<char> on_boundary(V_.size(), 0);
-    for (const auto& [edge, at_edge] : all)
-      if (at_edge.size() == 1) on_boundary[edge.first] = on_boundary[edge.second] = 1;
+    const InspectedMesh& s = inspected();
+    std::vector<char> on_boundary(vertex_count(), 0);
+    for (int e = 0; e < s.edge_count(); ++e)
+      if (s.faces_on(e) == 1)
+        on_boundary[s.lower(s.half_edge(e, 0))] = on_boundary[s.upper(s.half_edge(e, 0))] = 1;
     std::map<Edge, int> middle;
-    for (const auto& [edge, at_edge] : all)
-      if (at_edge.size() == 2 && on_boundary[edge.first] && on_boundary[edge.second])
-        middle[edge] = add_vertex(0.5 * (at(edge.first) + at(edge.second)), -1);
+    for (int e = 0; e < s.edge_count(); ++e) {
+      const int a = s.lower(s.half_edge(e, 0)), b = s.upper(s.half_edge(e, 0));
+      if (s.faces_on(e) == 2 && on_boundary[a] && on_boundary[b])
+        middle[{a, b}] = add_vertex(0.5 * (at(a) + at(b)), -1);
+    }
     if (middle.empty()) return;
-    std::vector<Polygon> divided, further;
-    for (const Polygon& face : faces_) divide(face, middle, divided, further);
-    faces_ = std::move(divided);
-    faces_.insert(faces_.end(), further.begin(), further.end());
+    FaceList divided, further;
+    for (int f = 0; f < face_count(); ++f) divide(face(f), middle, divided, further);
+    divided.append_all(further);
+    take_faces(std::move(divided));
     const Edge first = middle.begin()->first;
     record(
         static_cast<long long>(middle.size()),
@@ -455,8 +580,8 @@ class MeshRepair {
   }
 
   // Triangles are divided where edges have a new vertex; polygons get it as a further corner.
-  static void divide(const Polygon& face, const std::map<Edge, int>& middle, std::vector<Polygon>& divided,
-                     std::vector<Polygon>& further) {
+  static void divide(std::span<const int> face, const std::map<Edge, int>& middle, FaceList& divided,
+                     FaceList& further) {
     Polygon around;
     std::vector<char> is_new;
     for (std::size_t k = 0; k < face.size(); ++k) {
@@ -468,61 +593,75 @@ class MeshRepair {
       }
     }
     if (face.size() > 3 || around.size() == 3) {
-      divided.push_back(std::move(around));
+      divided.append(around);
       return;
     }
     cut_corners(std::move(around), std::move(is_new), divided, further);
   }
 
   // Cuts off the corners between two new vertices, and the rest into triangles from a new vertex.
-  static void cut_corners(Polygon around, std::vector<char> is_new, std::vector<Polygon>& divided,
-                          std::vector<Polygon>& further) {
+  static void cut_corners(Polygon around, std::vector<char> is_new, FaceList& divided, FaceList& further) {
     const auto begin = std::find(is_new.begin(), is_new.end(), 1) - is_new.begin();
     std::rotate(around.begin(), around.begin() + begin, around.end());
     std::rotate(is_new.begin(), is_new.begin() + begin, is_new.end());
     if (around.size() == 6) {  // three corners and the triangle in the middle
       for (std::size_t k = 0; k < 6; k += 2)
-        further.push_back({around[k], around[k + 1], around[(k + 2) % 6]});
-      divided.push_back({around[0], around[2], around[4]});
+        further.append(std::array{around[k], around[k + 1], around[(k + 2) % 6]});
+      divided.append(std::array{around[0], around[2], around[4]});
       return;
     }
-    divided.push_back({around[0], around[1], around[2]});
+    divided.append(std::array{around[0], around[1], around[2]});
     for (std::size_t k = 2; k + 1 < around.size(); ++k)
-      further.push_back({around[0], around[k], around[k + 1]});
+      further.append(std::array{around[0], around[k], around[k + 1]});
   }
 
-  RepairedMesh result() {
-    std::vector<int> number(V_.size(), -1);
-    for (const Polygon& face : faces_)
-      for (const int v : face)
-        if (is_vertex(v)) number[v] = 0;
+  // The vertices of faces get new numbers in their order; -1 for the others.
+  std::vector<int> numbers_of_used() const {
+    std::vector<int> number(vertex_count(), -1);
+    for (const int v : mesh_.corners)
+      if (is_vertex(v)) number[v] = 0;
     int count = 0;
     for (int& v : number)
       if (v == 0) v = count++;
+    return number;
+  }
+
+  RepairedMesh result() {
+    const std::vector<int> number = numbers_of_used();
+    const auto count = std::count_if(number.begin(), number.end(), [](int v) { return v >= 0; });
     PolygonMesh& mesh = result_.mesh;
     mesh.V.resize(count, 3);
     const bool has_colours = colours_.rows() > 0 && std::none_of(source_.begin(), source_.end(),
                                                                  [](int source) { return source < 0; });
     if (has_colours) mesh.colours.resize(count, 3);
-    result_.source_vertex.resize(count);
-    for (std::size_t v = 0; v < V_.size(); ++v) {
+    result_.source_vertex.resize(static_cast<std::size_t>(count));
+    std::vector<int> first_with_source(image_.size(), -1);
+    for (int v = 0; v < vertex_count(); ++v) {
       if (number[v] < 0) continue;
-      mesh.V.row(number[v]) = V_[v];
+      mesh.V.row(number[v]) = mesh_.V.row(v);
       result_.source_vertex[number[v]] = source_[v];
       if (has_colours) mesh.colours.row(number[v]) = colours_.row(source_[v]);
+      if (source_[v] >= 0 && first_with_source[source_[v]] < 0) first_with_source[source_[v]] = number[v];
     }
-    for (const Polygon& face : faces_) {
-      for (const int v : face) mesh.corners.push_back(is_vertex(v) ? number[v] : v);
-      mesh.face_start.push_back(static_cast<int>(mesh.corners.size()));
-    }
+    result_.vertex_of.reserve(image_.size());
+    for (const int v : image_) result_.vertex_of.push_back(first_with_source[v]);
+    mesh.corners = std::move(mesh_.corners);
+    for (int& v : mesh.corners)
+      if (v >= 0 && v < static_cast<int>(number.size())) v = number[v];
+    mesh.face_start = std::move(mesh_.face_start);
     return std::move(result_);
   }
 
   const MeshRepairOptions& options_;
   const Points& colours_;
-  std::vector<Vector3> V_;
-  std::vector<int> source_;
-  std::vector<Polygon> faces_;
+  PolygonMesh mesh_;
+
+  // The vertex that each of the input was welded to, itself if to none; the vertex of the input that each
+  // vertex is, or is a copy of.
+  std::vector<int> image_, source_;
+  std::vector<Vector3> new_positions_;
+  std::optional<InspectedMesh> inspected_;
+  std::optional<FaceComponents> components_;
   RepairStep step_ = RepairStep::drop_bad_faces;
   RepairedMesh result_;
 };
@@ -534,6 +673,39 @@ RepairedMesh repair_mesh(const PolygonMesh& mesh, const MeshRepairOptions& optio
     throw ArgumentError(fmt::format("the tolerance {} for welding must be a number that is not negative",
                                     options.weld_tolerance));
   return MeshRepair(mesh, options).run();
+}
+
+RepairInPlace repair_in_place(const PolygonMesh& mesh, const MeshRepairOptions& options) {
+  RepairedMesh repaired = repair_mesh(mesh, options);
+  const int n = mesh.vertex_count();
+  RepairInPlace result;
+  result.summary.records = std::move(repaired.records);
+  std::vector<int>& added = result.summary.added;
+  std::vector<int> place;  // of each vertex of the repaired mesh
+  std::vector<char> is_taken(n, 0);
+  place.reserve(repaired.source_vertex.size());
+  for (const int source : repaired.source_vertex) {
+    const bool keeps_number = source >= 0 && !std::exchange(is_taken[source], 1);
+    place.push_back(keeps_number ? source : n + static_cast<int>(added.size()));
+    if (!keeps_number) added.push_back(source);
+  }
+  result.image.reserve(n);
+  for (const int v : repaired.vertex_of) result.image.push_back(v < 0 ? -1 : place[v]);
+
+  PolygonMesh& kept = result.mesh;
+  const auto rows = n + static_cast<Eigen::Index>(added.size());
+  const bool has_faces = repaired.mesh.vertex_count() > 0, has_colours = repaired.mesh.colours.rows() > 0;
+  kept.V = has_faces ? Points(repaired.mesh.V.row(0).replicate(rows, 1)) : Points::Zero(rows, 3);
+  if (has_colours) kept.colours = Points::Zero(rows, 3);
+  for (std::size_t v = 0; v < place.size(); ++v) {
+    kept.V.row(place[v]) = repaired.mesh.V.row(static_cast<int>(v));
+    if (has_colours) kept.colours.row(place[v]) = repaired.mesh.colours.row(static_cast<int>(v));
+  }
+  kept.corners = std::move(repaired.mesh.corners);
+  for (int& v : kept.corners)
+    if (v >= 0 && v < static_cast<int>(place.size())) v = place[v];
+  kept.face_start = std::move(repaired.mesh.face_start);
+  return result;
 }
 
 }  // namespace orbitutte

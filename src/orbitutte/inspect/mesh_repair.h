@@ -80,8 +80,29 @@ struct RepairedMesh {
   /// n: the vertex of the input that each vertex is or is a copy of; -1 for new ones.
   std::vector<int> source_vertex;
 
+  /// The vertex that each of the input has become, of copies the first; -1 if it was dropped.
+  std::vector<int> vertex_of;
+
   /// The steps that changed something, in order.
   std::vector<RepairRecord> records;
+};
+
+/// What a report says of a repair.
+struct RepairSummary {
+  std::vector<RepairRecord> records;
+
+  /// For each added vertex, the vertex of the input that it is a copy of; -1 for new ones.
+  std::vector<int> added;
+};
+
+/// A repaired mesh in which vertices keep their numbers.
+struct RepairInPlace {
+  /// The vertices of the input, in order, whether or not faces need them, and then the added ones.
+  PolygonMesh mesh;
+
+  /// What became of each vertex of the input: itself, the one that it was welded to, or -1 if it was dropped.
+  std::vector<int> image;
+  RepairSummary summary;
 };
 
 /// Order is kept: vertices and faces that stay are in the order of the input, copies and new ones follow.
@@ -89,5 +110,8 @@ struct RepairedMesh {
 /// and cubic in the edges of a hole of up to 200; larger ones are filled around a new vertex in their middle.
 /// Throws ArgumentError if a tolerance is negative or not finite.
 RepairedMesh repair_mesh(const PolygonMesh& mesh, const MeshRepairOptions& options = {});
+
+/// The same repair. Vertices that no face needs lie where one that is needed does.
+RepairInPlace repair_in_place(const PolygonMesh& mesh, const MeshRepairOptions& options = {});
 
 }  // namespace orbitutte

@@ -145,11 +145,8 @@ void replace_file(const std::string& path, const std::string& target, std::strin
   if (!temporary.file().close() || !temporary.rename_to(target)) refuse(path, cannot_write);
 }
 
-}  // namespace
-
-std::string read_file(const std::string& path) {
-  const OpenFile file(path, O_RDONLY);
-  if (!file.is_open()) refuse(path, cannot_read);
+// `path` names the file in messages.
+std::string read_all(const OpenFile& file, const std::string& path) {
   constexpr std::size_t smallest_step = 1 << 16;
   std::string bytes(expected_size(file) + 1, '\0');  // one more, to see the end without growing
   std::size_t size = 0;
@@ -163,6 +160,21 @@ std::string read_file(const std::string& path) {
   }
   bytes.resize(size);
   return bytes;
+}
+
+}  // namespace
+
+std::string read_file(const std::string& path) {
+  const OpenFile file(path, O_RDONLY);
+  if (!file.is_open()) refuse(path, cannot_read);
+  return read_all(file, path);
+}
+
+std::string read_standard_input() {
+  constexpr const char* name = "standard input";
+  const OpenFile file(::dup(STDIN_FILENO));
+  if (!file.is_open()) refuse(name, cannot_read);
+  return read_all(file, name);
 }
 
 void write_file(const std::string& path, std::string_view bytes) {

@@ -10,6 +10,9 @@ namespace orbitutte {
 /// All bytes of a file. Throws FileError with the path and the system's reason.
 std::string read_file(const std::string& path);
 
+/// All bytes of standard input up to its end. Throws FileError with the system's reason.
+std::string read_standard_input();
+
 /// Writes the bytes to a temporary file beside `path` and renames it, so that the file appears whole or not
 /// at all. If something exists there that is not a regular file (a pipe, /dev/stdout), it is written to
 /// directly, never replaced. Throws FileError with the path and the system's reason.

@@ -38,6 +38,9 @@ constexpr FormatRow formats[] = {
     {MeshFormat::freesurfer, ".pial .white .inflated .sphere .orig .smoothwm .reg .nofix", read_freesurfer,
      write_freesurfer, write_freesurfer_polygons}};
 
+constexpr std::string_view gzip_magic = "\x1F\x8B";
+constexpr const char* standard_input = "-";
+
 const FormatRow& row(MeshFormat format) {
   return *std::find_if(std::begin(formats), std::end(formats),
                        [format](const FormatRow& known) { return known.format == format; });
@@ -101,6 +104,31 @@ PolygonMesh read_mesh(const std::string& path) {
   mesh_format(path);  // refuses what has no known ending before it is read
   return parse_mesh_file(path, read_file(path));
 }
+
+MeshFormat mesh_format(const MeshInput& input) {
+  if (input.format) return *input.format;
+  if (input.path != standard_input) return mesh_format(input.path);
+  throw ArgumentError(
+      fmt::format("the mesh comes from standard input, whose format no ending names; give --format {}",
+                  listed_choices(choices_of<MeshFormat>())));
+}
+
+std::string read_bytes(const MeshInput& input) {
+  mesh_format(input);  // refuses what has no known format before it is read
+  return input.path == standard_input ? read_standard_input() : read_file(input.path);
+}
+
+PolygonMesh parse_mesh_input(const MeshInput& input, std::string_view bytes) {
+  if (!input.format) return parse_mesh_file(input.path, bytes);
+  try {
+    return bytes.starts_with(gzip_magic) ? parse_mesh(decompress(bytes), *input.format)
+                                         : parse_mesh(bytes, *input.format);
+  } catch (const MeshError& error) {
+    throw MeshError(fmt::format("{}: {}", input.path, error.what()));
+  }
+}
+
+PolygonMesh read_mesh(const MeshInput& input) { return parse_mesh_input(input, read_bytes(input)); }
 
 std::string serialize_mesh(const Mesh& mesh, MeshFormat format) { return row(format).write(mesh); }
 

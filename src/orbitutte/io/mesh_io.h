@@ -3,14 +3,37 @@
 // file is the order in the result.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "orbitutte/mesh/polygon_mesh.h"
+#include "orbitutte/names.h"
 
 namespace orbitutte {
 
 enum class MeshFormat { obj, off, ply, stl, gifti, freesurfer, vtk, vtp, gltf, glb };
+
+/// Its names.
+template <>
+struct NameTable<MeshFormat> {
+  static constexpr NamedValue<MeshFormat> rows[] = {{MeshFormat::obj, "obj"},
+                                                    {MeshFormat::off, "off"},
+                                                    {MeshFormat::ply, "ply"},
+                                                    {MeshFormat::stl, "stl"},
+                                                    {MeshFormat::vtk, "vtk"},
+                                                    {MeshFormat::gifti, "gifti"},
+                                                    {MeshFormat::freesurfer, "freesurfer"}};
+};
+
+/// Where a mesh is read from.
+struct MeshInput {
+  /// Of a file; "-" is standard input, which can be read once.
+  std::string path;
+
+  /// If none is given, the one that the path's ending names.
+  std::optional<MeshFormat> format = {};
+};
 
 /// The format that a path's ending names (any case), or the one before `.gz`: .obj, .off, .ply, .stl, .gii
 /// (GIfTI), .vtk, .vtp, .gltf, .glb; FreeSurfer's .pial, .white, .inflated, .sphere, .orig, .smoothwm, .reg
@@ -56,6 +79,20 @@ PolygonMesh parse_mesh(std::string_view bytes, MeshFormat format);
 /// The polygons in the bytes of the file at this path, whose ending names the format, and of which `.gz` says
 /// that they are compressed. Error messages begin with the path. Throws ArgumentError and MeshError.
 PolygonMesh parse_mesh_file(const std::string& path, std::string_view bytes);
+
+/// The format of the input. Throws ArgumentError if nothing names it.
+MeshFormat mesh_format(const MeshInput& input);
+
+/// The bytes of the file or of standard input. Throws ArgumentError if nothing names their format, and
+/// FileError.
+std::string read_bytes(const MeshInput& input);
+
+/// The polygons in the bytes of the input. If its format was given, bytes that begin as gzip's do are
+/// decompressed first. Error messages begin with the path. Throws ArgumentError and MeshError.
+PolygonMesh parse_mesh_input(const MeshInput& input, std::string_view bytes);
+
+/// Reads the mesh. Throws as the functions above do.
+PolygonMesh read_mesh(const MeshInput& input);
 
 /// Reads a file in the format that the path's ending names, as parse_mesh does; one that ends in `.gz` is
 /// decompressed first. Error messages begin with the path. Throws FileError if the file cannot be read;

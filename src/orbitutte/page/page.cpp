@@ -18,6 +18,7 @@
 #include "orbitutte/page/html_template.h"
 #include "orbitutte/page/page_assets.h"
 #include "orbitutte/page/page_scene.h"
+#include "orbitutte/page/page_style.h"
 #include "orbitutte/page/svg_chart.h"
 #include "orbitutte/report/charts.h"
 #include "orbitutte/report/program.h"
@@ -280,15 +281,6 @@ Content picture_list(const std::vector<PagePicture>& pictures) {
 
 bool is_interactive(const PageOptions& options) { return options.interactive && has_interactive_view(); }
 
-/// The style sheet with the colours that charts have in pictures, too.
-std::string style() {
-  const Rgb energy = tone_colour(ChartTone::energy), gradient = tone_colour(ChartTone::gradient);
-  return fill_template({page_style, {}}, {{"energy", hexadecimal(energy)},
-                                          {"energy_on_dark", hexadecimal(on_dark(energy))},
-                                          {"gradient", hexadecimal(gradient)},
-                                          {"gradient_on_dark", hexadecimal(on_dark(gradient))}});
-}
-
 /// For a content security policy: what the text hashes to.
 std::string policy_hash(std::string_view text) {
   const std::string digits = sha256(text);
@@ -368,7 +360,7 @@ Content page_content(const PageSubject& subject, const Json& report, const PageO
                                at(report, "/termination") == "converged"};
   const std::vector<FaceDistortion> faces = measure_triangles(subject.surface, embedding);
   const std::vector<Iteration> history = history_of(report);
-  const std::string style_sheet = style();
+  const std::string style_sheet = page_style_sheet();
   Content content = {{"version", this_program().version},
                      {"style", style_sheet},
                      {"policy", policy(style_sheet, options)},

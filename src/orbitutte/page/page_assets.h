@@ -15,6 +15,8 @@ extern const std::string_view page_view;
 extern const std::string_view page_pictures;
 /// viewer/chart.html
 extern const std::string_view page_chart;
+/// viewer/batch.html
+extern const std::string_view batch_template;
 /// viewer/style.css
 extern const std::string_view page_style;
 /// the bundle of viewer/src; empty in a build without Node.js

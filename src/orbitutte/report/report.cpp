@@ -143,6 +143,13 @@ Json timings_json(const Timings& stages, const RunRecord& run) {
   return timings;
 }
 
+Json repair_json(const RepairSummary& repair) {
+  Json steps = Json::array();
+  for (const RepairRecord& record : repair.records)
+    steps.push_back({{"step", name_of(record.step)}, {"count", record.count}, {"message", record.message}});
+  return {{"steps", std::move(steps)}, {"added_vertices", repair.added}};
+}
+
 Json environment_json(const EmbedResult& result, const RunRecord& run) {
   return {{"version", this_program().version},  {"commit", this_program().commit},
           {"backend", name_of(result.backend)}, {"blas", blas_description()},
@@ -308,6 +315,7 @@ Report to_report(const Json& json) {
   }
   if (json.contains("moved_vertices")) report.moved_vertices = integers(json, "moved_vertices");
   if (json.contains("quotient") && boolean(json, "quotient")) report.quotient = to_quotient(json);
+  report.is_repaired = json.contains("repair");
   if (json.contains("placement")) report.placement = report.space.isometry(matrix(json, "placement"));
   for (const Json& seam : array(json, "seams")) report.seams.push_back(to_seam(report.space, seam));
   for (const Json& cone : array(json, "cones")) report.cones.push_back(to_cone(cone));
@@ -370,6 +378,7 @@ std::string report_json(const EmbedResult& result, const RunRecord& run) {
     if (!minimum.shapes.empty()) json["shapes"] = history_json(minimum.shapes);
   }
   if (!run.strain.empty()) json["distortion"]["strain"] = to_json(run.strain);
+  if (run.repair) json["repair"] = repair_json(*run.repair);
   if (result.floor) json["floor"] = to_json(*result.floor);
   if (!result.moved_vertices.empty()) json["moved_vertices"] = result.moved_vertices;
   if (result.intrinsic_certificate) json["intrinsic_certificate"] = to_json(*result.intrinsic_certificate);

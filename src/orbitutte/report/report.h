@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "orbitutte/embed_types.h"
+#include "orbitutte/inspect/mesh_repair.h"
 #include "orbitutte/verify/strain.h"
 
 namespace orbitutte {
@@ -23,8 +24,12 @@ struct RunRecord {
   double write_seconds = 0;
   double total_seconds = 0;
   long long peak_memory_bytes = 0;
+
   /// How the map deforms the surface around its vertices, as strain_statistics has it; or none.
-  std::vector<StrainStatistics> strain;
+  std::vector<StrainStatistics> strain = {};
+
+  /// If the mesh was repaired before it was embedded.
+  std::optional<RepairSummary> repair = {};
 };
 
 /// The report of an embedding, schema orbitutte.report/1; ends with a line break.
@@ -54,6 +59,9 @@ struct Report {
 
   /// Input vertices.
   std::vector<int> moved_vertices;
+
+  /// Was the mesh repaired in place before it was embedded?
+  bool is_repaired = false;
 
   /// If the map is a quotient.
   std::optional<QuotientRecord> quotient;
