@@ -17,12 +17,14 @@ families() -> list of dict              the families of orbifolds
 choose_cones(V, F, signature) -> list   well separated vertices to be marked
 fitted_cones(V, F, count) -> FittedCones    cones of the angles that distort least, for embed(V, F, "cones", vertices, angles=angles)
 map_between((V, F), (V, F), landmarks) -> SurfaceMap     a bijection between two surfaces
-    to_b(points), to_a(points), pull(values), push(values), matrix(), overlay(), morph(t), write_morph(path), save(folder), load(folder, A, B)
+    to_b(points), to_a(points), pull(values), push(values), matrix(), overlay(), morph(t), write_morph(path),
+    bake(picture, of_b, on_a) -> Texture, save(folder), load(folder, A, B)
 verify(embedding[, V, F]) -> dict       the certificate again, from the data alone
 distortion(embedding[, V, F]) -> dict   area and angle distortion again
 distortion_floor(V, F, signature, cones) -> dict    the distortion that the coarseness of the mesh costs
 tile(embedding) -> (V, F, copy)         |G| copies, welded into one closed mesh
 sample_mesh(shape, faces) -> (V, F)     a mesh to try things with
+read_texture_layout(path) -> TextureLayout    of an OBJ, for SurfaceMap.bake
 read_mesh(path) -> (V, F)               OBJ, OFF, PLY, STL, VTK, GIfTI, FreeSurfer; .gz
 write_mesh(path, V, F)
 build() -> dict                         version, commit, linear algebra
@@ -48,13 +50,13 @@ from ._api import (
     use_huge_pages, verify, write_mesh,
 )
 from ._embedding import Cone, EdgeWeights, Embedding, Location, Offsets, Seam
-from ._map import Overlay, SurfaceMap, SurfacePoints, map_between
+from ._map import Overlay, SurfaceMap, SurfacePoints, Texture, TextureLayout, map_between, read_texture_layout
 from ._orbitutte import __version__
 from .errors import ArgumentError, Cancelled, EmbeddingWarning, Error, FileError, MeshError, MeshWarning
 
 __all__ = [
     "ArgumentError", "Cancelled", "Cone", "EdgeWeights", "Embedding", "EmbeddingWarning", "Error", "FileError",
-    "FittedCones", "Location", "MeshError", "MeshWarning", "Offsets", "Overlay", "Seam", "Solver", "SurfaceMap", "SurfacePoints", "Tiling", "__version__", "build", "choose", "choose_cones", "distortion",
-    "distortion_floor", "embed", "families", "fitted_cones", "info", "keep_freed_memory", "map_between", "read_mesh", "sample_mesh", "signatures", "tile",
+    "FittedCones", "Location", "MeshError", "MeshWarning", "Offsets", "Overlay", "Seam", "Solver", "SurfaceMap", "SurfacePoints", "Texture", "TextureLayout", "Tiling", "__version__", "build", "choose", "choose_cones", "distortion",
+    "distortion_floor", "embed", "families", "fitted_cones", "info", "keep_freed_memory", "map_between", "read_mesh", "read_texture_layout", "sample_mesh", "signatures", "tile",
     "use_huge_pages", "verify", "write_mesh",
 ]
