@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
+#include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "orbitutte/export/carried_files.h"
@@ -24,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> mesh_endings = {".obj", ".off", ".ply", ".stl", ".vtk"};
+const std::vector<std::string> morph_endings = {".obj", ".off", ".ply", ".stl", ".vtk"};
 
 // An option that reads a file, and what is written into the folder for it.
 struct CarryingOption {
@@ -67,12 +69,20 @@ TextureLayout layout_of_b(const std::string& path) {
   return std::move(*layout);
 }
 
+// All of a text as a number of pixels; 0 if it is none.
+int pixels_in(std::string_view text) {
+  int pixels = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), pixels);
+  return error == std::errc() && stop == text.data() + text.size() ? pixels : 0;
+}
+
 // "1024" or "1024x512".
-TextureSize parse_texture_size(const std::string& text) {
-  TextureSize size;
-  char after = 0;
-  if (std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &after) == 2) return size;
-  if (std::sscanf(text.c_str(), "%d%c", &size.width, &after) == 1) return {size.width, size.width};
+TextureSize parse_texture_size(std::string_view text) {
+  const std::size_t cross = text.find('x');
+  const std::string_view width = text.substr(0, cross),
+                         height = cross == text.npos ? width : text.substr(cross + 1);
+  const TextureSize size = {pixels_in(width), pixels_in(height)};
+  if (size.width > 0 && size.height > 0) return size;
   throw ArgumentError(fmt::format("--texture-size is '{}'; give pixels, as in 2048 or 2048x1024", text));
 }
 
@@ -171,6 +181,7 @@ CarriedInputs::CarriedInputs(const MapArguments& arguments, const Surface& a, co
 
 std::vector<OutputFile> files_of_products(const MapArguments& arguments, const std::string& folder) {
   std::vector<OutputFile> files;
+  files.reserve(16 + static_cast<std::size_t>(arguments.frames));
   for (const CarryingOption& option : carrying_options(arguments))
     for (const char* const name : option.files)
       files.push_back({option.name,
@@ -179,7 +190,7 @@ std::vector<OutputFile> files_of_products(const MapArguments& arguments, const s
                        {".png", ".obj", ".mtl", ".txt"}});
   if (arguments.frames != 0)
     for (const std::string& path : frame_paths(arguments.morph, arguments.frames))
-      files.push_back({"--morph", "the morph", path, mesh_endings});
+      files.push_back({"--morph", "the morph", path, morph_endings});
   if (!arguments.picture.empty()) files.push_back({"--picture", "the picture", arguments.picture, {".png"}});
   if (!arguments.page.empty()) files.push_back({"--page", "the page", arguments.page, {".html", ".htm"}});
   if (!arguments.colours.empty())
@@ -190,9 +201,10 @@ std::vector<OutputFile> files_of_products(const MapArguments& arguments, const s
 }
 
 std::vector<InputFile> inputs_of_products(const MapArguments& arguments) {
+  const std::vector<CarryingOption> carrying = carrying_options(arguments);
   std::vector<InputFile> files;
-  for (const CarryingOption& option : carrying_options(arguments))
-    files.push_back({option.content, option.path});
+  files.reserve(carrying.size());
+  for (const CarryingOption& option : carrying) files.push_back({option.content, option.path});
   return files;
 }
 
