@@ -260,7 +260,9 @@ int map_command(const MapArguments& arguments) {
     run.total_seconds = total.seconds();
     run.peak_memory_bytes = peak_memory_bytes();
   }
-  const std::string json = map_json(result.map, result.composed, timings);
+  // What was measured when the map was sought is in its file.
+  const std::string json = arguments.from.empty() ? map_json(result.map, result.composed, timings)
+                                                  : read_file(in_folder(arguments.from, "map.json"));
   if (arguments.from.empty() && !arguments.output.empty()) write_map(arguments.output, result, runs, json);
   write_all_products(arguments, carried, result, {&on_a, &on_b});
   if (arguments.json) fmt::print("{}", json);

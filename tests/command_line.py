@@ -264,6 +264,8 @@ class Maps(CommandLine):
         self.assertEqual((self.folder / 'first/values_on_a.txt').read_bytes(), (self.folder / 'second/values_on_a.txt').read_bytes())
         self.assertEqual({path.name for path in (self.folder / 'second').iterdir()}, {'values_on_a.txt'})
         self.assertTrue(all((self.folder / f'frame_0{k}.ply').exists() for k in range(3)))
+        printed = self.expect(0, *self.map('--from', 'first', '--values', 'values.txt', '--json'))
+        self.assertEqual(printed.stdout, (self.folder / 'first/map.json').read_text(encoding='utf-8'))
         self.expect(IS_WRONG, *self.map('--from', 'first'), says='nothing is to be made of it')
         self.expect(IS_WRONG, *self.map('--from', 'first', '--page', 'first/map.json'), says='.html')
         self.expect(IS_WRONG, *self.map('--from', 'first', '--landmarks', self.LANDMARKS, '--page', 'page.html'), says='give one of them')
