@@ -116,3 +116,17 @@ test('landmarks are partners, in both panels', () => withPage(async (opened) => 
   for (const [a, b, onA, onB] of found) assert.deepEqual([a, b], [onA, onB]);
   assert.equal(await opened.locator('.cone-label').count(), 2 * found.length);
 }));
+
+test('on a phone nothing is wider than the screen', () => withPage(async (opened) => {
+  const [wide, screen] = await opened.evaluate(() => [document.documentElement.scrollWidth, window.innerWidth]);
+  assert.ok(wide <= screen, `${wide} of ${screen} pixels`);
+}, {viewport: {width: 360, height: 640}}));
+
+test('keys turn both surfaces, and reset them', () => withPage(async (opened) => {
+  const start = {a: await pixels(opened, 'a'), b: await pixels(opened, 'b')};
+  await opened.focus('#a');
+  await opened.keyboard.press('ArrowRight');
+  for (const panel of PANELS) assert.notEqual((await pixels(opened, panel)).sum, start[panel].sum, panel);
+  await opened.click('#reset');
+  for (const panel of PANELS) assert.equal((await pixels(opened, panel)).sum, start[panel].sum, panel);
+}));
