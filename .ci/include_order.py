@@ -52,7 +52,7 @@ def closure(headers):
 
 def installed_headers():
     text = (ROOT / "cmake/install.cmake").read_text(encoding="utf-8")
-    names = re.search(r"set\(ORBITUTTE_HEADERS ([^)]*)\)", text)[1].split() + ["render/render"]
+    names = re.search(r"set\(ORBITUTTE_HEADERS ([^)]*)\)", text)[1].split() + ["render/map_sheet", "render/render"]
     return closure(name + ".h" for name in names)
 
 

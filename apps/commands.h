@@ -154,6 +154,15 @@ struct MapArguments {
   std::uint64_t cut_seed_a = 0, cut_seed_b = 0;
   int max_iterations = 2000, threads = 0;
   bool quiet = false, json = false;
+
+  /// A folder with a map, which is then not sought.
+  std::string from;
+
+  /// What is made of the map; frames: 0 if they are not asked for.
+  std::string picture, view, up, page, colours, morph;
+  std::string texture, texture_size, values, labels, curves;
+  int frames = 0;
+  bool new_chart = false;
 };
 int map_command(const MapArguments& arguments);
 

@@ -11,7 +11,9 @@
 #include "command_arguments.h"
 #include "command_files.h"
 #include "commands.h"
+#include "map_products.h"
 #include "orbitutte/export/map_files.h"
+#include "orbitutte/export/stored_map.h"
 #include "orbitutte/io/file.h"
 #include "orbitutte/io/landmark_file.h"
 #include "orbitutte/map/composed_map.h"
@@ -32,6 +34,11 @@ std::string in_folder(const std::string& folder, const char* name) {
   return (fs::path(folder) / name).string();
 }
 
+// Where the files of the map are, or are written.
+std::string folder_of(const MapArguments& arguments) {
+  return arguments.output.empty() ? arguments.from : arguments.output;
+}
+
 std::vector<OutputFile> files_in(const std::string& folder) {
   std::vector<OutputFile> files;
   for (const char* const name : {"a.ply", "b.ply", "a.json", "b.json", "map.json", "a_to_b.txt", "b_to_a.txt",
@@ -42,11 +49,28 @@ std::vector<OutputFile> files_in(const std::string& folder) {
 
 // No file of the folder may be one that the command reads.
 void require_inputs_kept(const MapArguments& arguments) {
-  if (arguments.output.empty()) return;
-  std::vector<InputFile> inputs = {{"surface A", arguments.a}, {"surface B", arguments.b}};
+  const std::string folder = folder_of(arguments);
+  std::vector<InputFile> inputs = inputs_of_products(arguments);
+  inputs.push_back({"surface A", arguments.a});
+  inputs.push_back({"surface B", arguments.b});
   if (!arguments.landmarks.empty() && !is_landmark_list(arguments.landmarks))
     inputs.push_back({"the landmarks", arguments.landmarks});
-  require_sound_files(inputs, files_in(arguments.output));
+  std::vector<OutputFile> outputs = files_of_products(arguments, folder);
+  if (arguments.from.empty() && !folder.empty())
+    for (OutputFile& file : files_in(folder)) outputs.push_back(std::move(file));
+  if (!arguments.from.empty())
+    for (const OutputFile& file : files_in(arguments.from))
+      inputs.push_back({"a file of the map", file.path});
+  require_sound_files(inputs, outputs);
+}
+
+// With --from, what would change the map is not looked at, so it may not be given.
+void require_sound_source(const MapArguments& arguments) {
+  if (arguments.from.empty()) return;
+  if (!arguments.landmarks.empty())
+    throw ArgumentError("--landmarks seeks a map and --from reads one; give one of them");
+  if (!wants_products(arguments))
+    throw ArgumentError("--from reads a map, but nothing is to be made of it; add --picture, --page, ...");
 }
 
 std::vector<Landmark> landmarks_from(const std::string& text) {
@@ -164,49 +188,90 @@ ExitCode exit_code(const SurfaceMap& map, const std::optional<ComposedMap>& comp
   return converged ? not_certified : not_converged;
 }
 
-}  // namespace
+// The map, and what follows from it; nothing if an embedding is not certified.
+struct Mapped {
+  SurfaceMap map;
+  std::optional<ComposedMap> composed;
+};
 
-int map_command(const MapArguments& arguments) {
-  const Stopwatch total;
-  require_inputs_kept(arguments);
+Mapped mapped(const Surface& a, const Surface& b, SurfaceMap map) {
+  std::optional<ComposedMap> composed = composed_map(a, b, map);
+  return {std::move(map), std::move(composed)};
+}
+
+SurfaceMap sought_map(const MapArguments& arguments, const Surface& a, const Surface& b) {
   MapOptions options = options_from(arguments);
   const std::vector<Landmark> landmarks = landmarks_from(arguments.landmarks);
-  MappedInput a = read_surface(surface_input(arguments.a, arguments));
-  MappedInput b = read_surface(surface_input(arguments.b, arguments));
   const ProgressLine line(arguments.quiet);
   options.embed.progress = [&](const Progress& progress) {
     line.show(progress);
     return true;
   };
-  SurfaceMap map = map_between(*a.input.surface, *b.input.surface, landmarks, options);
+  SurfaceMap map = map_between(a, b, landmarks, options);
   line.clear();
   tell_warnings(map);
+  return map;
+}
+
+// The files of a map that was sought.
+void write_map(const std::string& folder, const Mapped& result, const std::array<RunRecord, 2>& runs,
+               const std::string& json) {
+  Contents contents;
+  add_embedding(result.map.a, runs[0], {"a.ply", "a.json"}, contents);
+  add_embedding(result.map.b, runs[1], {"b.ply", "b.json"}, contents);
+  contents.emplace_back("map.json", json);
+  make_folder(folder);
+  for (const auto& [name, bytes] : contents) write_file(in_folder(folder, name), bytes);
+  if (result.composed) write_composed(folder, *result.composed);
+}
+
+void write_all_products(const MapArguments& arguments, const CarriedInputs& carried, const Mapped& result,
+                        const std::array<const Surface*, 2>& surfaces) {
+  if (!wants_products(arguments)) return;
+  if (!result.composed) {
+    tell("orbitutte: nothing was made of the map, since it is not certified\n");
+    return;
+  }
+  if (!folder_of(arguments).empty()) make_folder(folder_of(arguments));
+  write_products(arguments, folder_of(arguments), carried,
+                 {*surfaces[0], *surfaces[1], result.map, *result.composed});
+}
+
+}  // namespace
+
+int map_command(const MapArguments& arguments) {
+  const Stopwatch total;
+  require_sound_source(arguments);
+  require_sound_products(arguments);
+  require_inputs_kept(arguments);
+  const MappedInput a = read_surface(surface_input(arguments.a, arguments));
+  const MappedInput b = read_surface(surface_input(arguments.b, arguments));
+  const Surface &on_a = *a.input.surface, &on_b = *b.input.surface;
+  const CarriedInputs carried(arguments, on_a, on_b);
+  SurfaceMap map = arguments.from.empty() ? sought_map(arguments, on_a, on_b)
+                                          : read_surface_map(arguments.from, on_a, on_b);
 
   const Stopwatch composing;
-  const std::optional<ComposedMap> composed = composed_map(*a.input.surface, *b.input.surface, map);
-  Timings timings = map.timings;
+  const Mapped result = mapped(on_a, on_b, std::move(map));
+  Timings timings = result.map.timings;
   timings.emplace_back("compose", composing.seconds());
   timings.emplace_back("total", total.seconds());
-  for (MappedInput* const side : {&a, &b}) {
-    side->run.total_seconds = total.seconds();
-    side->run.peak_memory_bytes = peak_memory_bytes();
+  std::array<RunRecord, 2> runs = {a.run, b.run};
+  for (RunRecord& run : runs) {
+    run.total_seconds = total.seconds();
+    run.peak_memory_bytes = peak_memory_bytes();
   }
-  const std::string json = map_json(map, composed, timings);
-  if (!arguments.output.empty()) {
-    Contents contents;
-    add_embedding(map.a, a.run, {"a.ply", "a.json"}, contents);
-    add_embedding(map.b, b.run, {"b.ply", "b.json"}, contents);
-    contents.emplace_back("map.json", json);
-    make_folder(arguments.output);
-    for (const auto& [name, bytes] : contents) write_file(in_folder(arguments.output, name), bytes);
-    if (composed) write_composed(arguments.output, *composed);
-  }
+  // What was measured when the map was sought is in its file.
+  const std::string json = arguments.from.empty() ? map_json(result.map, result.composed, timings)
+                                                  : read_file(in_folder(arguments.from, "map.json"));
+  if (arguments.from.empty() && !arguments.output.empty()) write_map(arguments.output, result, runs, json);
+  write_all_products(arguments, carried, result, {&on_a, &on_b});
   if (arguments.json) fmt::print("{}", json);
-  if (!arguments.quiet) summarize(map, composed);
-  explain('A', map.a);
-  explain('B', map.b);
-  if (composed) explain(composed->certificate);
-  return exit_code(map, composed);
+  if (!arguments.quiet) summarize(result.map, result.composed);
+  explain('A', result.map.a);
+  explain('B', result.map.b);
+  if (result.composed) explain(result.composed->certificate);
+  return exit_code(result.map, result.composed);
 }
 
 }  // namespace orbitutte::cli

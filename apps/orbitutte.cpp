@@ -477,6 +477,40 @@ void add_repair(CLI::App& app, int& code) {
   command.runs(repair_command, code);
 }
 
+// What the command map makes besides the files of the map.
+void products_of_map(Command<MapArguments>& command) {
+  command.output("--picture", command->picture, {"--picture", "the picture", "", {".png"}},
+                 "Draw a sheet here: B's colours and a checkerboard carried to A, and the distortion (.png)");
+  view_of_mesh(command);
+  command.output("--page", command->page, {"--page", "the page", "", {".html", ".htm"}},
+                 "Write a page here that shows both surfaces, linked: point at one, see the other (.html)");
+  command.output(
+      "--morph", command->morph,
+      {"--morph", "the morph", "", {".glb", ".obj", ".off", ".ply", ".stl", ".vtk"}},
+      "Write A turning into B here: .glb with a morph target, or meshes, as many as --frames says");
+  command.option("--frames", command->frames,
+                 "Write the morph as so many meshes, NAME_00.ply, NAME_01.ply, ... for --morph NAME.ply");
+  command.output(
+      "--colours", command->colours, {"--colours", "the mesh with colours", "", {".ply", ".obj"}},
+      "Write A in the colours of B's vertices here, or coloured by where they lie on B: .ply or .obj");
+  command.input(
+      "--texture", command->texture, "the texture of B",
+      "Carry this picture, B's texture (PNG or JPEG; B is an OBJ with 'vt'), to A, into the folder: "
+      "texture.png, textured_a.obj");
+  command.option("--texture-size", command->texture_size,
+                 "Pixels of the texture on A, such as 2048 or 2048x1024; that of B's if this is not given");
+  command.flag("--new-chart", command->new_chart,
+               "Make new texture coordinates for A, even if it has some of its own");
+  command.input(
+      "--values", command->values, "the values of B",
+      "Carry numbers of B's vertices, a line each, to those of A, into the folder: values_on_a.txt");
+  command.input("--labels", command->labels, "the labels of B",
+                "Carry whole numbers, a line each, that of the nearest corner: labels_on_a.txt");
+  command.input("--curves", command->curves, "the curves of B",
+                "Carry curves, a line of vertices of B for each, where neighbours share a triangle: "
+                "curves_on_a.obj");
+}
+
 void add_map(CLI::App& app, int& code) {
   Command<MapArguments> command(
       app, "map", "Map one surface to another so that landmarks correspond, one to one, and certify it");
@@ -490,6 +524,10 @@ void add_map(CLI::App& app, int& code) {
       "12:7,300:512,48:9; without it, a guess between two spheres");
   command.option("-o,--output", command->output,
                  "Write the files of the map into this folder, which is made if it is not there");
+  command.option(
+      "--from", command->from,
+      "Read the map from this folder, where -o wrote it before, and seek none; what is carried goes "
+      "there, too, unless -o names another folder");
   command
       .option("--tile", command->tile,
               "The shape of the tile that both surfaces are mapped onto: shared, that for which the map is "
@@ -514,6 +552,7 @@ void add_map(CLI::App& app, int& code) {
       ->capture_default_str();
   command.flag("--quiet", command->quiet, "Print no progress and no summary");
   command.flag("--json", command->json, "Print map.json on standard output");
+  products_of_map(command);
   command.runs(map_command, code);
 }
 

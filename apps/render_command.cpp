@@ -3,6 +3,8 @@
 
 #include "command_arguments.h"
 #include "commands.h"
+#include "map_products.h"
+#include "orbitutte/render/map_sheet.h"
 #include "orbitutte/render/render.h"
 #include "orbitutte/report/embedding_file.h"
 #include "page_pictures.h"
@@ -50,6 +52,16 @@ void write_scale_picture(const std::string& path, const Surface& surface, const 
   RenderOptions options;
   options.panel = Panel::area;
   write_picture(path, {surface, embedding, Report(), "", candidates}, options);
+}
+
+void require_pictures() {}
+
+std::string map_picture(const MapArguments& arguments, const MappedSurfaces& mapped) {
+  const Viewpoint viewpoint = parse_viewpoint(arguments.view, arguments.up, mapped.a);
+  return map_sheet_png({mapped.a, mapped.b, mapped.map, mapped.composed,
+                        std::filesystem::path(arguments.a).filename().string(),
+                        std::filesystem::path(arguments.b).filename().string(), viewpoint.view,
+                        viewpoint.up});
 }
 
 std::vector<PagePicture> page_pictures(const Surface& surface, const Embedding& embedding,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Stands in for render_command.cpp if the library is built without Embree and Cairo.
 #include "commands.h"
+#include "map_products.h"
 #include "orbitutte/types.h"
 #include "page_pictures.h"
 
@@ -23,6 +24,10 @@ Viewpoint parse_viewpoint(const std::string& view, const std::string& up, const 
 void write_scale_picture(const std::string&, const Surface&, const Embedding&, const std::vector<int>&) {
   throw ArgumentError(no_pictures);
 }
+
+void require_pictures() { throw ArgumentError(no_pictures); }
+
+std::string map_picture(const MapArguments&, const MappedSurfaces&) { throw ArgumentError(no_pictures); }
 
 std::vector<PagePicture> page_pictures(const Surface&, const Embedding&, const Report&) { return {}; }
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Part of the build and of the installed package: METIS, AMD, CHOLMOD and MUMPS come without a CMake package of their own.
+# Part of the build and of the installed package: METIS, AMD, TurboJPEG, CHOLMOD and MUMPS come without a CMake package of their own.
 # Makes the imported target orbitutte::NAME and caches where the library is in NAME_LIBRARY; no target where it is not installed, or an
 # error after REQUIRED. Debian's libmumps-seq-dev brings a library without a version in its name; libmumps-seq-5.x alone does too well.
 function(orbitutte_import_library name)

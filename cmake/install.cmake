@@ -8,13 +8,13 @@ include(CheckLinkerFlag)
 # The public headers are these and what they include.
 set(ORBITUTTE_HEADERS choose distortion_floor embed embed_types errors memory options types
     map/alignment map/composed_map map/map_distortion map/overlay map/overlay_certificate map/point_map map/surface_map map/vertex_map resample/grid resample/resample resample/sparse_table geometry/barycentric_coordinates
-    io/corner_file io/landmark_file io/manifest cones/extremities io/file io/numpy_array io/png io/vertex_data inspect/inspection inspect/mesh_repair inspect/recognition io/mesh_io samples/sample mesh/surface mesh/triangulation inspect/weak_places weights/weights
+    io/corner_file io/image_file io/landmark_file io/texture_file io/value_file io/manifest cones/extremities io/file io/numpy_array io/png io/vertex_data inspect/inspection inspect/mesh_repair inspect/recognition io/mesh_io samples/sample mesh/surface mesh/triangulation inspect/weak_places weights/weights
     cones/cone_wishes cones/marked_cones orbifold/cone_target orbifold/families orbifold/polygon orbifold/signature orbifold/symmetry_group orbifold/tile
-    report/choices report/comparison export/cut_triangles report/embedding_file export/export export/map_files export/sphere_surface export/value_colours report/inspection_json report/map_report page/batch_page page/page report/batch_record report/report export/tiling
+    report/choices report/comparison export/cut_triangles report/embedding_file export/carried_files export/export export/map_files export/overlay_pieces export/sphere_surface export/stored_map export/texture_bake export/value_colours report/inspection_json report/map_report page/batch_page page/map_page page/page report/batch_record report/report export/tiling
     report/verification
     verify/certificate verify/distortion verify/energy verify/strain verify/theorem2)
 if(ORBITUTTE_RENDER)
-  list(APPEND ORBITUTTE_HEADERS render/render)
+  list(APPEND ORBITUTTE_HEADERS render/map_sheet render/render)
 endif()
 list(TRANSFORM ORBITUTTE_HEADERS PREPEND orbitutte/)
 list(TRANSFORM ORBITUTTE_HEADERS APPEND .h)
@@ -106,7 +106,7 @@ endif()
 set(ORBITUTTE_LINKED "")
 if(NOT BUILD_SHARED_LIBS)
   set(ORBITUTTE_LINKED library)
-  foreach(library METIS AMD CHOLMOD MUMPS)
+  foreach(library METIS AMD TURBOJPEG CHOLMOD MUMPS)
     if(TARGET orbitutte::${library})
       list(APPEND ORBITUTTE_LINKED ${library})
     endif()
@@ -142,7 +142,7 @@ function(orbitutte_link_flags flags)
 endfunction()
 list(TRANSFORM definitions PREPEND -D)
 list(JOIN definitions " " ORBITUTTE_PC_DEFINITIONS)
-set(ORBITUTTE_PC_REQUIRES "fmt libcrypto tbb expat zlib")
+set(ORBITUTTE_PC_REQUIRES "fmt libcrypto tbb expat zlib libpng")
 # liblapack and libblas by these names may be any of Debian's implementations, while FindLAPACK names one of them.
 set(lapack -llapack -lblas)
 find_library(ORBITUTTE_LAPACK_LIBRARY lapack)
@@ -151,7 +151,7 @@ mark_as_advanced(ORBITUTTE_LAPACK_LIBRARY ORBITUTTE_BLAS_LIBRARY)
 if(NOT ORBITUTTE_LAPACK_LIBRARY OR NOT ORBITUTTE_BLAS_LIBRARY)
   set(lapack ${LAPACK_LIBRARIES})
 endif()
-set(libraries ${METIS_LIBRARY} ${AMD_LIBRARY} ${lapack} -lmeshoptimizer)
+set(libraries ${METIS_LIBRARY} ${AMD_LIBRARY} ${TURBOJPEG_LIBRARY} ${lapack} -lmeshoptimizer)
 if(TARGET orbitutte::CHOLMOD)
   list(PREPEND libraries ${CHOLMOD_LIBRARY})
 endif()

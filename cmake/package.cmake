@@ -53,7 +53,7 @@ set(CPACK_COMPONENT_COMMAND_DESCRIPTION "${description}
 This package has the command orbitutte.")
 
 # What a program that is linked with the static library is linked with, too.
-set(libraries libeigen3-dev libfmt-dev libssl-dev libtbb-dev libexpat1-dev zlib1g-dev libmetis-dev libsuitesparse-dev libmeshoptimizer-dev
+set(libraries libeigen3-dev libfmt-dev libssl-dev libtbb-dev libexpat1-dev zlib1g-dev libpng-dev libturbojpeg0-dev libmetis-dev libsuitesparse-dev libmeshoptimizer-dev
               "libopenblas-dev | liblapack-dev | liblapack.so")
 if(ORBITUTTE_RENDER)
   list(APPEND libraries libembree-dev libcairo2-dev "pkgconf | pkg-config")

@@ -33,6 +33,8 @@ endif()
 
 orbitutte_embed_text(page_template ${ORBITUTTE_VIEWER_DIR}/page.html)
 orbitutte_embed_text(page_view ${ORBITUTTE_VIEWER_DIR}/view.html)
+orbitutte_embed_text(map_page_template ${ORBITUTTE_VIEWER_DIR}/map_page.html)
+orbitutte_embed_text(map_page_view ${ORBITUTTE_VIEWER_DIR}/map_view.html)
 orbitutte_embed_text(page_pictures ${ORBITUTTE_VIEWER_DIR}/pictures.html)
 orbitutte_embed_text(page_chart ${ORBITUTTE_VIEWER_DIR}/chart.html)
 orbitutte_embed_text(batch_template ${ORBITUTTE_VIEWER_DIR}/batch.html)

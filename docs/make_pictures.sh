@@ -51,6 +51,33 @@ compare() {
   keep "$1" full.png
 }
 
+# surface-maps.md: a figure, and one of other proportions, with five landmarks; that one's texture is a checkerboard
+PYTHONPATH=$(dirname "$orbitutte")/python:$root/docs /usr/bin/python3 - <<'END'
+import numpy as np
+import orbitutte
+from draw_textured import write_png
+
+V, F = orbitutte.sample_mesh("figure", 8000)
+W, G = orbitutte.sample_mesh("figure", 6000)
+bent = lambda P: np.stack([1.35 * P[:, 0], 0.9 * P[:, 1] - 0.15 * P[:, 0] ** 2, P[:, 2] + 0.2 * P[:, 1] ** 2], axis=1)
+marks = orbitutte.choose_cones(V, F, "2,2,2,2,2")
+partners = [int(np.argmin(np.linalg.norm(W - V[mark], axis=1))) for mark in marks]
+orbitutte.write_mesh("map-a.obj", V, F)
+orbitutte.write_mesh("map-b.obj", bent(W), G)
+np.savetxt("landmarks.txt", np.stack([marks, partners], axis=1), fmt="%d")
+i, j = np.mgrid[:1024, :1024]
+light = ((i // 32 + j // 32) % 2 == 0)[:, :, None]
+write_png("checkerboard.png", np.where(light, [240, 236, 228], np.stack([40 + i // 8, 80 + 0 * i, 60 + j // 8], axis=2)).astype(np.uint8))
+END
+"$orbitutte" embed map-b.obj --orbifold 432 --cones extremities -o map-b.ply --report map-b.json --quiet
+"$orbitutte" export map-b.ply map-b.json map-b.obj -o map-b-textured.obj >/dev/null
+"$orbitutte" map map-a.obj map-b-textured.obj --landmarks landmarks.txt -o surface-map --picture full.png --texture checkerboard.png --texture-size 2048 --quiet
+keep map-sheet full.png
+/usr/bin/python3 "$root/docs/draw_textured.py" full.png map-b-textured.obj checkerboard.png
+keep map-texture full.png
+/usr/bin/python3 "$root/docs/draw_textured.py" full.png surface-map/textured_a.obj surface-map/texture.png
+keep map-textured full.png
+
 # examples.md
 PYTHONPATH=$(dirname "$orbitutte")/python /usr/bin/python3 "$root/examples/distortion_of_orders.py" >/dev/null
 cp orders.svg "$out"

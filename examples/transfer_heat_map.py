@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# A value at every vertex of one surface, carried over to another one through common cones, and drawn on both: heat_map.svg. Between the cones
-# the map follows angles, so it fits where limbs keep their proportions.
+# A value at every vertex of one surface, carried over to another one by the map between both, and drawn on both: heat_map.svg. Between the
+# landmarks the map follows angles, so it fits where limbs keep their proportions.
 # PYTHONPATH=build/python python3 examples/transfer_heat_map.py
 import numpy as np
 import orbitutte
@@ -34,19 +34,17 @@ V, F = orbitutte.sample_mesh("figure", 8000)
 W, G = orbitutte.sample_mesh("figure", 6000)  # other vertices, other triangles, another shape
 W = with_large_head(W)
 
-first = orbitutte.embed(V, F, "432", orbitutte.choose_cones(V, F, "432"))
-tips = [int(np.argmin(np.linalg.norm(W - with_large_head(V[cone.vertex][None]), axis=1))) for cone in first.cones]
-second = orbitutte.embed(W, G, "432", tips)
+marks = orbitutte.choose_cones(V, F, "432")  # head, foot and hand
+tips = [int(np.argmin(np.linalg.norm(W - with_large_head(V[mark][None]), axis=1))) for mark in marks]
+surface_map = orbitutte.map_between((W, G), (V, F), list(zip(tips, marks)))
 
-heat = np.linalg.norm(V - V[first.cones[2].vertex], axis=1)  # warm at the third cone
+heat = np.linalg.norm(V - V[marks[2]], axis=1)  # warm at the third landmark
 heat = 1 - heat / heat.max()
-
-where = first.locate(second.canonical_positions[: len(W)])  # every vertex of the second surface, on the first one
-corners = first.source_vertex[first.triangles[where.triangle]]
-carried = np.einsum("vk,vk->v", heat[corners], where.barycentric)
+carried = surface_map.pull(heat)  # at the vertices of the second surface
 
 with open("heat_map.svg", "w", encoding="utf-8") as file:
     file.write('<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 520 320" width="520" height="320"><rect width="100%" height="100%" fill="white"/>\n')
     file.write(drawing(V, F, heat, 140) + "\n" + drawing(W, G, carried, 380) + "\n</svg>\n")
 print(f"{len(W)} values carried over, from {carried.min():.3f} to {carried.max():.3f}; see heat_map.svg")
-assert first.bijective and second.bijective and carried.min() >= 0 and carried.max() <= 1
+assert surface_map.bijective and carried.min() >= 0 and carried.max() <= 1
+assert np.array_equal(carried[tips], heat[marks])  # landmarks are matched exactly

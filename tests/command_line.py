@@ -13,10 +13,12 @@ import os
 import pathlib
 import re
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
 import unittest
+import zlib
 
 PROGRAM = ''
 COMMANDS = ['embed', 'choose', 'info', 'types', 'verify', 'tile', 'export', 'measure', 'render', 'report', 'compare', 'repair', 'map', 'resample', 'batch', 'sample']
@@ -223,6 +225,72 @@ class Maps(CommandLine):
         (self.folder / 'own').mkdir(exist_ok=True)
         shutil.copy(self.folder / 'figure.obj', self.folder / 'own' / 'overlay_a.obj')
         self.expect(IS_WRONG, 'map', 'own/overlay_a.obj', 'figure.obj', '--landmarks', self.LANDMARKS, '-o', 'own', says='surface A')
+
+    def textured_figure(self):
+        """The figure with texture coordinates, and a picture of 8 x 8 pixels that is one colour: paths in the folder."""
+        self.expect(0, 'export', 'map.ply', 'map.json', 'figure.obj', '-o', 'textured.obj')
+        rows = (b'\0' + bytes((200, 100, 50)) * 8) * 8
+        chunks = [(b'IHDR', struct.pack('>IIBBBBB', 8, 8, 8, 2, 0, 0, 0)), (b'IDAT', zlib.compress(rows)), (b'IEND', b'')]
+        png = b'\x89PNG\r\n\x1a\n' + b''.join(struct.pack('>I', len(data)) + kind + data + struct.pack('>I', zlib.crc32(kind + data)) for kind, data in chunks)
+        (self.folder / 'picture.png').write_bytes(png)
+        return 'textured.obj', 'picture.png'
+
+    def test_what_is_carried_comes_from_the_partner(self):
+        V, _ = read_obj(self.folder / 'figure.obj')
+        (self.folder / 'values.txt').write_text(''.join(f'{v} {-v}\n' for v in range(len(V))))
+        (self.folder / 'labels.txt').write_text(''.join(f'{v % 7}\n' for v in range(len(V))))
+        _, faces = read_obj(self.folder / 'figure.obj')
+        (self.folder / 'curves.txt').write_text(f'{faces[0][0]} {faces[0][1]} {faces[0][2]}\n')
+        mesh, picture = self.textured_figure()
+        self.expect(0, *self.map('--landmarks', self.LANDMARKS, '-o', 'carried', '--values', 'values.txt', '--labels', 'labels.txt', '--curves', 'curves.txt',
+                                 '--texture', picture, '--colours', 'coloured.ply', '--morph', 'morph.glb', '--page', 'page.html', b=mesh))
+        folder = self.folder / 'carried'
+        values = [[float(word) for word in line.split()] for line in (folder / 'values_on_a.txt').read_text().splitlines()]
+        self.assertEqual(len(values), len(V))
+        for a, b in ((1, 1), (60, 60), (120, 120), (200, 200)):
+            self.assertEqual(values[a], [b, -b])
+            self.assertEqual((folder / 'labels_on_a.txt').read_text().splitlines()[a], str(b % 7))
+        self.assertTrue((folder / 'curves_on_a.obj').read_text().rstrip().splitlines()[-1].startswith('l 1 2'))
+        self.assertIn('map_Kd texture.png', (folder / 'textured_a.mtl').read_text())
+        self.assertIn('mtllib textured_a.mtl', (folder / 'textured_a.obj').read_text())
+        self.assertTrue((folder / 'texture.png').read_bytes().startswith(b'\x89PNG'))
+        self.assertTrue((self.folder / 'morph.glb').read_bytes().startswith(b'glTF'))
+        self.assertIn('<!doctype html>', (self.folder / 'page.html').read_text(encoding='utf-8'))
+        self.expect(0, 'info', 'coloured.ply')
+
+    def test_a_map_is_read_again_and_carries_the_same(self):
+        V, _ = read_obj(self.folder / 'figure.obj')
+        (self.folder / 'values.txt').write_text(''.join(f'{v}\n' for v in range(len(V))))
+        self.expect(0, *self.map('--landmarks', self.LANDMARKS, '-o', 'first', '--values', 'values.txt'))
+        self.expect(0, *self.map('--from', 'first', '-o', 'second', '--values', 'values.txt', '--morph', 'frame.ply', '--frames', '3'), says='certified: bijective')
+        self.assertEqual((self.folder / 'first/values_on_a.txt').read_bytes(), (self.folder / 'second/values_on_a.txt').read_bytes())
+        self.assertEqual({path.name for path in (self.folder / 'second').iterdir()}, {'values_on_a.txt'})
+        self.assertTrue(all((self.folder / f'frame_0{k}.ply').exists() for k in range(3)))
+        printed = self.expect(0, *self.map('--from', 'first', '--values', 'values.txt', '--json'))
+        self.assertEqual(printed.stdout, (self.folder / 'first/map.json').read_text(encoding='utf-8'))
+        self.expect(IS_WRONG, *self.map('--from', 'first'), says='nothing is to be made of it')
+        self.expect(IS_WRONG, *self.map('--from', 'first', '--page', 'first/map.json'), says='.html')
+        self.expect(IS_WRONG, *self.map('--from', 'first', '--landmarks', self.LANDMARKS, '--page', 'page.html'), says='give one of them')
+
+    def test_what_cannot_be_carried_is_named_before_the_map_is_sought(self):
+        (self.folder / 'short.txt').write_text('1\n2\n')
+        (self.folder / 'words.txt').write_text('1\none\n')
+        (self.folder / 'no.png').write_text('no picture')
+        mesh, picture = self.textured_figure()
+        for code, options, says in ((IS_UNSUITABLE, ['--values', 'short.txt', '-o', 'none'], 'it needs a line for each'),
+                                    (IS_UNSUITABLE, ['--labels', 'words.txt', '-o', 'none'], 'words.txt: line 2'),
+                                    (IS_WRONG, ['--values', 'short.txt'], 'writes into the folder of -o'),
+                                    (IS_UNSUITABLE, ['--texture', picture, '-o', 'none'], 'B has no texture coordinates'),
+                                    (IS_WRONG, ['--frames', '4'], '--frames belongs to --morph'),
+                                    (IS_WRONG, ['--morph', 'morph.ply'], '--frames says how many'),
+                                    (IS_WRONG, ['--new-chart', '--page', 'page.html'], '--new-chart belongs to --texture'),
+                                    (IS_WRONG, ['--view', 'front'], '--view and --up belong to --picture'),
+                                    (IS_WRONG, ['--page', 'page.png'], '.html')):
+            with self.subTest(options):
+                self.expect(code, *self.map('--landmarks', self.LANDMARKS, *options), says=says)
+                self.assertFalse((self.folder / 'none').exists())
+        self.expect(IS_A_FILE, *self.map('--landmarks', self.LANDMARKS, '--texture', 'no.png', '-o', 'none', b=mesh), says='neither a PNG nor a JPEG')
+        self.expect(IS_WRONG, *self.map('--landmarks', self.LANDMARKS, '--texture', picture, '--texture-size', 'big', '-o', 'none', b=mesh), says="'big'")
 
 
 class Resampling(CommandLine):

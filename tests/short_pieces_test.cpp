@@ -7,6 +7,9 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
+
+#include "orbitutte/render/ray_scene.h"
 
 namespace orbitutte::short_pieces_test {
 namespace {
@@ -44,6 +47,32 @@ TEST(ShortPieces, LeaveStoutTrianglesWhole) {
   ASSERT_EQ(pieces.pieces.size(), 8U);
   EXPECT_EQ(pieces.positions, octahedron.V);
   for (int f = 0; f < 8; ++f) EXPECT_EQ(pieces.pieces[f].face, f);
+}
+
+// Whether triangles were divided or not.
+TEST(RayScene, HitsTrianglesInTheirOwnCoordinates) {
+  for (const int edges : {4, 7, 500}) {
+    const Hub mesh = hub(edges);
+    RayScene scene;
+    scene.add_triangles(mesh.V, mesh.F);
+    scene.commit();
+    int hits = 0;
+    for (int k = 0; k < 400; ++k) {
+      const Ray ray = {
+          {-0.95F + 0.1F * static_cast<float>(k % 20), -0.95F + 0.1F * static_cast<float>(k / 20), 2},
+          {0, 0, -1}};
+      const std::optional<Hit> hit = scene.first_hit(ray);
+      if (!hit) continue;
+      const auto corner = [&](int i) {
+        return Vector3f(mesh.V.row(mesh.F(hit->primitive, i)).cast<float>());
+      };
+      const Vector3f place = (1 - hit->u - hit->v) * corner(0) + hit->u * corner(1) + hit->v * corner(2);
+      EXPECT_LT((place - (ray.origin + hit->distance * ray.direction)).norm(), 1e-4)
+          << edges << " edges, ray " << k;
+      ++hits;
+    }
+    EXPECT_GT(hits, 100);
+  }
 }
 
 TEST(ShortPieces, CoverEachTriangleOnceOnTheSameSide) {

@@ -17,7 +17,8 @@ families() -> list of dict              the families of orbifolds
 choose_cones(V, F, signature) -> list   well separated vertices to be marked
 fitted_cones(V, F, count) -> FittedCones    cones of the angles that distort least, for embed(V, F, "cones", vertices, angles=angles)
 map_between((V, F), (V, F), landmarks) -> SurfaceMap     a bijection between two surfaces
-    to_b(points), to_a(points), pull(values), push(values), matrix(), overlay(), morph(t), write_morph(path), save(folder), load(folder, A, B)
+    to_b(points), to_a(points), pull(values), push(values), matrix(), overlay(), morph(t), write_morph(path),
+    bake(picture, of_b, on_a) -> Texture, save(folder), load(folder, A, B)
 Resampler(embedding, grid, kind)        values to icospheres, HEALPix, images of sphere or torus and back: resampler(values)
     back(values), table(), back_table(), matrix(), pad(image, margin), pad_indices(margin), points, areas, shape
 resample(embedding, values, grid) -> values
@@ -27,6 +28,7 @@ distortion_floor(V, F, signature, cones) -> dict    the distortion that the coar
 tile(embedding) -> (V, F, copy)         |G| copies, welded into one closed mesh
 sample_mesh(shape, faces) -> (V, F)     a mesh to try things with
 read_mesh(path) -> (V, F)               OBJ, OFF, PLY, STL, VTK, VTP, glTF, GIfTI, FreeSurfer; .gz
+read_texture_layout(path) -> TextureLayout    of an OBJ, for SurfaceMap.bake
 write_mesh(path, V, F)
 read_vertex_data(path) -> VertexData    values, names, labels of GIfTI, FreeSurfer, .csv, .txt, .npy; .gz
 write_vertex_data(path, values[, names, labels])
@@ -53,7 +55,7 @@ from ._api import (
     use_huge_pages, verify, write_mesh,
 )
 from ._embedding import Cone, EdgeWeights, Embedding, Location, Offsets, Seam
-from ._map import Overlay, SurfaceMap, SurfacePoints, map_between
+from ._map import Overlay, SurfaceMap, SurfacePoints, Texture, TextureLayout, map_between, read_texture_layout
 from ._orbitutte import __version__
 from ._resample import Resampler, Table, resample
 from ._values import ValueLabel, VertexData, read_vertex_data, write_vertex_data
@@ -61,8 +63,10 @@ from .errors import ArgumentError, Cancelled, EmbeddingWarning, Error, FileError
 
 __all__ = [
     "ArgumentError", "Cancelled", "Cone", "EdgeWeights", "Embedding", "EmbeddingWarning", "Error", "FileError",
-    "FittedCones", "Location", "MeshError", "MeshWarning", "Offsets", "Overlay", "Resampler", "Seam", "Solver", "SurfaceMap", "SurfacePoints", "Table", "Tiling", "ValueLabel", "VertexData", "__version__",
+    "FittedCones", "Location", "MeshError", "MeshWarning", "Offsets", "Overlay", "Resampler", "Seam", "Solver", "SurfaceMap", "SurfacePoints", "Table",
+    "Texture", "TextureLayout", "Tiling", "ValueLabel", "VertexData", "__version__",
     "build", "choose", "choose_cones", "distortion",
-    "distortion_floor", "embed", "families", "fitted_cones", "info", "keep_freed_memory", "map_between", "read_mesh", "read_vertex_data", "resample", "sample_mesh", "signatures", "tile",
+    "distortion_floor", "embed", "families", "fitted_cones", "info", "keep_freed_memory", "map_between", "read_mesh", "read_texture_layout",
+    "read_vertex_data", "resample", "sample_mesh", "signatures", "tile",
     "use_huge_pages", "verify", "write_mesh", "write_vertex_data",
 ]

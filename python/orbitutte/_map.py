@@ -42,6 +42,23 @@ class Overlay(NamedTuple):
     failed_checks: list[tuple[str, str]]
 
 
+class TextureLayout(NamedTuple):
+    """Where the corners of a surface's faces lie in its texture."""
+
+    #: (k, 2): u to the right, v up; (0, 0) is the lower left corner of the picture, (1, 1) the upper right.
+    uv: Array
+    #: (corners,) int32: a row of uv for every corner of every face, one face after the other.
+    of_corner: npt.NDArray[np.int32]
+
+
+class Texture(NamedTuple):
+    """A picture, and where a surface's corners lie in it."""
+
+    #: (height, width, 4) uint8: red, green, blue (sRGB) and opacity, row by row from the top.
+    picture: npt.NDArray[np.uint8]
+    layout: TextureLayout
+
+
 class SurfaceMap:
     """A bijection between two surfaces, A and B, by way of two embeddings into one target: made by `map_between`.
 
@@ -103,6 +120,21 @@ class SurfaceMap:
         """The overlay in triangles, its vertices at (1 - t) times where they are on A plus t times where they are on B: (V, F)."""
         on_a, on_b = self._positions()
         return (1 - t) * on_a + t * on_b, self._core_of_overlay().triangles
+
+    def bake(self, picture: npt.ArrayLike, of_b: Any, on_a: Any = None, size: tuple[int, int] | None = None) -> Texture:
+        """The picture of B as the picture of A.
+
+        picture: (height, width) or (height, width, 3 or 4), uint8. of_b: the texture coordinates of B, (uv, of_corner) as `read_texture_layout`
+        has them; on_a: those of A, or None for a new chart. size: (width, height); that of B's picture if it is not given, a square for a new chart.
+        """
+        pixels = _pixels(picture)
+        height, width = pixels.shape[:2]
+        if size is None:
+            size = (width, height) if on_a is not None else (max(width, height),) * 2
+        layout_a = TextureLayout(*_orbitutte.new_texture_layout(self.a._core)) if on_a is None else _layout(on_a)
+        wanted = tuple(_options.whole(side, "size") for side in size)
+        baked = _orbitutte.bake(self._core_of_overlay(), (self.a._core, self.b._core), (tuple(layout_a), tuple(_layout(of_b))), pixels, wanted)
+        return Texture(baked, layout_a)
 
     def write_morph(self, path: str | os.PathLike) -> None:
         """Write a GLB whose mesh is A and whose morph target is B, with an animation that goes there and back."""
@@ -213,6 +245,31 @@ def map_between(A: Any, B: Any, landmarks: npt.ArrayLike = (), *, tile: str = "s
     if not result.bijective:
         warnings.warn("the map is not certified: an embedding is not", EmbeddingWarning, stacklevel=2)
     return result
+
+
+def read_texture_layout(path: str | os.PathLike) -> TextureLayout | None:
+    """The texture coordinates of an OBJ file; None if it has none."""
+    found = _orbitutte.read_texture_layout(_arrays.path(path))
+    return None if found is None else TextureLayout(*found)
+
+
+def _pixels(picture: npt.ArrayLike) -> npt.NDArray[np.uint8]:
+    array = np.asarray(picture)
+    if array.ndim == 2:
+        array = np.repeat(array[:, :, None], 3, axis=2)
+    if array.dtype != np.uint8 or array.ndim != 3 or array.shape[2] not in (3, 4) or array.size == 0:
+        raise ArgumentError(f"the picture is an array of {array.dtype} of the shape {array.shape}; it must be uint8, height x width, or x 3 or x 4")
+    if array.shape[2] == 3:
+        array = np.concatenate([array, np.full((*array.shape[:2], 1), 255, np.uint8)], axis=2)
+    return np.ascontiguousarray(array)
+
+
+def _layout(layout: Any) -> TextureLayout:
+    uv, of_corner = layout
+    array = np.ascontiguousarray(uv, dtype=np.float64)
+    if array.ndim != 2 or array.shape[1] != 2 or not np.isfinite(array).all():
+        raise ArgumentError(f"texture coordinates have the shape {array.shape}; they must be k x 2, and finite")
+    return TextureLayout(array, _arrays.indices(np.ravel(of_corner), "of_corner"))
 
 
 def _landmarks(landmarks: npt.ArrayLike) -> npt.NDArray[np.int32]:

@@ -5,10 +5,14 @@
 #include <pybind11/stl.h>
 
 #include <cstdint>
+#include <cstring>
+#include <optional>
 
 #include "arrays.h"
 #include "held_embedding.h"
 #include "orbitutte/export/map_files.h"
+#include "orbitutte/export/texture_bake.h"
+#include "orbitutte/io/texture_file.h"
 #include "orbitutte/map/overlay_certificate.h"
 #include "progress_hook.h"
 
@@ -102,6 +106,64 @@ py::list failed_checks(const Overlay& overlay, const HeldEmbedding& a, const Hel
   return result;
 }
 
+using ByteArray = py::array_t<std::uint8_t, py::array::c_style>;
+
+// height x width x 4.
+PixelImage to_image(const ByteArray& array) {
+  PixelImage image = {static_cast<int>(array.shape(1)), static_cast<int>(array.shape(0)), {}};
+  image.pixels.resize(static_cast<std::size_t>(image.width) * image.height);
+  std::memcpy(image.pixels.data(), array.data(), sizeof(Pixel) * image.pixels.size());
+  return image;
+}
+
+py::array to_array(const PixelImage& image) {
+  ByteArray array({image.height, image.width, 4});
+  std::memcpy(array.mutable_data(), image.pixels.data(), sizeof(Pixel) * image.pixels.size());
+  return array;
+}
+
+// k x 2, and a row for every corner.
+TextureLayout to_layout(const DoubleArray& uv, const IntArray& of_corner) {
+  TextureLayout layout = {Eigen::MatrixX2d(uv.shape(0), 2), to_vector(of_corner)};
+  for (Eigen::Index k = 0; k < layout.uv.rows(); ++k) layout.uv.row(k) << uv.at(k, 0), uv.at(k, 1);
+  for (const int row : layout.of_corner)
+    if (row < 0 || row >= layout.uv.rows())
+      throw ArgumentError("a corner has texture coordinates that do not exist");
+  return layout;
+}
+
+py::tuple from_layout(TextureLayout layout) {
+  py::array_t<double> uv({layout.uv.rows(), Eigen::Index(2)});
+  for (Eigen::Index k = 0; k < layout.uv.rows(); ++k)
+    for (int i = 0; i < 2; ++i) uv.mutable_at(k, i) = layout.uv(k, i);
+  return py::make_tuple(uv, take(std::move(layout.of_corner)));
+}
+
+py::object read_layout(const std::string& path) {
+  std::optional<TextureLayout> layout = read_texture_layout(path);
+  return layout ? py::object(from_layout(std::move(*layout))) : py::none();
+}
+
+// The picture of B (height x width x 4) in the texture coordinates of A: both embeddings, both layouts.
+using LayoutArrays = std::pair<DoubleArray, IntArray>;
+
+py::array bake(const Overlay& overlay, const std::pair<HeldEmbedding*, HeldEmbedding*>& sides,
+               const std::pair<LayoutArrays, LayoutArrays>& layouts, const ByteArray& picture,
+               const std::pair<int, int>& size) {
+  const PixelImage of_b = to_image(picture);
+  const TextureLayout on_a = to_layout(layouts.first.first, layouts.first.second),
+                      on_b = to_layout(layouts.second.first, layouts.second.second);
+  PixelImage baked;
+  {
+    const py::gil_scoped_release release;
+    const auto a = sides.first->source("a texture").surface(),
+               b = sides.second->source("a texture").surface();
+    baked = bake_texture(overlay, {*a, sides.first->embedding, on_a}, {*b, sides.second->embedding, on_b},
+                         of_b, {size.first, size.second});
+  }
+  return to_array(baked);
+}
+
 }  // namespace
 
 void bind_surface_map(py::module_& module) {
@@ -121,6 +183,10 @@ void bind_surface_map(py::module_& module) {
   module.def("map_two", &map_two);
   module.def("images_of_vertices", &vertices_on);
   module.def("images_of_points", &points_on);
+  module.def("bake", &bake);
+  module.def("new_texture_layout",
+             [](const HeldEmbedding& held) { return from_layout(new_texture_layout(held.embedding)); });
+  module.def("read_texture_layout", &read_layout);
   module.def("write_morph", [](const std::string& path, const IntArray& triangles, const DoubleArray& from,
                                const DoubleArray& to) {
     write_morph(path, {to_faces(triangles), to_points(from), to_points(to)});

@@ -113,3 +113,50 @@ def test_bad_landmarks_are_named(pair):
         orbitutte.map_between(A, B, [1, 2, 3])
     with pytest.raises(orbitutte.Error):
         orbitutte.map_between(A, B, [*landmarks[:2], landmarks[0]])
+
+
+def picture_of(size):
+    """Smooth, and different everywhere."""
+    rows, columns = np.mgrid[:size, :size] / size
+    waves = [np.sin(5 * columns), np.sin(4 * rows), np.sin(3 * (rows + columns))]
+    return np.round(127 + 100 * np.stack(waves, axis=2)).astype(np.uint8)
+
+
+def pixels_at(picture, uv):
+    height, width = picture.shape[:2]
+    columns = np.clip((uv[:, 0] * width).astype(int), 0, width - 1)
+    rows = np.clip(((1 - uv[:, 1]) * height).astype(int), 0, height - 1)
+    return picture[rows, columns, :3].astype(int)
+
+
+def test_the_identity_bakes_a_texture_onto_itself(pair):
+    A = pair[0]
+    identity = orbitutte.map_between(A, A, [(v, v) for v in orbitutte.choose_cones(*A, "222")])
+    picture = picture_of(128)
+    grey = np.full((8, 8), 90, np.uint8)
+    chart = identity.bake(grey, (np.zeros((1, 2)), np.zeros(3 * len(A[1]), int)))
+    assert chart.picture.shape == (8, 8, 4) and np.abs(chart.picture[:, :, 0].astype(int) - 90).max() <= 1
+    baked = identity.bake(picture, chart.layout, chart.layout)
+    assert baked.picture.shape == (128, 128, 4)
+    used = chart.layout.uv[np.unique(chart.layout.of_corner)]
+    assert np.abs(pixels_at(baked.picture, used) - pixels_at(picture, used)).max() <= 6
+
+
+def test_what_is_no_texture_is_refused(pair, surface_map):
+    B = pair[1]
+    layout = np.zeros((1, 2)), np.zeros(3 * len(B[1]), int)
+    with pytest.raises(orbitutte.ArgumentError, match="uint8"):
+        surface_map.bake(np.zeros((4, 4)), layout)
+    with pytest.raises(orbitutte.MeshError, match="corners"):
+        surface_map.bake(picture_of(4), (layout[0], layout[1][:-1]))
+    with pytest.raises(orbitutte.ArgumentError, match="do not exist"):
+        surface_map.bake(picture_of(4), (layout[0], layout[1] + 1))
+
+
+def test_texture_coordinates_are_read_from_obj_files(tmp_path):
+    head = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0.5 1\n"
+    (tmp_path / "with.obj").write_text(head + "f 1/3 2/1 3/2\n")
+    (tmp_path / "without.obj").write_text(head + "f 1 2 3\n")
+    layout = orbitutte.read_texture_layout(tmp_path / "with.obj")
+    assert layout.of_corner.tolist() == [2, 0, 1] and layout.uv.tolist() == [[0, 0], [1, 0], [0.5, 1]]
+    assert orbitutte.read_texture_layout(tmp_path / "without.obj") is None

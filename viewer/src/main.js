@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Starts the page's view: reads the scene, and connects controls, legend and readout with the view.
-import {gradient} from './colour_maps.js';
+// Starts the page's view, that of a map between surfaces if it holds one: reads the scene, and connects controls, legend and readout with the view.
+import {showLegend} from './legend.js';
+import {startLinked} from './linked.js';
 import {Marks} from './marks.js';
 import {readScene} from './scene_data.js';
 import {View} from './view.js';
@@ -10,21 +11,6 @@ const grouped = (count) => count.toLocaleString('en');
 
 // A ratio, to about three digits: 0.52, 1.07, 312.
 const ratio = (log2) => Number((2 ** log2).toPrecision(3)).toString();
-
-// The scale's bar of colours with its numbers, as in pictures.
-function showLegend(view, colouring) {
-  const scale = view.scene.scales[colouring];
-  element('legend').hidden = !scale;
-  if (!scale) return;
-  element('legend-bar').style.backgroundImage = gradient(scale.colours);
-  element('legend-ticks').replaceChildren(...scale.ticks.map(({at, text}) => {
-    const tick = document.createElement('span');
-    tick.textContent = text;
-    tick.style.left = `${100 * at}%`;
-    return tick;
-  }));
-  element('legend-title').textContent = `${scale.title}\nmean of the faces around each vertex`;
-}
 
 function showReadout(view, point) {
   if (!point) return;
@@ -43,7 +29,7 @@ function connectControls(view) {
   control('colouring', 'change', () => {
     const colouring = element('colouring').value;
     element('squares-label').hidden = colouring !== 'checkerboard';
-    showLegend(view, colouring);
+    showLegend(view.scene.scales[colouring], 'mean of the faces around each vertex');
     view.setColouring(colouring);
   });
   control('squares', 'input', () => {
@@ -94,4 +80,4 @@ function isSupported() {
   return Boolean(document.createElement('canvas').getContext('webgl2'));
 }
 
-if (isSupported()) start();
+if (isSupported()) (element('linked-scene') ? startLinked : start)();

@@ -10,18 +10,19 @@ function bytesOf(base64) {
   return bytes;
 }
 
-const numbers = (Type, base64) => new Type(bytesOf(base64).buffer);
+/** The numbers of a type in base64. */
+export const numbers = (Type, base64) => new Type(bytesOf(base64).buffer);
 
-// Numbers of 16 bits, scaled to lie between two bounds.
-function between(low, high, base64) {
+/** Numbers of 16 bits, scaled to lie between two bounds. */
+export function between(low, high, base64) {
   const values = Float32Array.from(numbers(Uint16Array, base64));
   const step = (high - low) / 65535;
   for (let i = 0; i < values.length; ++i) values[i] = low + step * values[i];
   return values;
 }
 
-// The source, scaled and moved so that the longest edge of its box is 2 and its middle is 0.
-function centred(quantised) {
+/** Positions, scaled and moved so that the longest edge of their box is 2 and its middle is 0. */
+export function centred(quantised) {
   const values = Float32Array.from(numbers(Uint16Array, quantised));
   const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
   for (let i = 0; i < values.length; ++i) {

@@ -42,6 +42,15 @@ export class Workshop {
     return {page, report};
   }
 
+  /** A sample mesh and the same, stretched: the paths of two OBJ files, NAME_a.obj and NAME_b.obj. */
+  makePair(name, {shape = 'figure', faces = 1000} = {}) {
+    const [a, b] = ['a', 'b'].map((side) => this.path(`${name}_${side}.obj`));
+    this.run('sample', '--shape', shape, '--faces', String(faces), '-o', a);
+    const stretched = ([x, y, z]) => [1.3 * x, y, z + 0.1 * x * x];
+    writeFileSync(b, readFileSync(a, 'utf8').replace(/^v (.*)$/gm, (line, xyz) => `v ${stretched(xyz.split(' ').map(Number)).join(' ')}`));
+    return [a, b];
+  }
+
   close() {
     rmSync(this.folder, {recursive: true, force: true});
   }

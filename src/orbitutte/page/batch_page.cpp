@@ -11,7 +11,7 @@
 #include "orbitutte/export/html_text.h"
 #include "orbitutte/page/html_template.h"
 #include "orbitutte/page/page_assets.h"
-#include "orbitutte/page/page_style.h"
+#include "orbitutte/page/page_frame.h"
 #include "orbitutte/report/program.h"
 
 namespace orbitutte {

@@ -17,8 +17,8 @@
 #include "orbitutte/orbifold/symmetry_group.h"
 #include "orbitutte/page/html_template.h"
 #include "orbitutte/page/page_assets.h"
+#include "orbitutte/page/page_frame.h"
 #include "orbitutte/page/page_scene.h"
-#include "orbitutte/page/page_style.h"
 #include "orbitutte/page/svg_chart.h"
 #include "orbitutte/report/charts.h"
 #include "orbitutte/report/program.h"
@@ -281,22 +281,6 @@ Content picture_list(const std::vector<PagePicture>& pictures) {
 
 bool is_interactive(const PageOptions& options) { return options.interactive && has_interactive_view(); }
 
-/// For a content security policy: what the text hashes to.
-std::string policy_hash(std::string_view text) {
-  const std::string digits = sha256(text);
-  std::string digest;
-  for (std::size_t k = 0; k < digits.size(); k += 2)
-    digest += static_cast<char>(std::stoi(digits.substr(k, 2), nullptr, 16));
-  return "'sha256-" + base64(digest) + "'";
-}
-
-/// Nothing is loaded, sent or run but the page's own script and style.
-std::string policy(const std::string& style_sheet, const PageOptions& options) {
-  return fmt::format(
-      "default-src 'none'; script-src {}; style-src {}; img-src data:; base-uri 'none'; form-action 'none'",
-      is_interactive(options) ? policy_hash(page_script) : "'none'", policy_hash(style_sheet));
-}
-
 Json parse(const std::string& report) {
   try {
     return Json::parse(report);
@@ -363,7 +347,7 @@ Content page_content(const PageSubject& subject, const Json& report, const PageO
   const std::string style_sheet = page_style_sheet();
   Content content = {{"version", this_program().version},
                      {"style", style_sheet},
-                     {"policy", policy(style_sheet, options)},
+                     {"policy", page_policy(style_sheet, is_interactive(options) ? page_script : "")},
                      {"mesh_name", mesh_name(report)},
                      {"signature", embedding.target.signature},
                      {"group", group_text(embedding.target)},

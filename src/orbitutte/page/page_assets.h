@@ -11,6 +11,10 @@ namespace orbitutte {
 extern const std::string_view page_template;
 /// viewer/view.html
 extern const std::string_view page_view;
+/// viewer/map_page.html
+extern const std::string_view map_page_template;
+/// viewer/map_view.html
+extern const std::string_view map_page_view;
 /// viewer/pictures.html
 extern const std::string_view page_pictures;
 /// viewer/chart.html

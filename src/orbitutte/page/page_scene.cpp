@@ -11,44 +11,13 @@
 #include "orbitutte/export/html_text.h"
 #include "orbitutte/export/palette.h"
 #include "orbitutte/export/tiling.h"
-#include "orbitutte/io/base64.h"
-#include "orbitutte/io/bytes.h"
+#include "orbitutte/page/scene_numbers.h"
 #include "orbitutte/report/colour_scale.h"
 
 namespace orbitutte {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double largest_uint16 = 65535;
-
-/// Base64 of count numbers, `number(i)` each, lowest byte first.
-template <typename Number>
-std::string packed(Eigen::Index count, const Number& number) {
-  std::string bytes;
-  bytes.reserve(static_cast<std::size_t>(count) * sizeof(number(0)));
-  for (Eigen::Index i = 0; i < count; ++i) append_little_endian(bytes, number(i));
-  return base64(bytes);
-}
-
-std::uint16_t quantised(double value, double low, double size) {
-  return static_cast<std::uint16_t>(std::lround(std::clamp((value - low) / size, 0.0, 1.0) * largest_uint16));
-}
-
-/// Numbers between bounds as 16 bits each.
-struct ValueRange {
-  double low = 0, high = 1;
-
-  std::uint16_t operator()(double value) const { return quantised(value, low, high - low); }
-};
-
-ValueRange range_of(const std::vector<double>& values) {
-  if (values.empty()) return {};
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  return {*low, std::max(*high, *low + 1e-6)};
-}
-
-Json to_json(const ValueRange& range) { return {range.low, range.high}; }
 
 /// The mean of a measure, as log2, over the faces around every cut vertex; 0 if there are no faces.
 template <typename Measure>
@@ -171,7 +140,7 @@ void add_distortion(const Embedding& embedding, const std::vector<FaceDistortion
   const auto add = [&](const std::string& name, const auto& measure) {
     const std::vector<double> values = drawn(vertex_means(embedding, measure), cut_vertex);
     const ValueRange range = range_of(values);
-    scene[name + "_range"] = to_json(range);
+    scene[name + "_range"] = range_json(range);
     scene[name] =
         packed(static_cast<Eigen::Index>(values.size()), [&](Eigen::Index i) { return range(values[i]); });
   };
@@ -180,17 +149,7 @@ void add_distortion(const Embedding& embedding, const std::vector<FaceDistortion
 }
 
 Json scale_json(Measure measure, const std::vector<FaceDistortion>& faces) {
-  constexpr int steps = 256;
-  const ColourScale scale = colour_scale(measure, values_of(measure, faces));
-  Json ticks = Json::array(), colours = Json::array();
-  for (const ChartTick& tick : scale.axis.ticks)
-    ticks.push_back({{"at", share_along(scale.axis, tick.at)}, {"text", tick.text}});
-  for (const Rgb& colour : scale_colours(measure, steps)) colours.push_back(hexadecimal(colour));
-  return {{"low", scale.axis.low},
-          {"high", scale.axis.high},
-          {"title", scale.axis.title},
-          {"ticks", std::move(ticks)},
-          {"colours", std::move(colours)}};
+  return scale_json(colour_scale(measure, values_of(measure, faces)));
 }
 
 void add_colours(const Points& colours, const Embedding& embedding, const std::vector<int>& cut_vertex,

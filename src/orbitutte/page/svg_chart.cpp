@@ -22,7 +22,7 @@ struct Plot {
   double y(double value) const { return bottom - share_along(chart.y, value) * (bottom - top); }
 };
 
-std::string number(double value) { return fmt::format("{:.1f}", value); }
+std::string coordinate(double value) { return fmt::format("{:.1f}", value); }
 
 std::string segment(double x1, double y1, double x2, double y2) {
   return fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}", x1, y1, x2, y2);
@@ -33,7 +33,7 @@ Content stroke(const std::string& path, const std::string& css_class) {
 }
 
 Content text(double x, double y, const char* css_class, const std::string& words) {
-  return {{"x", number(x)}, {"y", number(y)}, {"class", css_class}, {"text", words}};
+  return {{"x", coordinate(x)}, {"y", coordinate(y)}, {"class", css_class}, {"text", words}};
 }
 
 const char* class_of(ChartTone tone) {
@@ -84,7 +84,7 @@ void add_line(const Plot& plot, const ChartLine& line, Content& content) {
     const double x = plot.x(point[0]), y = plot.y(point[1]);
     path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", x, y);
     if (line.dots == ChartDots::every_point)
-      content["dots"].push_back({{"x", number(x)}, {"y", number(y)}, {"class", class_of(line.tone)}});
+      content["dots"].push_back({{"x", coordinate(x)}, {"y", coordinate(y)}, {"class", class_of(line.tone)}});
   }
   content["lines"].push_back(stroke(path, class_of(line)));
 }
@@ -104,7 +104,7 @@ void add_key(const Plot& plot, Content& content) {
 Content svg_chart(const Chart& chart) {
   if (chart.is_empty()) return false;
   const Plot plot = {chart, 8 + key_row * static_cast<double>(chart.lines.size())};
-  Content content = {{"width", number(width)},           {"height", number(height)},
+  Content content = {{"width", coordinate(width)},       {"height", coordinate(height)},
                      {"description", chart.description}, {"grid", Content::array()},
                      {"bars", Content::array()},         {"lines", Content::array()},
                      {"dots", Content::array()},         {"texts", Content::array()}};

@@ -109,9 +109,11 @@ int RayScene::add_triangles(const Points& V, const Triangles& F) {
   using Corners = std::array<unsigned, 3>;
   auto* const corners = new_buffer<Corners>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3,
                                             static_cast<Eigen::Index>(pieces.size()));
-  for (std::size_t f = 0; f < pieces.size(); ++f)
-    for (int k = 0; k < 3; ++k) corners[f][k] = static_cast<unsigned>(pieces[f].corners[k]);
+  // Pieces may begin at another corner than their face; what is whole is hit in the face's own coordinates.
   const bool are_whole = static_cast<Eigen::Index>(pieces.size()) == F.rows();
+  for (int f = 0; f < static_cast<int>(pieces.size()); ++f)
+    for (int k = 0; k < 3; ++k)
+      corners[f][k] = static_cast<unsigned>(are_whole ? F(f, k) : pieces[f].corners[k]);
   shapes_->push_back({are_whole ? std::vector<Piece>() : std::move(pieces)});
   return attach(scene_.get(), geometry);
 }

@@ -184,7 +184,7 @@ Vector2d flat_place(const Grid& grid, const Vector3& point) {
   return {share(best.x(), flat.across), share(best.y(), flat.up)};
 }
 
-Pixel flat_pixel(const Grid& grid, const Pixel& pixel) {
+ImagePixel flat_pixel(const Grid& grid, const ImagePixel& pixel) {
   const int height = grid.shape[0], width = grid.shape[1];
   const bool is_inside = pixel.row >= 0 && pixel.row < height && pixel.column >= 0 && pixel.column < width;
   if (is_inside) return pixel;

@@ -17,6 +17,6 @@ Grid flat_grid(const GridRequest& request, const Embedding& embedding);
 Eigen::Vector2d flat_place(const Grid& grid, const Vector3& point);
 
 /// The pixel inside that a pixel beyond the sides is.
-Pixel flat_pixel(const Grid& grid, const Pixel& pixel);
+ImagePixel flat_pixel(const Grid& grid, const ImagePixel& pixel);
 
 }  // namespace orbitutte

@@ -232,9 +232,9 @@ Grid sphere_grid(const Points& V, const Triangles& triangles) {
   return grid;
 }
 
-int pixel_number(const Grid& grid, const Pixel& pixel) {
+int pixel_number(const Grid& grid, const ImagePixel& pixel) {
   const int height = grid.shape[grid.shape.size() - 2], width = grid.shape.back();
-  Pixel inside = pixel;
+  ImagePixel inside = pixel;
   switch (grid.kind) {
     case GridKind::equirectangular:
       inside = equirectangular_pixel(pixel, height, width);

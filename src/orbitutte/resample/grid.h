@@ -127,10 +127,10 @@ Grid sphere_grid(const Points& V, const Triangles& triangles);
 /// image goes on as its surface does: around the sphere, the octahedron, the cube, or by the group. Of a cube
 /// `image` is one of the six, otherwise 0. Beyond the corners of a cube, where no image lies, it is that on
 /// the side of the column.
-struct Pixel {
+struct ImagePixel {
   int image = 0, row = 0, column = 0;
 };
-int pixel_number(const Grid& grid, const Pixel& pixel);
+int pixel_number(const Grid& grid, const ImagePixel& pixel);
 
 /// The points of an image with a margin of so many rows and columns on every side: for an image of h x w, (h
 /// + 2 margin) (w + 2 margin) numbers of points, row by row; of a cube six times that. Throws ArgumentError

@@ -123,8 +123,8 @@ Eigen::Vector2d equirectangular_place(const Vector3& point, int height, int widt
   return {(longitude / (2 * pi) + 0.5) * width - 0.5, (0.5 - latitude / pi) * height - 0.5};
 }
 
-Pixel equirectangular_pixel(const Pixel& pixel, int height, int width) {
-  Pixel inside = pixel;
+ImagePixel equirectangular_pixel(const ImagePixel& pixel, int height, int width) {
+  ImagePixel inside = pixel;
   if (pixel.row < 0 || pixel.row >= height) {
     inside.row = pixel.row < 0 ? -1 - pixel.row : 2 * height - 1 - pixel.row;
     inside.column += width / 2;
@@ -158,15 +158,15 @@ Grid octahedral_grid(int size) {
                                    sphere_triangle_area(cell[0], cell[2], cell[3]);
     }
   });
-  grid.triangles = triangles_between(grid, 1, size, [&](const Pixel& pixel) {
-    const Pixel inside = octahedral_pixel(pixel, size);
+  grid.triangles = triangles_between(grid, 1, size, [&](const ImagePixel& pixel) {
+    const ImagePixel inside = octahedral_pixel(pixel, size);
     return inside.row * size + inside.column;
   });
   return grid;
 }
 
-Pixel octahedral_pixel(const Pixel& pixel, int size) {
-  Pixel inside = pixel;
+ImagePixel octahedral_pixel(const ImagePixel& pixel, int size) {
+  ImagePixel inside = pixel;
   if (inside.column < 0 || inside.column >= size) {
     inside.column = inside.column < 0 ? -1 - inside.column : 2 * size - 1 - inside.column;
     inside.row = size - 1 - inside.row;
@@ -198,8 +198,8 @@ Grid cube_grid(int size) {
           sphere_triangle_area(cell[0], cell[1], cell[2]) + sphere_triangle_area(cell[0], cell[2], cell[3]);
     }
   });
-  grid.triangles = triangles_between(grid, 6, size, [&](const Pixel& pixel) {
-    const Pixel inside = cube_pixel(pixel, size);
+  grid.triangles = triangles_between(grid, 6, size, [&](const ImagePixel& pixel) {
+    const ImagePixel inside = cube_pixel(pixel, size);
     return (inside.image * size + inside.row) * size + inside.column;
   });
   return grid;
@@ -207,7 +207,7 @@ Grid cube_grid(int size) {
 
 // In whole numbers the cube has the half edge `size`, and the centres of pixels are odd numbers. What lies
 // beyond an edge is folded over it: from `right` to the inside.
-Pixel cube_pixel(const Pixel& pixel, int size) {
+ImagePixel cube_pixel(const ImagePixel& pixel, int size) {
   const CubeFace& from = cube_faces()[pixel.image];
   int out = size, right = 2 * pixel.column + 1 - size, down = 2 * pixel.row + 1 - size;
   const auto fold = [&](int& over, int& under) {

@@ -14,9 +14,9 @@ Grid cube_grid(int size);
 
 /// The pixel inside the image that a pixel beyond its sides is: around the pole, and around the axis; by half
 /// turns about the middles of the sides; over the edges of the cube.
-Pixel equirectangular_pixel(const Pixel& pixel, int height, int width);
-Pixel octahedral_pixel(const Pixel& pixel, int size);
-Pixel cube_pixel(const Pixel& pixel, int size);
+ImagePixel equirectangular_pixel(const ImagePixel& pixel, int height, int width);
+ImagePixel octahedral_pixel(const ImagePixel& pixel, int size);
+ImagePixel cube_pixel(const ImagePixel& pixel, int size);
 
 /// Where a point is in an equirectangular image: column and row, whole numbers at the centres of pixels.
 Eigen::Vector2d equirectangular_place(const Vector3& point, int height, int width);
