@@ -65,6 +65,15 @@ TEST(Theorem2, HoldsForIntrinsicWeights) {
   EXPECT_GT(flips, 0u);
 }
 
+TEST(Theorem2, IsNotRunWhereTheGroupIsNotFinite) {
+  for (const char* signature : {"442", "2222", "*632", "*2222"}) {
+    const Theorem2 theorem2 = theorem2_of(test::sample_embedding(signature));
+    EXPECT_EQ(theorem2.status, Status::not_run) << signature;
+    EXPECT_THAT(theorem2.detail, HasSubstr(std::string(signature) + " has none"));
+    EXPECT_FALSE(theorem2.holds());
+  }
+}
+
 TEST(Theorem2, EveryMethodCountsTheSame) {
   for (const InertiaMethod method : available_inertia_methods()) {
     for (const char* signature : {"532", "33", "*432", "*22", "3*2", "5*"}) {

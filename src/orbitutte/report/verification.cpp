@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "orbitutte/orbifold/precise_group.h"
 #include "orbitutte/orbifold/signature.h"
@@ -52,14 +53,16 @@ bool has_cover(const Certificate& certificate) {
                      [&](const char* name) { return has_passed(certificate, name); });
 }
 
-Theorem2 not_run(const char* reason) {
+Theorem2 not_run(std::string reason) {
   Theorem2 theorem2;
-  theorem2.detail = reason;
+  theorem2.detail = std::move(reason);
   return theorem2;
 }
 
 Theorem2 theorem2_of(const Surface& surface, const std::optional<EdgeWeights>& weights,
                      const Embedding& embedding, const Certificate& certificate) {
+  if (std::string reason = reason_without_theorem2(embedding.target); !reason.empty())
+    return not_run(std::move(reason));
   if (!has_cover(certificate)) return not_run("the copies of the embedding do not fit together");
   if (!weights) return not_run("the weights came from a file: give it with --weights-file");
   return check_theorem2(surface, *weights, embedding);
