@@ -26,8 +26,7 @@ using testing::IsEmpty;
 
 const std::string euclidean =
     " is a Euclidean orbifold for which there is no tile; of those there are 333, 442, 632, 2222, *333, "
-    "*442, "
-    "*632 and *2222";
+    "*442, *632 and *2222";
 const std::string hyperbolic =
     " is a hyperbolic orbifold with a cross; of hyperbolic ones there are those of spheres and disks";
 const std::string bad =
@@ -37,8 +36,7 @@ const std::string order_one = " has an order of 1, which marks nothing; orders a
 const std::string order_zero = " has an order of 0; orders are 2 or more";
 const std::string no_symbol =
     " is no Conway symbol: it may hold digits, commas, one '*' and one 'x'; see 'orbitutte types'";
-const std::string too_many_signs =
-    " has more than one star or cross, which no orbifold of the sphere or the plane has";
+const std::string too_many_signs = " has more than one star or cross; orbifolds with two have no tile here";
 const std::string after_cross = " has orders after the cross; rotations come before it";
 const std::string empty_place = " has an empty place between commas; give every order once";
 

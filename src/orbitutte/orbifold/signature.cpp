@@ -137,7 +137,7 @@ Halves split(const std::string& text) {
       halves.cross = true;
       if (multiplication_sign) ++k;
     } else if (c == '*' || c == 'x' || c == 'X' || multiplication_sign) {
-      refuse(text, "has more than one star or cross, which no orbifold of the sphere or the plane has");
+      refuse(text, "has more than one star or cross; orbifolds with two have no tile here");
     } else {
       refuse(text,
              "is no Conway symbol: it may hold digits, commas, one '*' and one 'x'; see 'orbitutte types'");
@@ -260,6 +260,11 @@ Target parse_orbifold(const std::string& signature) {
   target.is_free_to_rotate =
       !target.has_free_tile && is_free_to_rotate(basic_tile(target, first_arrangement(target)));
   return target;
+}
+
+Target standard_target(Topology topology) {
+  if (topology == Topology::projective_plane) return parse_orbifold("1x");
+  return parse_orbifold(topology == Topology::disk ? "*222" : "222");
 }
 
 bool are_opposite(const std::vector<Mark>& marks) {

@@ -209,9 +209,7 @@ Target quotient_target(const Target& base) {
   return parse_orbifold(base.topology == Topology::sphere ? "1" : "*");
 }
 
-Target quotient_base(const Target& whole) {
-  return parse_orbifold(is_closed_surface(whole) ? "222" : "*222");
-}
+Target quotient_base(const Target& whole) { return standard_target(whole.topology); }
 
 void require_points(const Surface& surface, const Target& onto, const std::vector<PolygonCorner>& points) {
   if (points.size() > 3)
