@@ -39,7 +39,8 @@ struct Wish {
 /// Throws ArgumentError.
 Wish parse_wish(const std::string& orbifold, const std::string& cones);
 
-/// Marks extremities if they are asked for: as many as the target needs, or three.
+/// Marks extremities if they are asked for: as many as the target needs, or as standard_target
+/// does.
 void mark_extremities(const Surface& surface, Wish& wish);
 
 /// Reads the mesh of an embedding, and divides the embedding's faces into the same triangles. Throws

@@ -263,7 +263,8 @@ class Euclidean(CommandLine):
                 self.expect(0, *self.embed(mesh, '-o', 'flat.ply', '--report', 'flat.json', orbifold=symbol), says='certified: bijective')
                 orbifold = json.loads((self.folder / 'flat.json').read_text())['orbifold']
                 self.assertEqual((orbifold['signature'], orbifold['space'], orbifold['group_order']), (symbol, 'euclidean', None))
-                self.expect(0, 'verify', 'flat.ply', 'flat.json', mesh)
+                verified = self.expect(0, 'verify', 'flat.ply', 'flat.json', mesh, '--theorem2')
+                self.assertIn(f'theorem 2: not run: the theorem speaks of finite groups of the sphere, and {symbol} has none', verified.stdout)
 
     def test_compare_has_no_option_of_its_own_for_them(self):
         self.expect(IS_WRONG, 'compare', 'figure.obj', '--flat', '442', says="has no option '--flat'")
@@ -329,7 +330,7 @@ class Messages(CommandLine):
         return name
 
     def test_what_is_left_out_is_chosen_and_the_report_says_what(self):
-        self.expect(0, 'embed', 'figure.obj', '--report', 'best.json', says='chosen for the least sigma: --orbifold .* --cones .*')
+        self.expect(0, 'embed', 'figure.obj', '--report', 'best.json', says='chosen of 5 families for the least sigma: --orbifold .* --cones .*')
         report = json.loads((self.folder / 'best.json').read_text())
         rows, taken = report['choice']['choices'], report['choice']['taken']
         self.assertEqual([cone['vertex'] for cone in report['cones']], rows[taken]['cones'])
@@ -338,6 +339,12 @@ class Messages(CommandLine):
         self.expect(0, 'embed', 'figure.obj', '--orbifold', '432', '--cones', '5,best,best', '--report', 'kept.json')
         kept = json.loads((self.folder / 'kept.json').read_text())
         self.assertEqual((kept['orbifold']['signature'], kept['cones'][0]['vertex']), ('432', 5))
+
+    def test_the_summary_speaks_of_a_choice_only_where_there_was_one(self):
+        for symbol, says in (('432', 'chosen for the least sigma: --orbifold 432 --cones '),
+                             ('7,3,2', 'extremities, since nothing predicts better vertices for 7,3,2: --orbifold 7,3,2 --cones ')):
+            done = self.expect(0, 'embed', 'figure.obj', '--orbifold', symbol, says=says)
+            self.assertNotIn('famil', done.stderr)
 
     def test_choose_lists_every_family_the_best_first(self):
         table = json.loads(self.expect(0, 'choose', 'figure.obj', '--solved', '1', '--json', '-o', 'table.json').stdout)
