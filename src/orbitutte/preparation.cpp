@@ -53,7 +53,7 @@ void require_no_edge(const Connectivity& connectivity, const Pairs& opposite, co
 
 // Curved tiles whose shape is free are found for angles that have any.
 void require_tile(const Target& target) {
-  if (target.has_free_tile && target.space != Space::plane()) require_shapes(target);
+  if (target.has_curved_free_tile()) require_shapes(target);
 }
 
 // The boundary of a disk, edge by edge.
