@@ -177,8 +177,8 @@ Moebius wanted_map(const SphereImages& images, const QuotientOptions& options) {
 
 // What the group leaves as it is, in the frame of the embedding.
 Matrix3 fixed_by_group_of(const Embedding& embedding) {
-  const Matrix3& frame = embedding.placement.matrix();
-  return frame * fixed_by(embedding.target) * frame.transpose();
+  const Isometry& placement = embedding.placement;
+  return placement.matrix() * fixed_by(embedding.target) * placement.inverse_matrix();
 }
 
 // Moves all positions, offsets included.
