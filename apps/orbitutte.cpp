@@ -12,7 +12,10 @@
 #include "command_line.h"
 #include "commands.h"
 #include "orbitutte/errors.h"
+#include "orbitutte/export/export.h"
+#include "orbitutte/export/tiling.h"
 #include "orbitutte/inspect/mesh_repair.h"
+#include "orbitutte/io/mesh_io.h"
 #include "standard_streams.h"
 #include "usage.h"
 
@@ -73,11 +76,11 @@ class Command {
     return command_->add_option(names, path, description);
   }
 
-  // `file` has no path yet.
+  // `file` has no path yet. Where there is a choice of endings, the description ends with them.
   CLI::Option* output(const std::string& names, std::string& path, const OutputFile& file,
                       const std::string& description) {
     outputs_.push_back({file, &path});
-    return command_->add_option(names, path, description);
+    return command_->add_option(names, path, with_endings(description, file.endings));
   }
 
   // The last step: `code` gets the exit code, and must outlive the application.
@@ -91,6 +94,10 @@ class Command {
   }
 
  private:
+  static std::string with_endings(const std::string& description, const std::vector<std::string>& endings) {
+    return endings.size() < 2 ? description : description + ": " + orbitutte::listed_choices(endings);
+  }
+
   // A file, and where its path will be once the command line is parsed.
   template <typename File>
   using Expected = std::pair<File, const std::string*>;
@@ -112,12 +119,11 @@ class Command {
   std::vector<Expected<OutputFile>> outputs_;
 };
 
+const std::string mesh_formats = "OBJ, OFF, PLY, STL, VTK, GIfTI or FreeSurfer, plain or with .gz";
+
 template <typename Arguments>
 void read_mesh_of(Command<Arguments>& command) {
-  command
-      .input("mesh", command->mesh, "the mesh",
-             "The mesh: OBJ, OFF, PLY, STL, VTK, GIfTI or FreeSurfer, plain or with .gz")
-      ->required();
+  command.input("mesh", command->mesh, "the mesh", "The mesh: " + mesh_formats)->required();
 }
 
 // The two files that `embed` writes.
@@ -142,7 +148,7 @@ void marks_of(Command<Arguments>& command) {
                  "none are given; or 'extremities'");
   command
       .option("--objective", command->objective,
-              "What the best have least of: sigma (the standard deviation of the logarithm of the scale), "
+              "Choose for the least: sigma (the standard deviation of the logarithm of the scale), "
               "symmetric-dirichlet, or range (of the scale)")
       ->capture_default_str();
 }
@@ -152,9 +158,11 @@ void add_embed(CLI::App& app, int& code) {
   read_mesh_of(command);
   command.option(
       "--orbifold", command->orbifold,
-      "Conway's symbol, such as 432, *532 or 2,2,12 ('orbitutte types' lists all); 'best', of least "
-      "distortion, which is taken if none is given; 1 or 'sphere', the whole sphere; * or 'hemisphere'; "
-      "'cones' or '*cones', the plane with cones of any angles; or 'polygon', a fixed boundary");
+      "Conway's symbol, such as 432, *532 or 2,2,12 ('orbitutte types' lists those of the sphere and the "
+      "plane; larger or more orders, such as 7,3,2 or 2,2,2,2,2, are hyperbolic); 'best' (the default), the "
+      "spherical one of least distortion; 1 or 'sphere', the whole sphere; * or 'hemisphere'; 'cones' or "
+      "'*cones', cones of any angles, on the sphere, in the plane or in the hyperbolic plane, as the angles "
+      "say; or 'polygon', a fixed boundary");
   marks_of(command);
   command.option(
       "--angles", command->angles,
@@ -227,9 +235,9 @@ void add_embed(CLI::App& app, int& code) {
 void add_choose(CLI::App& app, int& code) {
   Command<ChooseArguments> command(
       app, "choose",
-      "List the best cones of every family of orbifolds that a mesh embeds into, the best first");
+      "List the spherical orbifolds that a mesh embeds into, each with its best cones, the best first");
   read_mesh_of(command);
-  command.option("--orbifold", command->orbifold, "Only this symbol");
+  command.option("--orbifold", command->orbifold, "Only this orbifold, of any space: its symbol");
   marks_of(command);
   command.option("--weights", command->weights, "As of embed")->capture_default_str();
   command.option("--solved", command->solved, "Embed so many of the best, and certify them")
@@ -273,15 +281,17 @@ void add_verify(CLI::App& app, int& code) {
 
 void add_tile(CLI::App& app, int& code) {
   Command<TileArguments> command(
-      app, "tile", "Weld all copies of an embedding into one closed mesh, or a patch of the plane");
+      app, "tile",
+      "Weld all copies of an embedding into one closed mesh, or some into a patch of the plane or the "
+      "hyperbolic plane");
   read_embedding_of(command);
   command
-      .output("-o,--output", command->output, {"-o", "the tiling", "", {".ply", ".obj", ".glb", ".stl"}},
-              "Write the tiling here: .ply, .obj, .glb or .stl")
+      .output("-o,--output", command->output, {"-o", "the tiling", "", orbitutte::tiling_endings()},
+              "Write the tiling here")
       ->required();
   command
       .option("--copies", command->copies,
-              "In the plane, where there are infinitely many: weld so many, nearest first")
+              "Where the group is infinite: weld so many copies, the nearest first")
       ->capture_default_str();
   command.runs(tile_command, code);
 }
@@ -291,8 +301,8 @@ void add_export(CLI::App& app, int& code) {
       app, "export", "Write the mesh with its embedding as texture coordinates, for other programs");
   read_embedding_and_mesh_of(command);
   command
-      .output("-o,--output", command->output, {"-o", "the model", "", {".obj", ".glb", ".ply", ".vtp"}},
-              "Write the model here: .obj, .glb, .ply or .vtp")
+      .output("-o,--output", command->output, {"-o", "the model", "", orbitutte::model_endings()},
+              "Write the model here")
       ->required();
   command.option(
       "--chart", command->chart,
@@ -316,7 +326,7 @@ void add_render(CLI::App& app, int& code) {
   read_embedding_and_mesh_of(command);
   command
       .output("-o,--output", command->output, {"-o", "the picture", "", {".png", ".svg"}},
-              "Write the picture here: .png, or .svg for a plot")
+              "Write the picture here, as .svg only plots")
       ->required();
   command
       .option("--panel", command->panel,
@@ -354,7 +364,7 @@ void add_compare(CLI::App& app, int& code) {
       ->expected(1, -1);
   command.option("--weights", command->weights, "As of embed")->capture_default_str();
   command.output("-o,--output", command->output, {"-o", "the picture", "", {".png", ".svg"}},
-                 "Draw all here: .png (mesh and histogram) or .svg (histogram)");
+                 "Draw all here, as .svg only the histogram");
   view_of_mesh(command);
   command.flag("--json", command->json, "Print JSON");
   command.runs(compare_command, code);
@@ -365,9 +375,8 @@ void add_repair(CLI::App& app, int& code) {
       app, "repair", "Weld, clean, cut apart and close a mesh, so that it can be embedded; says what it did");
   read_mesh_of(command);
   command
-      .output("-o,--output", command->output,
-              {"-o", "the mesh", "", {".obj", ".off", ".ply", ".stl", ".vtk", ".gii"}},
-              "Write the repaired mesh here: .obj, .off, .ply, .stl, .vtk or .gii")
+      .output("-o,--output", command->output, {"-o", "the mesh", "", orbitutte::mesh_endings()},
+              "Write the repaired mesh here")
       ->required();
   command.output("--report", command->report, {"--report", "the report", "", {".json"}},
                  "Write what was done here, and for each vertex that of the input (-1 for new ones): .json");
@@ -383,14 +392,14 @@ void add_repair(CLI::App& app, int& code) {
               fmt::format("Leave out these steps: {}",
                           fmt::join(orbitutte::choices_of<orbitutte::RepairStep>(), ", ")))
       ->expected(1, -1);
-  command.flag("--json", command->json, "Print the report to standard output");
+  command.flag("--json", command->json, "Print the report on standard output");
   command.runs(repair_command, code);
 }
 
 void add_map(CLI::App& app, int& code) {
   Command<MapArguments> command(
       app, "map", "Map one surface to another so that landmarks correspond, one to one, and certify it");
-  command.input("a", command->a, "surface A", "Surface A: OBJ, OFF, PLY or STL")->required();
+  command.input("a", command->a, "surface A", "Surface A: " + mesh_formats)->required();
   command.input("b", command->b, "surface B", "Surface B, of the same topology")->required();
   command.option(
       "--landmarks", command->landmarks,
@@ -413,9 +422,8 @@ void add_map(CLI::App& app, int& code) {
   command.option("--cut-seed-b", command->cut_seed_b, "The same of B")->capture_default_str();
   command
       .option("--tolerance", command->tolerance,
-              "As of embed, but finer: limbs that shrink show what is left in full size on the other "
-              "surface; not "
-              "finer than 1e-9 for hyperbolic tiles")
+              "As of embed. The default is finer, because errors in shrunk limbs appear in full size on the "
+              "other surface; hyperbolic tiles stop at 1e-9")
       ->capture_default_str();
   command.option("--max-iterations", command->max_iterations, "As of embed")->capture_default_str();
   command.option("--threads", command->threads, "Use so many threads; 0: one for every core")
@@ -428,16 +436,15 @@ void add_map(CLI::App& app, int& code) {
 void add_sample(CLI::App& app, int& code) {
   Command<SampleArguments> command(app, "sample", "Make a mesh to try things on");
   command
-      .output("-o,--output", command->output,
-              {"-o", "the mesh", "", {".obj", ".off", ".ply", ".stl", ".vtk", ".gii"}},
-              "Write the mesh here: .obj, .off, .ply, .stl, .vtk or .gii")
+      .output("-o,--output", command->output, {"-o", "the mesh", "", orbitutte::mesh_endings()},
+              "Write the mesh here")
       ->required();
   command
       .option("--shape", command->shape,
               "figure (a sphere with limbs), mask (a disk), or a projective plane: boy (Boy's surface), "
               "roman (Steiner's), crosscap, quotient (a centrally symmetric figure's)")
       ->capture_default_str();
-  command.option("--faces", command->faces, "Make about so many triangles")->capture_default_str();
+  command.option("--faces", command->faces, "Make about so many faces, all triangles")->capture_default_str();
   command.runs(sample_command, code);
 }
 

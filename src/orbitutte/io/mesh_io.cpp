@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <iterator>
 
 #include "orbitutte/io/compression.h"
@@ -51,11 +50,6 @@ bool is_utf16(std::string_view bytes) {
   return zero[0] == zero[2] && zero[1] == zero[3] && zero[0] != zero[1];
 }
 
-std::string lower_case(std::string text) {
-  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return text;
-}
-
 bool has_word(std::string_view words, std::string_view word) {
   while (!words.empty()) {
     const std::size_t end = std::min(words.find(' '), words.size());
@@ -65,13 +59,9 @@ bool has_word(std::string_view words, std::string_view word) {
   return false;
 }
 
-std::string lower_case_ending(const std::filesystem::path& path) {
-  return lower_case(path.extension().string());
-}
-
 // Without `.gz`.
-std::filesystem::path uncompressed(std::filesystem::path path) {
-  return lower_case_ending(path) == compressed_ending ? path.replace_extension() : path;
+std::string uncompressed(const std::string& path) {
+  return is_compressed(path) ? path.substr(0, path.size() - compressed_ending.size()) : path;
 }
 
 // "a, b, c" of all endings.
@@ -90,15 +80,22 @@ void write_bytes(const std::string& path, const std::string& bytes) {
 
 }  // namespace
 
+std::vector<std::string> mesh_endings() {
+  std::vector<std::string> endings;
+  for (const FormatRow& known : formats)
+    endings.emplace_back(known.endings.substr(0, known.endings.find(' ')));
+  return endings;
+}
+
 MeshFormat mesh_format(const std::string& path) {
-  const std::string ending = lower_case_ending(uncompressed(path));
+  const std::string ending = ending_of(uncompressed(path));
   for (const FormatRow& known : formats)
     if (!ending.empty() && has_word(known.endings, ending)) return known.format;
   throw ArgumentError(fmt::format(
       "{}: the ending names no known mesh format; use one of {}, each also with .gz", path, known_endings()));
 }
 
-bool is_compressed(const std::string& path) { return lower_case_ending(path) == compressed_ending; }
+bool is_compressed(const std::string& path) { return ending_of(path) == compressed_ending; }
 
 PolygonMesh parse_mesh(std::string_view bytes, MeshFormat format) {
   if (bytes.empty()) throw MeshError("the file is empty; export it again");

@@ -5,6 +5,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "orbitutte/mesh/polygon_mesh.h"
 
@@ -16,6 +17,9 @@ enum class MeshFormat { obj, off, ply, stl, gifti, freesurfer, vtk };
 /// (GIfTI), .vtk; FreeSurfer's .pial, .white, .inflated, .sphere, .orig, .smoothwm, .reg and .nofix. Throws
 /// ArgumentError naming the endings known.
 MeshFormat mesh_format(const std::string& path);
+
+/// The usual ending of every format.
+std::vector<std::string> mesh_endings();
 
 /// Does the path end in `.gz` (any case)?
 bool is_compressed(const std::string& path);
