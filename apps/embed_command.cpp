@@ -30,7 +30,8 @@ void require_fitting_angles(const EmbedArguments& arguments) {
   if (takes_angles(arguments.orbifold) == !arguments.angles.empty()) return;
   throw ArgumentError(
       arguments.angles.empty()
-          ? fmt::format("--angles is missing; give an angle for each cone of {}, as in pi,pi,1.5pi,0.5pi",
+          ? fmt::format("--angles is missing; {} has none of its own: give one for each marked vertex, as in "
+                        "pi,pi,1.5pi,0.5pi",
                         arguments.orbifold)
           : fmt::format("--angles gives the angles of cones or *cones, but {} has its own",
                         arguments.orbifold.empty() ? "the best orbifold" : arguments.orbifold));

@@ -309,6 +309,18 @@ TEST(Signature, TwoStarsOrCrossesAreRefused) {
                  too_many_signs);
 }
 
+TEST(Signature, TheLetterThatStandsForAnyOrderAsksForANumber) {
+  for (const std::string text : {"N*", "22N", "*NN", "Nx"})
+    EXPECT_THAT(refusal_of_symbol(text), HasSubstr("put a number for it")) << text;
+}
+
+TEST(Signature, ATopologyHasAStandardTarget) {
+  for (const Topology topology : {Topology::sphere, Topology::disk, Topology::projective_plane}) {
+    EXPECT_EQ(standard_target(topology).topology, topology);
+    EXPECT_FALSE(standard_target(topology).marks.empty());
+  }
+}
+
 TEST(Signature, OrdersAfterTheCrossAreRefused) {
   expect_refused({"x5", "5x3", "x2,2", "5x,",
                   "5\xc3\x97"

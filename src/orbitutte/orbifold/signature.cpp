@@ -136,6 +136,8 @@ Halves split(const std::string& text) {
     } else if ((c == 'x' || c == 'X' || multiplication_sign) && !halves.star && !halves.cross) {
       halves.cross = true;
       if (multiplication_sign) ++k;
+    } else if (c == 'N') {
+      refuse(text, "has the letter N, which stands for any order; put a number for it, as in 22* or 2,2,12");
     } else if (c == '*' || c == 'x' || c == 'X' || multiplication_sign) {
       refuse(text, "has more than one star or cross; orbifolds with two have no tile here");
     } else {
@@ -143,7 +145,7 @@ Halves split(const std::string& text) {
              "is no Conway symbol: it may hold digits, commas, one '*' and one 'x'; see 'orbitutte types'");
     }
   }
-  if (text.empty()) throw ArgumentError("the signature is empty; see 'orbitutte types'");
+  if (text.empty()) throw ArgumentError("the symbol is empty; see 'orbitutte types'");
   return halves;
 }
 

@@ -27,7 +27,13 @@ Check claim(std::string name, bool holds, std::string detail) {
 std::optional<EdgeWeights> weights_at_hand(const Surface& surface, const Embedding& embedding,
                                            const Report& report, const VerificationOptions& options) {
   if (options.weights) return options.weights;
-  if (report.weights.kind != WeightKind::file) return weights_of(surface, embedding, report);
+  if (report.weights.kind != WeightKind::file) {
+    if (!options.weights_file.empty())
+      throw ArgumentError(fmt::format(
+          "the weights of this embedding are {}, which need no file; leave out the file of weights",
+          name_of(report.weights.kind)));
+    return weights_of(surface, embedding, report);
+  }
   if (options.weights_file.empty()) return std::nullopt;
   return read_weights(options.weights_file, surface.connectivity);
 }
