@@ -285,7 +285,7 @@ TEST(Signature, OrdersOfOneAreRefused) {
 }
 
 TEST(Signature, TheEmptyTextIsRefused) {
-  EXPECT_EQ(refusal_of_symbol(""), "the signature is empty; see 'orbitutte types'");
+  EXPECT_EQ(refusal_of_symbol(""), "the symbol is empty; see 'orbitutte types'");
 }
 
 TEST(Signature, NothingIsMarkedOnTheWholeSphereAndTheHemisphere) {
