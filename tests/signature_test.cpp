@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "orbitutte/orbifold/cone_target.h"
+#include "orbitutte/orbifold/target_words.h"
 #include "planar_families.h"
 #include "spherical_families.h"
 
@@ -312,6 +314,19 @@ TEST(Signature, TwoStarsOrCrossesAreRefused) {
 TEST(Signature, TheLetterThatStandsForAnyOrderAsksForANumber) {
   for (const std::string text : {"N*", "22N", "*NN", "Nx"})
     EXPECT_THAT(refusal_of_symbol(text), HasSubstr("put a number for it")) << text;
+}
+
+TEST(TargetWords, GroupsAreFiniteOnTheSphereAlone) {
+  const auto cones = [](double angle, int count) {
+    return cone_target(Topology::sphere, std::vector<Mark>(count, {angle, ConeKind::rotation}));
+  };
+  const double pi = std::numbers::pi;
+  EXPECT_EQ(group_text(parse_orbifold("432")), "group of order 24");
+  EXPECT_EQ(group_text(parse_orbifold("442")), "infinite group");
+  EXPECT_EQ(group_text(parse_orbifold("7,3,2")), "infinite group");
+  EXPECT_EQ(group_text(cones(pi, 3)), "finite group");
+  EXPECT_EQ(group_text(cones(pi, 4)), "infinite group");
+  EXPECT_EQ(group_text(cones(1.1 * pi, 3)), "no group");
 }
 
 TEST(Signature, ATopologyHasAStandardTarget) {

@@ -12,6 +12,7 @@
 
 #include "hand_made.h"
 #include "orbitutte/export/tiling.h"
+#include "orbitutte/orbifold/cone_target.h"
 #include "orbitutte/solve/lbfgs.h"
 #include "sample_embeddings.h"
 #include "solve_cases.h"
@@ -72,6 +73,9 @@ TEST(Theorem2, IsNotRunWhereTheGroupIsNotFinite) {
     EXPECT_THAT(theorem2.detail, HasSubstr(std::string(signature) + " has none"));
     EXPECT_FALSE(theorem2.holds());
   }
+  const Target cones = cone_target(Topology::sphere, std::vector<Mark>(3, Mark{pi, ConeKind::rotation}));
+  EXPECT_THAT(reason_without_theorem2(cones), HasSubstr("not for cones of given angles"));
+  EXPECT_EQ(reason_without_theorem2(parse_orbifold("222")), "");
 }
 
 TEST(Theorem2, EveryMethodCountsTheSame) {

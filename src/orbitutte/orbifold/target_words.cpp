@@ -11,7 +11,8 @@ namespace orbitutte {
 
 std::string group_text(const Target& target) {
   if (!tiles_its_space(target)) return "no group";
-  return target.group_order > 0 ? fmt::format("group of order {}", target.group_order) : "infinite group";
+  if (target.group_order > 0) return fmt::format("group of order {}", target.group_order);
+  return target.space.is_closed() ? "finite group" : "infinite group";
 }
 
 std::string text_of(Space space) {

@@ -8,7 +8,8 @@
 
 namespace orbitutte {
 
-/// "group of order 24", "infinite group", or "no group" where copies of the tile do not fill the space.
+/// "group of order 24", "finite group" where the order is not stated (cones of angles), "infinite group", or
+/// "no group" where copies of the tile do not fill the space.
 std::string group_text(const Target& target);
 
 /// "the sphere", "the Euclidean plane" or "the hyperbolic plane".

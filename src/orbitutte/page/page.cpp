@@ -369,7 +369,7 @@ Content page_content(const PageSubject& subject, const Json& report, const PageO
                      {"style", style_sheet},
                      {"policy", policy(style_sheet, options)},
                      {"mesh_name", mesh_name(report)},
-                     {"topology", text_of(subject.surface.topology)},
+                     {"topology", text_of(embedding.target.topology)},
                      {"signature", embedding.target.signature},
                      {"place", place_in(embedding.space())},
                      {"group", group_text(embedding.target)},

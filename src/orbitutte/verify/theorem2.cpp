@@ -312,6 +312,8 @@ Theorem2 check_cover(const Cover& cover, const SymmetryGroup& group, const Theor
 
 std::string reason_without_theorem2(const Target& target) {
   if (target.group_order > 0) return {};
+  if (target.space.is_closed())
+    return "the theorem is checked for orbifolds that have a symbol, not for cones of given angles";
   return fmt::format("the theorem speaks of finite groups of the sphere, and {} has none", target.signature);
 }
 
