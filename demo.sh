@@ -72,9 +72,9 @@ echo
 import json, sys
 report = json.load(open(sys.argv[1], encoding='utf-8'))
 mesh, orbifold = report['mesh'], report['orbifold']
-print(f"{sys.argv[2]}: {mesh['vertices']} vertices, {mesh['faces']} triangles, a {mesh['topology']}")
-print(f"embedded into {orbifold['signature']}, whose group has {orbifold['group_order']} elements, "
-      f"cones at {', '.join(str(cone['vertex']) for cone in report['cones'])}")
+print(f"{sys.argv[2]}: {mesh['vertices']} vertices, {mesh['faces']} faces, a {mesh['topology'].replace('-', ' ')}")
+group = f"group of order {orbifold['group_order']}" if orbifold['group_order'] else 'infinite group, or none'
+print(f"embedded into {orbifold['signature']} ({group}), cones at {', '.join(str(cone['vertex']) for cone in report['cones'])}")
 print(f"energy {report['energy']:.6g}, {report['iterations']} iterations ({report['termination']}), "
       f"{report['timings']['total']:.2f} s")
 distortion = report['distortion']

@@ -83,10 +83,10 @@ int choose_command(const ChooseArguments& arguments) {
     fmt::print("{}", json);
     return succeeded;
   }
-  fmt::print("{}: {} triangles, the least {} first\n", arguments.mesh, surface->triangle_count(),
+  fmt::print("{}: {} faces, the least {} first\n", arguments.mesh, surface->faces().count(),
              name_of(options.objective));
   fmt::print("{:<9} {:<24} {:>28}  {:>28}\n", "", "", "predicted", "embedded");
-  fmt::print("{:<9} {:<24} {:>8} {:>9} {:>9}  {:>8} {:>9} {:>9}\n", "orbifold", "cones", "sigma", "within 4",
+  fmt::print("{:<9} {:<24} {:>8} {:>9} {:>9}  {:>8} {:>9} {:>9}\n", "symbol", "cones", "sigma", "within 4",
              "below 64", "sigma", "within 4", "below 64");
   for (const Choice& choice : choices) print_row(choice);
   return succeeded;

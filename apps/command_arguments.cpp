@@ -96,10 +96,7 @@ Wish parse_wish(const std::string& orbifold, const std::string& cones) {
 
 void mark_extremities(const Surface& surface, Wish& wish) {
   if (wish.word != ConesWord::extremities) return;
-  const std::string base = surface.topology == Topology::disk               ? "*222"
-                           : surface.topology == Topology::projective_plane ? "1x"
-                                                                            : "222";
-  wish.cones = choose_cones(surface, wish.target ? *wish.target : parse_orbifold(base));
+  wish.cones = choose_cones(surface, wish.target ? *wish.target : standard_target(surface.topology));
   wish.word = ConesWord::none;
 }
 

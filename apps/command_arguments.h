@@ -41,7 +41,8 @@ struct Wish {
 /// Throws ArgumentError.
 Wish parse_wish(const std::string& orbifold, const std::string& cones);
 
-/// Marks extremities if they are asked for: as many as the target needs, or three.
+/// Marks extremities if they are asked for: as many as the target needs, or as standard_target
+/// does.
 void mark_extremities(const Surface& surface, Wish& wish);
 
 /// The mesh at a path, or on standard input, in the format that --format names if it is not empty. Throws

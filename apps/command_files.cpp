@@ -4,11 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <system_error>
 
 #include "orbitutte/errors.h"
+#include "orbitutte/io/file.h"
+#include "orbitutte/names.h"
 
 namespace orbitutte::cli {
 namespace {
@@ -33,26 +34,11 @@ bool is_stream(const std::string& path) {
   return fs::is_character_file(status) || fs::is_fifo(status) || fs::is_socket(status);
 }
 
-std::string lower_case_ending(const std::string& path) {
-  std::string ending = fs::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  return ending;
-}
-
-// ".ply, .obj, .glb or .stl"
-std::string alternatives(const std::vector<std::string>& endings) {
-  std::string text;
-  for (std::size_t k = 0; k < endings.size(); ++k)
-    text += (k == 0 ? "" : k + 1 < endings.size() ? ", " : " or ") + endings[k];
-  return text;
-}
-
 void require_right_ending(const OutputFile& output) {
   const std::vector<std::string>& endings = output.endings;
-  if (std::find(endings.begin(), endings.end(), lower_case_ending(output.path)) != endings.end()) return;
+  if (std::find(endings.begin(), endings.end(), ending_of(output.path)) != endings.end()) return;
   throw ArgumentError(fmt::format("{} is '{}', but {} is written as {}; change the ending of the name",
-                                  output.option, output.path, output.content, alternatives(endings)));
+                                  output.option, output.path, output.content, listed_choices(endings)));
 }
 
 void require_inputs_kept(const OutputFile& output, const std::vector<InputFile>& inputs) {

@@ -79,8 +79,7 @@ int compare_command(const CompareArguments& arguments) {
     for (const Compared& compared : maps) rows.push_back(to_json(compared));
     fmt::print("{}\n", Json({{"mesh", arguments.mesh}, {"cones", cones}, {"maps", rows}}).dump(1));
   } else {
-    fmt::print("{}: {} triangles, cones {}\n", arguments.mesh, surface.triangles.rows(),
-               fmt::join(cones, ","));
+    fmt::print("{}: {} faces, cones {}\n", arguments.mesh, surface.faces().count(), fmt::join(cones, ","));
     fmt::print("{:<10} {:<10} {:>9} {:>9} {:>9} {:>10} {:>9} {:>9}  {}\n", "", "orbifold", "area mean", "std",
                "median", "max", "angle", "max", "certified");
     for (const Compared& compared : maps) print_row(compared);

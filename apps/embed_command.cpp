@@ -15,7 +15,7 @@
 #include "orbitutte/io/file.h"
 #include "orbitutte/io/mesh_io.h"
 #include "orbitutte/orbifold/polygon.h"
-#include "orbitutte/orbifold/symmetry_group.h"
+#include "orbitutte/orbifold/target_words.h"
 #include "orbitutte/report/choices.h"
 #include "orbitutte/report/embedding_file.h"
 #include "orbitutte/report/report.h"
@@ -30,7 +30,8 @@ void require_fitting_angles(const EmbedArguments& arguments) {
   if (takes_angles(arguments.orbifold) == !arguments.angles.empty()) return;
   throw ArgumentError(
       arguments.angles.empty()
-          ? fmt::format("--angles is missing; give an angle for each cone of {}, as in pi,pi,1.5pi,0.5pi",
+          ? fmt::format("--angles is missing; {} has none of its own: give one for each marked vertex, as in "
+                        "pi,pi,1.5pi,0.5pi",
                         arguments.orbifold)
           : fmt::format("--angles gives the angles of cones or *cones, but {} has its own",
                         arguments.orbifold.empty() ? "the best orbifold" : arguments.orbifold));
@@ -165,21 +166,31 @@ EmbedOptions options_from(const EmbedArguments& arguments) {
   return options;
 }
 
-std::string group_text(const Target& target) {
-  if (!tiles_its_space(target)) return "no group";
-  return target.group_order > 0 ? fmt::format("group of order {}", target.group_order) : "infinite group";
-}
-
 // "12.3 %"
 std::string percent(double share) { return fmt::format("{:.1f} %", 100 * share); }
 
-// What the program chose, and by what.
+// By what the program chose; a single row without a prediction was compared with nothing.
+std::string way_of_choice(const BestEmbedding& embedded) {
+  const std::size_t count = embedded.choices.size();
+  const bool is_predicted = embedded.choice().predicted.has_value();
+  if (count == 1 && !is_predicted)
+    return fmt::format("extremities, since nothing predicts better vertices for {}",
+                       embedded.choice().target.signature);
+  const std::string objective = fmt::format("for the least {}", name_of(embedded.objective));
+  if (count == 1) return "chosen " + objective;
+  return fmt::format("chosen of {} {} {}", count, is_predicted ? "families" : "maps", objective);
+}
+
+// What the program chose.
 void summarize_choice(const BestEmbedding& embedded) {
   if (embedded.choices.empty()) return;
   const Choice& choice = embedded.choice();
-  tell("chosen for the least {}: --orbifold {} --cones {} ({} of {} families were better by prediction)\n",
-       name_of(embedded.objective), choice.target.signature, fmt::join(choice.cones, ","), embedded.taken,
-       embedded.choices.size());
+  const std::string passed_over =
+      embedded.taken > 0 && choice.predicted
+          ? fmt::format("; {} with a better prediction turned out worse", embedded.taken)
+          : std::string();
+  tell("{}: --orbifold {} --cones {}{}\n", way_of_choice(embedded), choice.target.signature,
+       fmt::join(choice.cones, ","), passed_over);
 }
 
 void summarize(const EmbedArguments& arguments, const BestEmbedding& embedded) {
@@ -189,7 +200,7 @@ void summarize(const EmbedArguments& arguments, const BestEmbedding& embedded) {
   std::vector<int> cones;
   for (const ConeCopies& cone : result.embedding.cones) cones.push_back(cone.vertex);
   tell("{}: {} vertices, {} faces, a {}, onto {} ({}){}\n", arguments.mesh, minimum.positions.rows(),
-       result.embedding.faces().count(), name_of(result.topology), result.embedding.target.signature,
+       result.embedding.faces().count(), text_of(result.topology), result.embedding.target.signature,
        group_text(result.embedding.target),
        cones.empty() ? std::string() : fmt::format(", cones {}", fmt::join(cones, ",")));
   summarize_choice(embedded);
@@ -251,22 +262,16 @@ std::string remedy(const EmbedArguments& arguments, const EmbedResult& result) {
   return fmt::format("What may help: {}.", fmt::join(ways, "; "));
 }
 
-// Where a map to the space lies.
-const char* place_of(Space space) {
-  if (space.curvature() == 0) return "in the plane";
-  return space.curvature() > 0 ? "on the sphere" : "in the hyperbolic plane";
-}
-
 // What failed, one line for each check, and what may help.
 void explain(const EmbedArguments& arguments, const EmbedResult& result) {
   const std::size_t turned = result.certificate.nonpositive_faces.size();
   if (turned > 0) {
     tell("orbitutte: not certified: {} of {} faces are not positive {}, the first face {}\n", turned,
-         result.embedding.faces().count(), place_of(result.embedding.space()),
+         result.embedding.faces().count(), place_in(result.embedding.space()),
          result.certificate.nonpositive_faces.front());
   } else {
     tell("orbitutte: not certified, although every face is positive {}\n",
-         place_of(result.embedding.space()));
+         place_in(result.embedding.space()));
   }
   for (const Check& check : result.certificate.checks)
     if (!check.passed) tell("  {}: {}\n", check.name, check.detail);

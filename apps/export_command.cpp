@@ -47,8 +47,8 @@ int export_command(const ExportArguments& arguments) {
       arguments.output, model.surface.V.rows(), model.texture.uv.rows(), model.surface.faces().count(),
       name_of(chart), model.texture.max_area_distortion);
   if (model.texture.torn_faces > 0)
-    tell("orbitutte: warning: {} faces lie across the outer edge of the chart; choose another chart\n",
-         model.texture.torn_faces);
+    tell("orbitutte: warning: {} across the outer edge of the chart; choose another chart\n",
+         counted(model.texture.torn_faces, "face"));
   return 0;
 }
 

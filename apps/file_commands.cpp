@@ -78,10 +78,10 @@ int tile_command(const TileArguments& arguments) {
   write_tiling(arguments.output, tiling);
   if (!tiling.left_out.empty())
     tell(
-        "orbitutte: warning: {} faces of the input, the first face {}, are left out: all their vertices are "
-        "on "
-        "one mirror, so that they coincide with their mirror images\n",
-        tiling.left_out.size(), tiling.left_out.front());
+        "orbitutte: warning: {} of the input left out, beginning with face {}: all vertices lie on one "
+        "mirror, "
+        "where a face coincides with its mirror image\n",
+        counted(std::ssize(tiling.left_out), "face"), tiling.left_out.front());
   tell("{}: {} copies, {} vertices, {} faces\n", arguments.output, tiling.copy_count(), tiling.mesh.V.rows(),
        tiling.faces().count());
   return succeeded;
@@ -98,7 +98,7 @@ int sample_command(const SampleArguments& arguments) {
                     arguments.shape));
   const Mesh mesh = sample_mesh(options);
   write_mesh(arguments.output, mesh);
-  tell("{}: {} vertices, {} triangles\n", arguments.output, mesh.V.rows(), mesh.F.rows());
+  tell("{}: {} vertices, {} faces\n", arguments.output, mesh.V.rows(), mesh.F.rows());
   return succeeded;
 }
 

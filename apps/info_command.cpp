@@ -61,11 +61,16 @@ int info_command(const InfoArguments& arguments) {
 
 int types_command(const TypesArguments& arguments) {
   if (!arguments.json) {
-    fmt::print("{:<8} {:>11}  {:<16} {}\n", "family", "group order", "input", "marked points");
+    fmt::print("{:<8} {:>11}  {:<16} {}\n", "family", "group order", "input", "marked vertices");
     for (const FamilyDescription& family : families())
       fmt::print("{:<8} {:>11}  {:<16} {}\n", family.family, family.group_order, name_of(family.topology),
                  family.marked_points);
     fmt::print("N is 2 or more, in Nx also 1. Commas separate orders of two digits: 2,2,12.\n");
+    fmt::print("'sphere' and 'hemisphere' are other words for 1 and *.\n");
+    fmt::print(
+        "Larger or more orders, such as 7,3,2, 2,2,2,2,2 or *2,2,2,2,2, are hyperbolic: spheres, or disks "
+        "behind a star.\n");
+    fmt::print("'cones' and '*cones' in place of a symbol: cones and corners of any angles (--angles).\n");
     fmt::print(
         "'polygon' in place of a symbol: a disk onto a convex spherical polygon that holds its boundary.\n");
     return 0;

@@ -9,6 +9,8 @@
 #include "commands.h"
 #include "embed_columns.h"
 #include "orbitutte/errors.h"
+#include "orbitutte/export/export.h"
+#include "orbitutte/export/tiling.h"
 #include "orbitutte/inspect/mesh_repair.h"
 #include "orbitutte/io/manifest.h"
 #include "orbitutte/io/mesh_io.h"
@@ -50,11 +52,11 @@ class Command {
     return command_->add_option(names, path, description);
   }
 
-  // `file` has no path yet.
+  // `file` has no path yet. Where there is a choice of endings, the description ends with them.
   CLI::Option* output(const std::string& names, std::string& path, const OutputFile& file,
                       const std::string& description) {
     outputs_.push_back({file, &path});
-    return command_->add_option(names, path, description);
+    return command_->add_option(names, path, with_endings(description, file.endings));
   }
 
   // Runs before the command itself.
@@ -72,6 +74,10 @@ class Command {
   }
 
  private:
+  static std::string with_endings(const std::string& description, const std::vector<std::string>& endings) {
+    return endings.size() < 2 ? description : description + ": " + orbitutte::listed_choices(endings);
+  }
+
   // A file, and where its path will be once the command line is parsed.
   template <typename File>
   using Expected = std::pair<File, const std::string*>;
@@ -94,9 +100,8 @@ class Command {
   std::vector<Expected<OutputFile>> outputs_;
 };
 
-// What meshes are written as.
-const std::vector<std::string> mesh_endings = {".obj",  ".off", ".ply", ".stl",  ".vtk",   ".vtp",
-                                               ".gltf", ".glb", ".gii", ".pial", ".white", ".orig"};
+const std::string mesh_formats = "OBJ, OFF, PLY, STL, VTK, VTP, glTF, GIfTI or FreeSurfer, plain or with .gz";
+
 // The format of the mesh.
 template <typename Arguments>
 void format_of(Command<Arguments>& command) {
@@ -110,8 +115,7 @@ template <typename Arguments>
 void read_mesh_of(Command<Arguments>& command) {
   command
       .input("mesh", command->mesh, "the mesh",
-             "The mesh: OBJ, OFF, PLY, STL, VTK, VTP, glTF, GIfTI or FreeSurfer, plain or with .gz; '-' is "
-             "standard input")
+             fmt::format("The mesh: {}; '-' is standard input", mesh_formats))
       ->required();
   format_of(command);
 }
@@ -140,7 +144,7 @@ void marks_of(Command<Arguments>& command) {
                  "none are given; or 'extremities'");
   command
       .option("--objective", command->objective,
-              "What the best have least of: sigma (the standard deviation of the logarithm of the scale), "
+              "Choose for the least: sigma (the standard deviation of the logarithm of the scale), "
               "symmetric-dirichlet, or range (of the scale)")
       ->capture_default_str();
 }
@@ -150,9 +154,11 @@ template <typename Arguments>
 void wishes_of(Command<Arguments>& command) {
   command.option(
       "--orbifold", command->orbifold,
-      "Conway's symbol, such as 432, *532 or 2,2,12 ('orbitutte types' lists all); 'best', of least "
-      "distortion, which is taken if none is given; 1 or 'sphere', the whole sphere; * or 'hemisphere'; "
-      "'cones' or '*cones', the plane with cones of any angles; or 'polygon', a fixed boundary");
+      "Conway's symbol, such as 432, *532 or 2,2,12 ('orbitutte types' lists those of the sphere and the "
+      "plane; larger or more orders, such as 7,3,2 or 2,2,2,2,2, are hyperbolic); 'best' (the default), the "
+      "spherical one of least distortion; 1 or 'sphere', the whole sphere; * or 'hemisphere'; 'cones' or "
+      "'*cones', cones of any angles, on the sphere, in the plane or in the hyperbolic plane, as the angles "
+      "say; or 'polygon', a fixed boundary");
   marks_of(command);
   command.option(
       "--angles", command->angles,
@@ -284,9 +290,9 @@ void add_batch(CLI::App& app, int& code) {
 void add_choose(CLI::App& app, int& code) {
   Command<ChooseArguments> command(
       app, "choose",
-      "List the best cones of every family of orbifolds that a mesh embeds into, the best first");
+      "List the spherical orbifolds that a mesh embeds into, each with its best cones, the best first");
   read_mesh_of(command);
-  command.option("--orbifold", command->orbifold, "Only this symbol");
+  command.option("--orbifold", command->orbifold, "Only this orbifold, of any space: its symbol");
   marks_of(command);
   command.option("--weights", command->weights, "As of embed")->capture_default_str();
   command.option("--solved", command->solved, "Embed so many of the best, and certify them")
@@ -330,17 +336,26 @@ void add_verify(CLI::App& app, int& code) {
 
 void add_tile(CLI::App& app, int& code) {
   Command<TileArguments> command(
-      app, "tile", "Weld all copies of an embedding into one closed mesh, or a patch of the plane");
+      app, "tile",
+      "Weld all copies of an embedding into one closed mesh, or some into a patch of the plane or the "
+      "hyperbolic plane");
   read_embedding_of(command);
   command
-      .output("-o,--output", command->output, {"-o", "the tiling", "", {".ply", ".obj", ".glb", ".stl"}},
-              "Write the tiling here: .ply, .obj, .glb or .stl")
+      .output("-o,--output", command->output, {"-o", "the tiling", "", orbitutte::tiling_endings()},
+              "Write the tiling here")
       ->required();
   command
       .option("--copies", command->copies,
-              "In the plane, where there are infinitely many: weld so many, nearest first")
+              "Where the group is infinite: weld so many copies, the nearest first")
       ->capture_default_str();
   command.runs(tile_command, code);
+}
+
+// What `export` writes: models, and the sphere alone.
+std::vector<std::string> written_models() {
+  std::vector<std::string> endings = orbitutte::model_endings();
+  endings.insert(endings.end(), {".gii", ".sphere", ".reg"});
+  return endings;
 }
 
 void add_export(CLI::App& app, int& code) {
@@ -348,10 +363,8 @@ void add_export(CLI::App& app, int& code) {
       app, "export", "Write the mesh with its embedding as texture coordinates, for other programs");
   read_embedding_and_mesh_of(command);
   command
-      .output("-o,--output", command->output,
-              {"-o", "the model", "", {".obj", ".glb", ".ply", ".vtp", ".gii", ".sphere", ".reg"}},
-              "Write the model here: .obj, .glb, .ply or .vtp; or the sphere alone as a surface: .surf.gii, "
-              ".sphere or .reg")
+      .output("-o,--output", command->output, {"-o", "the model", "", written_models()},
+              "Write the model here; .gii, .sphere and .reg are the sphere alone, as a surface")
       ->required();
   command.option(
       "--chart", command->chart,
@@ -400,7 +413,7 @@ void add_render(CLI::App& app, int& code) {
   read_embedding_and_mesh_of(command);
   command
       .output("-o,--output", command->output, {"-o", "the picture", "", {".png", ".svg"}},
-              "Write the picture here: .png, or .svg for a plot")
+              "Write the picture here, as .svg only plots")
       ->required();
   command
       .option("--panel", command->panel,
@@ -445,7 +458,7 @@ void add_compare(CLI::App& app, int& code) {
       ->expected(1, -1);
   command.option("--weights", command->weights, "As of embed")->capture_default_str();
   command.output("-o,--output", command->output, {"-o", "the picture", "", {".png", ".svg"}},
-                 "Draw all here: .png (mesh and histogram) or .svg (histogram)");
+                 "Draw all here, as .svg only the histogram");
   view_of_mesh(command);
   command.flag("--json", command->json, "Print JSON");
   command.runs(compare_command, code);
@@ -456,8 +469,8 @@ void add_repair(CLI::App& app, int& code) {
       app, "repair", "Weld, clean, cut apart and close a mesh, so that it can be embedded; says what it did");
   read_mesh_of(command);
   command
-      .output("-o,--output", command->output, {"-o", "the mesh", "", mesh_endings},
-              fmt::format("Write the repaired mesh here: {}", fmt::join(mesh_endings, ", ")))
+      .output("-o,--output", command->output, {"-o", "the mesh", "", orbitutte::mesh_endings()},
+              "Write the repaired mesh here")
       ->required();
   command.output("--report", command->report, {"--report", "the report", "", {".json"}},
                  "Write what was done here, and for each vertex that of the input (-1 for new ones): .json");
@@ -473,7 +486,7 @@ void add_repair(CLI::App& app, int& code) {
               fmt::format("Leave out these steps: {}",
                           fmt::join(orbitutte::choices_of<orbitutte::RepairStep>(), ", ")))
       ->expected(1, -1);
-  command.flag("--json", command->json, "Print the report to standard output");
+  command.flag("--json", command->json, "Print the report on standard output");
   command.runs(repair_command, code);
 }
 
@@ -514,7 +527,8 @@ void products_of_map(Command<MapArguments>& command) {
 void add_map(CLI::App& app, int& code) {
   Command<MapArguments> command(
       app, "map", "Map one surface to another so that landmarks correspond, one to one, and certify it");
-  command.input("a", command->a, "surface A", "Surface A, a mesh as embed reads it; '-' is standard input")
+  command
+      .input("a", command->a, "surface A", fmt::format("Surface A: {}; '-' is standard input", mesh_formats))
       ->required();
   command.input("b", command->b, "surface B", "Surface B, of the same topology")->required();
   command.option("--format", command->format, "As of embed, of the surface that comes from standard input");
@@ -543,9 +557,8 @@ void add_map(CLI::App& app, int& code) {
   command.option("--cut-seed-b", command->cut_seed_b, "The same of B")->capture_default_str();
   command
       .option("--tolerance", command->tolerance,
-              "As of embed, but finer: limbs that shrink show what is left in full size on the other "
-              "surface; not "
-              "finer than 1e-9 for hyperbolic tiles")
+              "As of embed. The default is finer, because errors in shrunk limbs appear in full size on the "
+              "other surface; hyperbolic tiles stop at 1e-9")
       ->capture_default_str();
   command.option("--max-iterations", command->max_iterations, "As of embed")->capture_default_str();
   command.option("--threads", command->threads, "Use so many threads; 0: one for every core")
@@ -590,15 +603,15 @@ void add_resample(CLI::App& app, int& code) {
 void add_sample(CLI::App& app, int& code) {
   Command<SampleArguments> command(app, "sample", "Make a mesh to try things on");
   command
-      .output("-o,--output", command->output, {"-o", "the mesh", "", mesh_endings},
-              fmt::format("Write the mesh here: {}", fmt::join(mesh_endings, ", ")))
+      .output("-o,--output", command->output, {"-o", "the mesh", "", orbitutte::mesh_endings()},
+              "Write the mesh here")
       ->required();
   command
       .option("--shape", command->shape,
               "figure (a sphere with limbs), mask (a disk), or a projective plane: boy (Boy's surface), "
               "roman (Steiner's), crosscap, quotient (a centrally symmetric figure's)")
       ->capture_default_str();
-  command.option("--faces", command->faces, "Make about so many triangles")->capture_default_str();
+  command.option("--faces", command->faces, "Make about so many faces, all triangles")->capture_default_str();
   command.runs(sample_command, code);
 }
 

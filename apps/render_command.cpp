@@ -44,6 +44,7 @@ int render_command(const RenderArguments& arguments) {
   options.up = viewpoint.up;
   const std::string title = std::filesystem::path(arguments.mesh).filename().string();
   write_picture(arguments.output, {surface, embedding, report, title}, options);
+  tell("{}: {} of {}\n", arguments.output, name_of(options.panel), arguments.embedding);
   return drawn;
 }
 

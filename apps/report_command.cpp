@@ -42,6 +42,7 @@ int report_command(const ReportArguments& arguments) {
   PageOptions options;
   if (!has_interactive_view()) options.pictures = page_pictures(surface, embedding, claims);
   write_file(arguments.output, report_page({surface, embedding, report}, options));
+  tell("{}: page of {}\n", arguments.output, arguments.embedding);
   if (!has_interactive_view())
     tell(
         "{} has no interactive view, which alone shows colours of vertices, because this program was built "

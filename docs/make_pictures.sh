@@ -90,9 +90,9 @@ keep carried full.png
 sample figure figure 20000
 sample mask mask 3000
 sample boy boy 20000
-embed figure figure.ply 432 auto
-embed mask mask.ply '*532' auto
-embed boy boy.ply 1x auto
+embed figure figure.ply 432 best
+embed mask mask.ply '*532' best
+embed boy boy.ply 1x best
 render sheet figure --size 1600x1228
 "$orbitutte" compare figure.ply -o full.png >/dev/null
 keep comparison full.png
@@ -106,7 +106,7 @@ render boy boy --size 1200x920
 tiling() {
   local picture=$1 mesh=$2 orbifold=$3
   shift 3
-  embed_as_paper "$picture" "$mesh" "$orbifold" auto
+  embed_as_paper "$picture" "$mesh" "$orbifold" best
   render "$picture" "$picture" --panel sphere --size 320 "$@"
 }
 
@@ -125,7 +125,7 @@ tiling tiling-3star2 disk.ply '3*2'
 tiling tiling-2star5 disk.ply '2*5'
 tiling tiling-5star disk.ply '5*'
 tiling tiling-3x boy.ply 3x --view 1,0,0.5
-embed_as_paper paper figure.ply 432 auto
+embed_as_paper paper figure.ply 432 best
 render checkerboard-figure paper --panel checkerboard --size 400
 
 # reproduction.md: real meshes

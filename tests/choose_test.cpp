@@ -2,6 +2,7 @@
 #include "orbitutte/choose.h"
 
 #include <algorithm>
+#include <set>
 
 #include "orbitutte/orbifold/signature.h"
 #include "orbitutte/report/choices.h"
@@ -139,6 +140,25 @@ TEST(Choose, DisksAndProjectivePlanesHaveABestToo) {
   const BestEmbedding plane = embed_best(shared_surface(test::projective_plane(2)));
   EXPECT_TRUE(plane.result.certificate.bijective);
   EXPECT_EQ(plane.choice().target.marks.size(), 1u);
+}
+
+// Nothing is predicted there, so all choices are embedded.
+TEST(Choose, TheTableOfAProjectivePlaneHasEverySymbolOnceTheBestFirst) {
+  const std::vector<Choice> rows = choose(shared_surface(test::projective_plane(2)), {}, 1);
+  ASSERT_GT(rows.size(), 1u);
+  std::set<std::string> symbols;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    EXPECT_TRUE(symbols.insert(rows[k].target.signature).second) << rows[k].target.signature;
+    ASSERT_TRUE(rows[k].solved);
+    if (k > 0 && rows[k].is_certified) EXPECT_LE(rows[k - 1].solved->sigma, rows[k].solved->sigma);
+  }
+}
+
+TEST(Choose, OnlyFiniteGroupsAreChosenFromUnlessATargetIsGiven) {
+  for (const Choice& row : best_of_figure().choices) EXPECT_GT(row.target.group_order, 0);
+  ChooseOptions options;
+  options.target = parse_orbifold("442");
+  EXPECT_EQ(choose(figure(), options, 0).front().target.signature, "442");
 }
 
 TEST(Choose, SmallMeshesHaveOne) {

@@ -395,10 +395,19 @@ class Euclidean(CommandLine):
                 self.expect(0, *self.embed(mesh, '-o', 'flat.ply', '--report', 'flat.json', orbifold=symbol), says='certified: bijective')
                 orbifold = json.loads((self.folder / 'flat.json').read_text())['orbifold']
                 self.assertEqual((orbifold['signature'], orbifold['space'], orbifold['group_order']), (symbol, 'euclidean', None))
-                self.expect(0, 'verify', 'flat.ply', 'flat.json', mesh)
+                verified = self.expect(0, 'verify', 'flat.ply', 'flat.json', mesh, '--theorem2')
+                self.assertIn(f'theorem 2: not run: the theorem speaks of finite groups of the sphere, and {symbol} has none', verified.stdout)
 
     def test_compare_has_no_option_of_its_own_for_them(self):
         self.expect(IS_WRONG, 'compare', 'figure.obj', '--flat', '442', says="has no option '--flat'")
+
+
+    def test_cones_with_the_angles_of_an_orbifold_are_that_orbifold(self):
+        energies = []
+        for options in (['222'], ['cones', '--angles', 'pi,pi,pi']):
+            self.expect(0, 'embed', 'figure.obj', '--cones', 'extremities', '--report', 'cones.json', '--orbifold', *options)
+            energies.append(json.loads((self.folder / 'cones.json').read_text())['energy'])
+        self.assertAlmostEqual(*energies, delta=1e-9 * energies[0])
 
 
 class WholeSphere(CommandLine):
@@ -428,8 +437,8 @@ class WholeSphere(CommandLine):
     def test_what_asks_for_another_map_is_refused(self):
         for options, says in ((['1', '--cones', '1,2,3'], 'leave out --cones: 1 marks no vertex; --points'),
                               (['1', '--centre', 'middle'], "--centre is 'middle'"),
-                              (['432', '--cones', 'auto', '--centre', 'area'], '432 is no map to the whole sphere'),
-                              (['432', '--cones', 'auto', '--quotient'], 'the quotient of a map to 432 is not known')):
+                              (['432', '--cones', 'best', '--centre', 'area'], '432 is no map to the whole sphere'),
+                              (['432', '--cones', 'best', '--quotient'], 'the quotient of a map to 432 is not known')):
             with self.subTest(options):
                 self.expect(IS_WRONG, 'embed', 'figure.obj', '--orbifold', *options, says=says)
         self.expect(IS_UNSUITABLE, 'embed', 'mask.obj', '--orbifold', 'sphere', says='fill the hole, or choose an orbifold for a disk')
@@ -511,7 +520,7 @@ class Messages(CommandLine):
         return name
 
     def test_what_is_left_out_is_chosen_and_the_report_says_what(self):
-        self.expect(0, 'embed', 'figure.obj', '--report', 'best.json', says='chosen for the least sigma: --orbifold .* --cones .*')
+        self.expect(0, 'embed', 'figure.obj', '--report', 'best.json', says='chosen of 5 families for the least sigma: --orbifold .* --cones .*')
         report = json.loads((self.folder / 'best.json').read_text())
         rows, taken = report['choice']['choices'], report['choice']['taken']
         self.assertEqual([cone['vertex'] for cone in report['cones']], rows[taken]['cones'])
@@ -520,6 +529,12 @@ class Messages(CommandLine):
         self.expect(0, 'embed', 'figure.obj', '--orbifold', '432', '--cones', '5,best,best', '--report', 'kept.json')
         kept = json.loads((self.folder / 'kept.json').read_text())
         self.assertEqual((kept['orbifold']['signature'], kept['cones'][0]['vertex']), ('432', 5))
+
+    def test_the_summary_speaks_of_a_choice_only_where_there_was_one(self):
+        for symbol, says in (('432', 'chosen for the least sigma: --orbifold 432 --cones '),
+                             ('7,3,2', 'extremities, since nothing predicts better vertices for 7,3,2: --orbifold 7,3,2 --cones ')):
+            done = self.expect(0, 'embed', 'figure.obj', '--orbifold', symbol, says=says)
+            self.assertNotIn('famil', done.stderr)
 
     def test_choose_lists_every_family_the_best_first(self):
         table = json.loads(self.expect(0, 'choose', 'figure.obj', '--solved', '1', '--json', '-o', 'table.json').stdout)
@@ -542,6 +557,21 @@ class Messages(CommandLine):
         self.expect(IS_UNSUITABLE, 'embed', 'figure.obj', '--cones', 'best,best,best,best', says='takes 4 marked vertices')
         self.expect(IS_UNSUITABLE, 'embed', 'figure.obj', '--cones', '99999999,best,best', says='vertex 99999999')
         self.expect(IS_UNSUITABLE, 'embed', 'figure.obj', '--orbifold', '432', '--cones', 'best,best', says='432 needs 3 marked vertices')
+
+    def test_a_file_of_weights_that_the_embedding_does_not_have_is_refused(self):
+        self.expect(IS_WRONG, 'verify', 'map.ply', 'map.json', 'figure.obj', '--weights-file', 'map.ply', says='which need no file; leave out')
+
+    def test_every_command_that_writes_a_file_names_it(self):
+        self.expect(0, 'render', 'map.ply', 'map.json', 'figure.obj', '--panel', 'histogram', '-o', 'plot.svg', says='plot.svg: histogram of map.ply')
+        self.expect(0, 'report', 'map.ply', 'map.json', 'figure.obj', '-o', 'page.html', says='page.html: page of map.ply')
+
+    def test_missing_angles_and_letters_for_orders_are_told(self):
+        self.expect(IS_WRONG, 'embed', 'figure.obj', '--orbifold', 'cones', '--cones', '1,2,3', says='one for each marked vertex')
+        self.expect(IS_WRONG, 'embed', 'figure.obj', '--orbifold', 'N*', says='put a number for it')
+
+    def test_projective_planes_are_told_in_words(self):
+        self.expect(0, 'sample', '--shape', 'boy', '--faces', 500, '-o', 'boy.obj')
+        self.expect(0, 'embed', 'boy.obj', '--cones', 'extremities', says=['a projective plane, onto', 'chosen of 3 maps for the least sigma'])
 
     def test_a_mesh_with_a_small_hole_names_it_and_both_remedies(self):
         vertices, faces = read_obj(self.folder / 'figure.obj')

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "orbitutte/mesh/surface.h"
 #include "test_meshes.h"
 
 namespace orbitutte::connectivity_test {
@@ -136,6 +137,22 @@ TEST(Connectivity, VerticesWithoutFacesHaveNoNeighbors) {
   const Neighbors around = vertex_neighbors(connectivity.edges, 9);
   EXPECT_EQ(edge_count(connectivity), 12);
   for (int v = 6; v < 9; ++v) EXPECT_EQ(around.start[v], around.start[v + 1]);
+}
+
+TEST(Surface, AreasAtVerticesAddUpToItsArea) {
+  const Surface surface = test::unjudged(test::perturbed(test::icosphere(2), 0.03, 7));
+  double area = 0;
+  for (int f = 0; f < surface.triangle_count(); ++f) area += surface.area(f);
+  EXPECT_NEAR(surface.vertex_areas().sum(), area, 1e-12 * area);
+  EXPECT_GT(surface.vertex_areas().minCoeff(), 0);
+}
+
+TEST(Surface, NormalsOfASphereAreItsPoints) {
+  const Mesh sphere = test::icosphere(3);
+  const Points normals = vertex_normals(sphere.V, sphere.F);
+  EXPECT_LT((normals - sphere.V).rowwise().norm().maxCoeff(), 0.02);
+  EXPECT_LT((normals.rowwise().norm().array() - 1).abs().maxCoeff(), 1e-14);
+  EXPECT_EQ(vertex_normals(Points::Zero(1, 3), Triangles(0, 3)).row(0), Eigen::RowVector3d(0, 0, 1));
 }
 
 TEST(Connectivity, OfNoFacesIsEmpty) {

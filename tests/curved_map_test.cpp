@@ -15,6 +15,7 @@
 #include "orbitutte/solve/moduli_energy.h"
 #include "orbitutte/solve/tangent_system.h"
 #include "orbitutte/weights/cone_weights.h"
+#include "sample_embeddings.h"
 #include "test_meshes.h"
 
 namespace orbitutte::curved_map_test {
@@ -242,6 +243,23 @@ TEST(CurvedMap, IsConformalAndTheSameForAllCuts) {
       if (first.size() == 0) first = lengths;
       EXPECT_LT((lengths - first).cwiseAbs().maxCoeff(), 5e-8) << "space " << k << " seed " << seed;
     }
+  }
+}
+
+// Their tile has no freedom: the map is that of the orbifold with the same cones.
+TEST(CurvedMap, ThreeConesWithTheAnglesOfAnOrbifoldGiveItsMap) {
+  for (const char* signature : {"222", "322", "223", "432"}) {
+    const Target orbifold = parse_orbifold(signature);
+    const Mesh mesh = test::sample_mesh_for(orbifold);
+    const std::vector<int> cones = choose_cones(mesh, orbifold);
+    const EmbedResult of_symbol = embed(mesh, orbifold, cones),
+                      of_angles = embed(mesh, cone_target(Topology::sphere, orbifold.marks), cones);
+    EXPECT_TRUE(of_angles.certificate.bijective) << signature;
+    EXPECT_NEAR(of_angles.minimum.energy, of_symbol.minimum.energy, 1e-9 * of_symbol.minimum.energy)
+        << signature;
+    const Eigen::VectorXd apart =
+        test::edge_lengths(mesh, of_angles.embedding) - test::edge_lengths(mesh, of_symbol.embedding);
+    EXPECT_LT(apart.cwiseAbs().maxCoeff(), 1e-6) << signature;
   }
 }
 

@@ -189,6 +189,26 @@ TEST_F(File, AMissingFileIsNamedWithTheSystemsReason) {
             path("none") + ": cannot be read: No such file or directory");
 }
 
+TEST_F(File, WhatIsWrongWithItsBytesIsSaidAfterItsPath) {
+  write_file(path("a"), "bytes");
+  EXPECT_EQ(parse_file(path("a"), [](const std::string& bytes) { return bytes.size(); }), 5u);
+  const auto refuse = [](const std::string&) -> int { throw MeshError("line 1: no"); };
+  EXPECT_EQ(refusal_by([&] { parse_file(path("none"), refuse); }),
+            path("none") + ": cannot be read: No such file or directory");
+  try {
+    parse_file(path("a"), refuse);
+    FAIL();
+  } catch (const MeshError& error) {
+    EXPECT_EQ(error.what(), path("a") + ": line 1: no");
+  }
+}
+
+TEST(FileName, TheEndingIsInLowerCase) {
+  EXPECT_EQ(ending_of("A Mesh.PLY"), ".ply");
+  EXPECT_EQ(ending_of("folder.obj/a"), "");
+  EXPECT_EQ(ending_of("a.b.Gz"), ".gz");
+}
+
 TEST_F(File, AFolderIsNoFileToRead) {
   EXPECT_EQ(refusal_by([&] { read_file(folder_.string()); }),
             folder_.string() + ": cannot be read: Is a directory");

@@ -16,6 +16,7 @@
 #include <fstream>
 #include <limits>
 #include <ostream>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -804,6 +805,13 @@ TEST(MeshFormat, IsNamedByTheEndingInAnyCase) {
   EXPECT_EQ(mesh_format("folder.ply/a.b.OFF"), MeshFormat::off);
   EXPECT_EQ(mesh_format("/a.Ply"), MeshFormat::ply);
   EXPECT_EQ(mesh_format("a.sTL"), MeshFormat::stl);
+}
+
+TEST(MeshFormat, EachHasAUsualEnding) {
+  std::set<MeshFormat> formats;
+  for (const std::string& ending : mesh_endings()) formats.insert(mesh_format("a" + ending));
+  EXPECT_EQ(formats.size(), mesh_endings().size());
+  EXPECT_TRUE(formats.contains(MeshFormat::obj) && formats.contains(MeshFormat::freesurfer));
 }
 
 TEST(MeshFormat, OtherEndingsAreRefused) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -309,6 +310,22 @@ TEST(Moduli, ThreeHalfTurnsLieAtRightAnglesAndHaveNoFreedom) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(side(moduli, i), pi / 2, 1e-12);
   EXPECT_EQ(moduli.dimension(), 0);
   EXPECT_EQ(moduli.basis(moduli.inscribed_polygon()).cols(), 0);
+}
+
+// Copies of the first cone may be opposite to it: where a cone of pi lies at a right angle from it.
+TEST(Moduli, ThreeConesEncloseTheirAreaInAnyOrder) {
+  for (std::vector<double> angles : {std::vector<double>{pi, pi, pi},
+                                     {0.5 * pi, pi, pi},
+                                     {pi, pi, 1.7 * pi},
+                                     {0.5 * pi, 2 * pi / 3, pi},
+                                     {1.5 * pi, 1.5 * pi, 1.5 * pi}}) {
+    do {
+      const Moduli moduli(Space::sphere(), angles);
+      const Points marks = moduli.inscribed_polygon();
+      EXPECT_TRUE(moduli.encloses_area(marks)) << angles[0] << " " << angles[1] << " " << angles[2];
+      EXPECT_TRUE(moduli.closed(marks)) << angles[0] << " " << angles[1] << " " << angles[2];
+    } while (std::next_permutation(angles.begin(), angles.end()));
+  }
 }
 
 // A corner whose quarter angle is least may lie more than a quarter of a circle around from the others.

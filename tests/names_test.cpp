@@ -67,5 +67,11 @@ TEST(Names, ARefusalListsTheChoices) {
   EXPECT_EQ(listed_choices({"a", "b"}), "a or b");
 }
 
+TEST(Names, WhatIsCountedIsSingularOnlyOnce) {
+  EXPECT_EQ(counted(0, "face"), "0 faces");
+  EXPECT_EQ(counted(1, "face"), "1 face");
+  EXPECT_EQ(counted(2, "face"), "2 faces");
+}
+
 }  // namespace
 }  // namespace orbitutte::names_test

@@ -265,6 +265,21 @@ TEST(Page, IsWellNestedHtmlThatHoldsEveryCheck) {
   }
 }
 
+TEST(Page, SpeaksOfTheSpaceThatTheMapLiesIn) {
+  const std::string flat = page_of("442", sample_report("442"));
+  for (const char* of_the_sphere :
+       {"Spherical orbifold", "on the sphere", "unit vector", "4π", "the sphere exactly once"})
+    EXPECT_THAT(flat, Not(HasSubstr(of_the_sphere))) << of_the_sphere;
+  EXPECT_THAT(flat, HasSubstr("Orbifold Tutte embedding in the plane"));
+  EXPECT_THAT(flat, HasSubstr("infinite group"));
+  EXPECT_THAT(flat, HasSubstr("symmetric copies cover the Euclidean plane exactly once"));
+  const std::string round = page_of("432", sample_report("432"));
+  EXPECT_THAT(round, HasSubstr("Orbifold Tutte embedding on the sphere"));
+  EXPECT_THAT(round, HasSubstr("group of order 24"));
+  EXPECT_THAT(round, HasSubstr("its 24 symmetric copies cover the sphere exactly once"));
+  EXPECT_THAT(page_of("1x", sample_report("1x")), HasSubstr("A projective plane of "));
+}
+
 TEST(Page, CountsTheFacesOfTheInput) {
   const PolygonMesh mesh = test::dual(test::icosphere(1));
   const Target orbifold = parse_orbifold("432");

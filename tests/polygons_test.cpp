@@ -371,7 +371,7 @@ TEST(Polygons, FaceWithAllEdgesButOneOnAMirrorIsReportedAndRounded) {
   ASSERT_THAT(inspect(mesh).defects, IsEmpty());
   const EmbedResult result = embed(mesh, parse_orbifold("*432"), {0, 48, 42});
   ASSERT_FALSE(result.warnings.empty());
-  EXPECT_THAT(result.warnings[0], HasSubstr("have all edges but one on one mirror"));
+  EXPECT_THAT(result.warnings[0], HasSubstr("all edges but one lie on one mirror"));
   EXPECT_TRUE(result.certificate.bijective) << failures(result.certificate);
 }
 

@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "orbitutte/orbifold/cone_target.h"
+#include "orbitutte/orbifold/target_words.h"
 #include "planar_families.h"
 #include "spherical_families.h"
 
@@ -26,8 +28,7 @@ using testing::IsEmpty;
 
 const std::string euclidean =
     " is a Euclidean orbifold for which there is no tile; of those there are 333, 442, 632, 2222, *333, "
-    "*442, "
-    "*632 and *2222";
+    "*442, *632 and *2222";
 const std::string hyperbolic =
     " is a hyperbolic orbifold with a cross; of hyperbolic ones there are those of spheres and disks";
 const std::string bad =
@@ -37,8 +38,7 @@ const std::string order_one = " has an order of 1, which marks nothing; orders a
 const std::string order_zero = " has an order of 0; orders are 2 or more";
 const std::string no_symbol =
     " is no Conway symbol: it may hold digits, commas, one '*' and one 'x'; see 'orbitutte types'";
-const std::string too_many_signs =
-    " has more than one star or cross, which no orbifold of the sphere or the plane has";
+const std::string too_many_signs = " has more than one star or cross; orbifolds with two have no tile here";
 const std::string after_cross = " has orders after the cross; rotations come before it";
 const std::string empty_place = " has an empty place between commas; give every order once";
 
@@ -287,7 +287,7 @@ TEST(Signature, OrdersOfOneAreRefused) {
 }
 
 TEST(Signature, TheEmptyTextIsRefused) {
-  EXPECT_EQ(refusal_of_symbol(""), "the signature is empty; see 'orbitutte types'");
+  EXPECT_EQ(refusal_of_symbol(""), "the symbol is empty; see 'orbitutte types'");
 }
 
 TEST(Signature, NothingIsMarkedOnTheWholeSphereAndTheHemisphere) {
@@ -309,6 +309,31 @@ TEST(Signature, OtherCharactersAreNoSymbol) {
 TEST(Signature, TwoStarsOrCrossesAreRefused) {
   expect_refused({"**", "xx", "*x", "x*", "2*2*2", "2*3x", "5xx", "*532*", "5\xc3\x97\xc3\x97", "5x\xc3\x97"},
                  too_many_signs);
+}
+
+TEST(Signature, TheLetterThatStandsForAnyOrderAsksForANumber) {
+  for (const std::string text : {"N*", "22N", "*NN", "Nx"})
+    EXPECT_THAT(refusal_of_symbol(text), HasSubstr("put a number for it")) << text;
+}
+
+TEST(TargetWords, GroupsAreFiniteOnTheSphereAlone) {
+  const auto cones = [](double angle, int count) {
+    return cone_target(Topology::sphere, std::vector<Mark>(count, {angle, ConeKind::rotation}));
+  };
+  const double pi = std::numbers::pi;
+  EXPECT_EQ(group_text(parse_orbifold("432")), "group of order 24");
+  EXPECT_EQ(group_text(parse_orbifold("442")), "infinite group");
+  EXPECT_EQ(group_text(parse_orbifold("7,3,2")), "infinite group");
+  EXPECT_EQ(group_text(cones(pi, 3)), "finite group");
+  EXPECT_EQ(group_text(cones(pi, 4)), "infinite group");
+  EXPECT_EQ(group_text(cones(1.1 * pi, 3)), "no group");
+}
+
+TEST(Signature, ATopologyHasAStandardTarget) {
+  for (const Topology topology : {Topology::sphere, Topology::disk, Topology::projective_plane}) {
+    EXPECT_EQ(standard_target(topology).topology, topology);
+    EXPECT_FALSE(standard_target(topology).marks.empty());
+  }
 }
 
 TEST(Signature, OrdersAfterTheCrossAreRefused) {

@@ -12,6 +12,7 @@
 
 #include "hand_made.h"
 #include "orbitutte/export/tiling.h"
+#include "orbitutte/orbifold/cone_target.h"
 #include "orbitutte/solve/lbfgs.h"
 #include "sample_embeddings.h"
 #include "solve_cases.h"
@@ -63,6 +64,18 @@ TEST(Theorem2, HoldsForIntrinsicWeights) {
     EXPECT_LT(theorem2.kernel_residual, 1e-6) << signature;
   }
   EXPECT_GT(flips, 0u);
+}
+
+TEST(Theorem2, IsNotRunWhereTheGroupIsNotFinite) {
+  for (const char* signature : {"442", "2222", "*632", "*2222"}) {
+    const Theorem2 theorem2 = theorem2_of(test::sample_embedding(signature));
+    EXPECT_EQ(theorem2.status, Status::not_run) << signature;
+    EXPECT_THAT(theorem2.detail, HasSubstr(std::string(signature) + " has none"));
+    EXPECT_FALSE(theorem2.holds());
+  }
+  const Target cones = cone_target(Topology::sphere, std::vector<Mark>(3, Mark{pi, ConeKind::rotation}));
+  EXPECT_THAT(reason_without_theorem2(cones), HasSubstr("not for cones of given angles"));
+  EXPECT_EQ(reason_without_theorem2(parse_orbifold("222")), "");
 }
 
 TEST(Theorem2, EveryMethodCountsTheSame) {

@@ -618,9 +618,36 @@ TEST_F(TilingFiles, GlbStatesTheBoundsOfItsVertices) {
   }
 }
 
+TEST_F(TilingFiles, GlbOfAPatchOfThePlaneHasUprightNormals) {
+  const Tiling patch = weld_copies(test::sample_embedding("442").embedding(), 5);
+  write_tiling(path("patch.glb"), patch);
+  const auto [json, binary] = parse_glb(read_file(path("patch.glb")));
+  const auto& attributes = json["meshes"][0]["primitives"][0]["attributes"];
+  const auto& accessor = json["accessors"][attributes["NORMAL"].get<int>()];
+  const auto& view = json["bufferViews"][accessor["bufferView"].get<int>()];
+  const std::size_t start = view.value("byteOffset", std::size_t{0});
+  ASSERT_EQ(accessor["count"], patch.mesh.V.rows());
+  for (Eigen::Index v = 0; v < patch.mesh.V.rows(); ++v)
+    for (int k = 0; k < 3; ++k)
+      EXPECT_NEAR(number_at<float>(binary, start + 12 * v + 4 * k), k == 2 ? 1 : 0, 1e-6) << v;
+}
+
 TEST_F(TilingFiles, BytesAreDeterministic) {
   for (const std::string name : {"t.ply", "t.obj", "t.stl", "t.glb"})
     EXPECT_EQ(written(name), written(name)) << name;
+}
+
+TEST_F(TilingFiles, EveryEndingThatIsNamedIsWrittenAndNamedInRefusals) {
+  std::string refusal;
+  try {
+    write_tiling(path("t.off"), tiling_);
+  } catch (const ArgumentError& error) {
+    refusal = error.what();
+  }
+  for (const std::string& ending : tiling_endings()) {
+    EXPECT_GT(written("t" + ending).size(), 100u) << ending;
+    EXPECT_THAT(refusal, testing::HasSubstr(ending));
+  }
 }
 
 TEST_F(TilingFiles, RefusesOtherEndings) {

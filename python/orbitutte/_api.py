@@ -186,7 +186,7 @@ def info(V: npt.ArrayLike, F: Any) -> dict[str, Any]:
 
 
 def families() -> list[dict[str, str]]:
-    """The families of orbifolds: ``family``, ``group_order``, ``input``, ``marked_points``."""
+    """The families of orbifolds: ``family``, ``group_order``, ``input``, ``marked_vertices``."""
     return json.loads(_orbitutte.families())
 
 

@@ -135,8 +135,8 @@ std::string verify_again(const HeldEmbedding& held, const MaybeMesh& mesh, const
   const Report claims = parse_report(held.report);
   const MaybeMesh given = as_embedded(mesh, claims);
   const SourceMesh& judge = given ? *given : held.source("verification");
-  return verdict_json(verify(*judge.surface(), held.embedding, claims,
-                             verification_options(held, weights_file, depth)));
+  return verdict_json(
+      verify(*judge.surface(), held.embedding, claims, verification_options(held, weights_file, depth)));
 }
 
 Tiling tiled(const HeldEmbedding& held) { return weld_copies(held.embedding); }

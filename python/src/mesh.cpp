@@ -90,11 +90,10 @@ void write_values(const std::string& path, const Eigen::MatrixXd& values,
   write_vertex_data(path, data);
 }
 
-// As many as the target needs, or three.
+// As many as the target needs, or as standard_target does.
 std::vector<int> extremities(const SourceMesh& mesh, const std::optional<Target>& target) {
   const Surface& surface = *mesh.surface();
-  const char* const base = surface.topology == Topology::disk ? "*222" : "222";
-  return choose_cones(surface, target ? *target : parse_orbifold(base));
+  return choose_cones(surface, target ? *target : standard_target(surface.topology));
 }
 
 // The target with these angles, and the vertices of its marks; those may be none, which stands for

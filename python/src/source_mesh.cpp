@@ -89,7 +89,8 @@ std::shared_ptr<const Surface> SourceMesh::surface() const {
 
 std::pair<std::shared_ptr<SourceMesh>, std::vector<int>> SourceMesh::repaired() const {
   RepairInPlace repaired = repair_in_place(polygons());
-  if (repaired.mesh.face_count() == 0) throw MeshError("no face is left after the repair; look at info(V, F)");
+  if (repaired.mesh.face_count() == 0)
+    throw MeshError("no face is left after the repair; look at info(V, F)");
   auto mesh = std::make_shared<SourceMesh>(std::move(repaired.mesh));
   mesh->repair_ = std::move(repaired.summary);
   return {std::move(mesh), std::move(repaired.image)};

@@ -127,6 +127,13 @@ def test_cones_may_be_chosen_before(figure):
     assert [cone.vertex for cone in orbitutte.embed(*figure, "532", "extremities").cones] == cones
 
 
+@pytest.mark.parametrize("shape, count", [("figure", 3), ("mask", 3), ("boy", 1)])
+def test_extremities_may_be_asked_for_without_a_symbol(shape, count):
+    mesh = orbitutte.sample_mesh(shape, 500)
+    embedding = orbitutte.embed(*mesh, cones="extremities")
+    assert embedding.bijective and len(embedding.cones) == count
+
+
 def test_what_is_left_out_is_chosen(figure):
     best = orbitutte.embed(*figure)
     rows = orbitutte.choose(*figure, solved=1)

@@ -6,10 +6,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <numeric>
+#include <set>
 
 #include "orbitutte/cones/extremities.h"
 #include "orbitutte/orbifold/families.h"
+#include "orbitutte/orbifold/target_words.h"
 #include "orbitutte/parallel.h"
 #include "orbitutte/preparation.h"
 
@@ -104,16 +107,17 @@ std::vector<Contest> contests(const Surface& surface, const Candidates& all, con
   if (options.target) return {{*options.target, std::nullopt}};
   std::vector<Contest> result;
   for (const Family& family : family_table()) {
-    if (family.topology != surface.topology || family.group_order == "infinite") continue;
+    if (family.topology != surface.topology) continue;
     const FamilyWithOrder with_order(family);
     const Target first = with_order.with_least();
-    if (first.marks.empty() || !takes_cones(first, surface, all, options.cones)) continue;
+    if (first.group_order == 0 || first.marks.empty() || !takes_cones(first, surface, all, options.cones))
+      continue;
     result.push_back({first, with_order.has_free_order() ? std::optional(with_order) : std::nullopt});
   }
   if (!result.empty()) return result;
   if (surface.topology == Topology::other) require_topology(surface, parse_orbifold("432"));
   throw MeshError(fmt::format("no orbifold for a {} takes {} marked vertices that lie like that",
-                              name_of(surface.topology), options.cones.size()));
+                              text_of(surface.topology), options.cones.size()));
 }
 
 // The entries that are given, and for the others the first candidates of the right kind; nothing if there are
@@ -132,8 +136,6 @@ std::optional<std::vector<int>> first_cones(const Target& target, const std::vec
   }
   return cones;
 }
-
-Target base_target(Topology topology) { return parse_orbifold(topology == Topology::disk ? "*222" : "222"); }
 
 struct Scored {
   MarkedTarget choice;
@@ -346,7 +348,7 @@ class Choosing {
  private:
   std::vector<Choice> predicted(const std::vector<Contest>& targets) {
     const auto start = std::chrono::steady_clock::now();
-    const Target base = base_target(surface_->topology);
+    const Target base = standard_target(surface_->topology);
     const EmbedResult map = solver_.embed(base, choose_cones(*surface_, base));
     BestCones search(*surface_, map, options_);
     std::vector<Scored> found;
@@ -414,6 +416,19 @@ void add_warnings(BestEmbedding& best) {
       best.result.warnings.push_back(warning_of_better(choice, best.choice()));
 }
 
+// Of rows that had to be embedded to be compared, the best of each symbol, the best first.
+void keep_the_best_of_each(std::vector<Choice>& rows, Objective objective) {
+  const auto rank = [&](const Choice& row) {
+    const double value =
+        row.solved ? value_of(*row.solved, {}, objective) : std::numeric_limits<double>::infinity();
+    return std::pair(!row.is_certified, value);
+  };
+  std::stable_sort(rows.begin(), rows.end(),
+                   [&](const Choice& a, const Choice& b) { return rank(a) < rank(b); });
+  std::set<std::string> seen;
+  std::erase_if(rows, [&](const Choice& row) { return !seen.insert(row.target.signature).second; });
+}
+
 template <typename Compute>
 auto with_threads_for(const ChooseOptions& options, const Compute& compute) {
   if (options.embed.threads < 0) throw ArgumentError("the number of threads must not be negative");
@@ -423,7 +438,7 @@ auto with_threads_for(const ChooseOptions& options, const Compute& compute) {
 }  // namespace
 
 Candidates cone_candidates(const Surface& surface) {
-  const Target base = base_target(surface.topology);
+  const Target base = standard_target(surface.topology);
   const std::vector<int> extremities = choose_cones(surface, base);
   Candidates first;
   (base.inner_marks > 0 ? first.inside : first.on_boundary) = extremities;
@@ -477,6 +492,7 @@ std::vector<Choice> choose(std::shared_ptr<const Surface> surface, const ChooseO
         row.refusal = error.what();
       }
     }
+    if (!rows.front().predicted) keep_the_best_of_each(rows, options.objective);
     return rows;
   });
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The orbifold and the cones that distort a surface least: one map to 222 or *222 gives the scale of the maps
-// to all others (cones/scale_field.h), and the best of these are embedded.
+// The spherical orbifold and the cones that distort a surface least: one map to 222 or *222 gives the scale
+// of the maps to all others (cones/scale_field.h), and the best of these are embedded.
 #pragma once
 
 #include <memory>
@@ -19,7 +19,9 @@ inline constexpr int best_vertex = -1;
 struct ChooseOptions {
   Objective objective = Objective::sigma;
 
-  /// If not given, it is chosen, too: any spherical orbifold that the surface embeds into.
+  /// If not given, it is chosen, too: any orbifold with marks and a finite group that the surface embeds
+  /// into. Targets with more cones, or of other spaces, are for the caller to name: cone_wishes.h finds cones
+  /// of fitted angles, which distort areas far less.
   std::optional<Target> target;
 
   /// The marked vertices, in the order of the symbol, best_vertex for those that are to be chosen. None: as
@@ -45,8 +47,8 @@ struct Choice {
   std::string refusal;
 };
 
-/// The best choice for each family that the options leave, the best first; one of them is embedded. Rows that
-/// cannot become the best are not searched to the end.
+/// The best choice for each spherical family that the options leave, the best first; one of them is embedded.
+/// Rows that cannot become the best are not searched to the end.
 struct BestEmbedding {
   Objective objective = Objective::sigma;
   std::vector<Choice> choices;
@@ -64,10 +66,11 @@ struct BestEmbedding {
 BestEmbedding embed_best(const std::shared_ptr<const Surface>& surface, const ChooseOptions& options = {});
 
 /// The vertices that the search begins with: the extremities that its first map marks, and then the farthest
-/// from those before. Throws MeshError unless the surface is a sphere or a disk.
+/// from those before. Throws MeshError unless the surface is a sphere, a disk or a projective plane.
 Candidates cone_candidates(const Surface& surface);
 
-/// The table, the first `solved` rows of it embedded.
+/// The table, each symbol once, the first `solved` rows of it embedded. Where nothing is predicted, all are
+/// embedded.
 std::vector<Choice> choose(std::shared_ptr<const Surface> surface, const ChooseOptions& options = {},
                            int solved = 3);
 

@@ -22,7 +22,7 @@ struct EmbedOptions {
   WeightOptions weights;
   /// A file of lines `i j w` (read_weights), which replaces `weights` if the path is not empty.
   std::string weights_file;
-  /// Which of all cuts through the cones is taken. It changes no length (N* turns about its axis).
+  /// Which of all cuts through the cones is taken. It changes no length.
   CutOptions cut;
   /// The linear solver.
   LaplacianOptions laplacian;
@@ -65,7 +65,7 @@ struct EmbedResult {
   /// ascending.
   std::vector<int> moved_vertices;
   /// If no map can be bijective: the faces that must become arcs or points, since the mesh is not 3-connected
-  /// there; ascending. Empty if that are ears alone, which are rounded outward.
+  /// there; ascending. Empty if these are ears only, which are rounded outward.
   std::vector<int> collapsing_faces;
   /// The certificate of the input's triangles.
   Certificate certificate;

@@ -49,6 +49,9 @@ std::vector<std::string> choices_of() {
   return names;
 }
 
+/// "1 face", "12 faces".
+std::string counted(long long count, std::string_view noun);
+
 /// "a, b or c".
 std::string listed_choices(const std::vector<std::string>& names);
 

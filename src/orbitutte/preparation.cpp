@@ -9,6 +9,7 @@
 #include "orbitutte/inspect/coincidence.h"
 #include "orbitutte/inspect/weak_places.h"
 #include "orbitutte/orbifold/free_tile.h"
+#include "orbitutte/orbifold/target_words.h"
 #include "orbitutte/parallel.h"
 #include "orbitutte/warnings.h"
 #include "orbitutte/weights/cone_weights.h"
@@ -52,7 +53,7 @@ void require_no_edge(const Connectivity& connectivity, const Pairs& opposite, co
 
 // Curved tiles whose shape is free are found for angles that have any.
 void require_tile(const Target& target) {
-  if (target.has_free_tile && target.space != Space::plane()) require_shapes(target);
+  if (target.has_curved_free_tile()) require_shapes(target);
 }
 
 // The boundary of a disk, edge by edge.
@@ -91,7 +92,7 @@ void require_topology(const Surface& surface, const Target& target) {
   }
   throw MeshError(fmt::format(
       "the mesh is a {}, but {} needs a {}; choose an orbifold for a {} (see 'orbitutte types')",
-      name_of(surface.topology), target.signature, name_of(target.topology), name_of(surface.topology)));
+      text_of(surface.topology), target.signature, text_of(target.topology), text_of(surface.topology)));
 }
 
 void require_fit(const EmbedRequest& request) {

@@ -34,10 +34,11 @@ std::vector<std::string> warnings_about(const EdgeWeights& weights, const std::v
     warnings.push_back(fmt::format("{} edges have the weight zero, but the theory needs positive weights",
                                    weights.zero_edges));
   if (!ears.empty())
-    warnings.push_back(fmt::format(
-        "{} faces, the first face {}, have all edges but one on one mirror or held side, so that they must "
-        "become arcs without area; swap their inner edges, or mark their tips",
-        count_faces(ears), ears.front().face));
+    warnings.push_back(
+        fmt::format("{} must become arcs without area, beginning with face {}: all edges but one lie on one "
+                    "mirror or held "
+                    "side; swap the inner edges, or mark the tips",
+                    counted(count_faces(ears), "face"), ears.front().face));
   return warnings;
 }
 
@@ -81,13 +82,12 @@ std::vector<std::string> warnings_of_collapse(const FaceView& faces, const std::
                                               const std::vector<int>& nonpositive) {
   if (collapsing.empty()) return {};
   const long unavoidable = count_in_or_beside(collapsing, faces, nonpositive);
-  return {
-      fmt::format("{} faces must become arcs or points, the first face {}: the mesh is not 3-connected there "
-                  "(see 'orbitutte "
-                  "info'). {} of the {} faces that are not positive are such faces or lie beside them, and "
-                  "no solver can do "
-                  "better; mark a vertex there, or split an inner edge",
-                  collapsing.size(), collapsing.front(), unavoidable, nonpositive.size())};
+  return {fmt::format(
+      "{} must become arcs or points, the first face {}: the mesh is not 3-connected there (see "
+      "'orbitutte info'). Of the {} that are not positive, {} belong to these or lie beside them, "
+      "and no solver can do better; mark a vertex there, or split an inner edge",
+      counted(std::ssize(collapsing), "face"), collapsing.front(), counted(std::ssize(nonpositive), "face"),
+      unavoidable)};
 }
 
 std::string warning_of_replaced_weights(const EmbedResult& standard, const EmbedResult& taken) {

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "orbitutte/cones/fitted_cones.h"
+#include "orbitutte/orbifold/target_words.h"
 
 namespace orbitutte {
 namespace {
@@ -40,7 +41,7 @@ FittedCones in_order_of_boundary(const Surface& surface, const FittedCones& cone
 void require_sphere_or_disk(const Surface& surface) {
   if (surface.topology == Topology::sphere || surface.topology == Topology::disk) return;
   throw MeshError(fmt::format("cones of any angles need a sphere or a disk; the mesh is a {}",
-                              name_of(surface.topology)));
+                              text_of(surface.topology)));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "orbitutte/cones/extremities.h"
 #include "orbitutte/orbifold/cone_target.h"
+#include "orbitutte/orbifold/target_words.h"
 
 namespace orbitutte {
 namespace {
@@ -49,8 +50,8 @@ MarkedCones cones_at_extremities(const Surface& surface, const std::string& sign
                                  const std::vector<double>& angles) {
   const bool is_disk = topology_of(signature) == Topology::disk;
   if (surface.topology != topology_of(signature))
-    throw MeshError(fmt::format("the mesh is a {}, but {} needs a {}", name_of(surface.topology), signature,
-                                name_of(topology_of(signature))));
+    throw MeshError(fmt::format("the mesh is a {}, but {} needs a {}", text_of(surface.topology), signature,
+                                text_of(topology_of(signature))));
   const int count = static_cast<int>(angles.size());
   const WantedExtremities wanted = {is_disk ? 0 : count, is_disk ? count : 0};
   return marked_cones(surface, signature, choose_extremities(surface, wanted), angles);

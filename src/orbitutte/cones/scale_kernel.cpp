@@ -62,7 +62,7 @@ void ScaleKernel::measure() {
   const Triangles& F = surface_.triangles;
   const int n = surface_.vertex_count();
   curvature_.setZero(n);
-  share_.setZero(n);
+  share_ = surface_.vertex_areas();
   flat_angle_.assign(n, 0);
   for (const int v : F.reshaped()) flat_angle_[v] = 2 * pi;
   const std::vector<char> on_boundary = surface_.boundary_vertices();
@@ -71,11 +71,7 @@ void ScaleKernel::measure() {
   for (int v = 0; v < n; ++v) curvature_[v] = flat_angle_[v];
   for (Eigen::Index f = 0; f < F.rows(); ++f) {
     const std::array<double, 3> angles = angles_of_triangle(surface_.V, F.row(f));
-    const double third = surface_.area(f) / 3;
-    for (int i = 0; i < 3; ++i) {
-      curvature_[F(f, i)] -= angles[i];
-      share_[F(f, i)] += third;
-    }
+    for (int i = 0; i < 3; ++i) curvature_[F(f, i)] -= angles[i];
   }
   share_ /= share_.sum();
 }

@@ -10,7 +10,7 @@
 #include <iterator>
 
 #include "orbitutte/errors.h"
-#include "orbitutte/export/file_ending.h"
+#include "orbitutte/io/file.h"
 #include "orbitutte/io/mesh_io.h"
 
 namespace orbitutte {
@@ -112,7 +112,7 @@ std::string coloured_mesh(const std::string& path, const Surface& surface, const
   if (colours.rows() != surface.V.rows())
     throw ArgumentError(
         fmt::format("there are {} colours, but the mesh has {} vertices", colours.rows(), surface.V.rows()));
-  const std::string ending = lower_case_ending(path);
+  const std::string ending = ending_of(path);
   if (ending == ".obj") return coloured_obj(surface, colours);
   if (ending == ".ply") return coloured_ply(surface, colours);
   throw ArgumentError(fmt::format("{}: a mesh with colours is written as .ply or .obj", path));

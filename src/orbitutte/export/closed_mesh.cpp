@@ -5,6 +5,7 @@
 
 #include "orbitutte/inspect/inspection.h"
 #include "orbitutte/inspect/recognition.h"
+#include "orbitutte/orbifold/target_words.h"
 
 namespace orbitutte {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 std::string fault_of(const Inspection& found) {
   if (!found.defects.empty()) return found.defects.front().message;
   if (found.unreferenced_vertices > 0) return "a vertex is in no face";
-  return fmt::format("the surface is a {}", name_of(found.topology));
+  return fmt::format("the surface is a {}", text_of(found.topology));
 }
 
 void require_closed_sphere(const Inspection& found) {

@@ -15,9 +15,9 @@
 #include "orbitutte/export/export_files.h"
 #include "orbitutte/export/gltf_model.h"
 #include "orbitutte/io/file.h"
-#include "orbitutte/io/file_ending.h"
 #include "orbitutte/io/ply.h"
 #include "orbitutte/io/ply_triangles.h"
+#include "orbitutte/names.h"
 
 namespace orbitutte {
 namespace {
@@ -32,22 +32,6 @@ std::vector<int> texture_rows(const ExportedModel& model) {
       rows.push_back(
           model.texture.of_corner[faces.start(f) + cut_corner(model.surface, model.embedding, f, k)]);
   return rows;
-}
-
-// The mean of the normals of the triangles around every input vertex, weighted by their areas.
-Points vertex_normals(const ExportedModel& model) {
-  const Points& V = model.surface.V;
-  Points normals = Points::Zero(V.rows(), 3);
-  for (const auto& v : model.surface.triangles.rowwise()) {
-    const Vector3 a = V.row(v[0]), b = V.row(v[1]), c = V.row(v[2]);
-    const Vector3 normal = (b - a).cross(c - a);
-    for (int k = 0; k < 3; ++k) normals.row(v[k]) += normal.transpose();
-  }
-  for (Eigen::Index v = 0; v < normals.rows(); ++v) {
-    const double length = normals.row(v).norm();
-    normals.row(v) = length > 0 ? Eigen::RowVector3d(normals.row(v) / length) : Eigen::RowVector3d(0, 0, 1);
-  }
-  return normals;
 }
 
 // The corner of the surface's faces at which a half-edge of its triangles begins.
@@ -168,7 +152,7 @@ std::string glb_bytes(const ExportedModel& model) {
   const std::vector<int> rows = texture_rows(model), source = source_of_texture_vertex(model, rows);
   check_glb_size(44 * source.size() + 12 * static_cast<std::size_t>(model.surface.triangles.rows()),
                  "the model");
-  const Points normals_of_input = vertex_normals(model);
+  const Points normals_of_input = vertex_normals(model.surface.V, model.surface.triangles);
   const std::vector<double> quality = vertex_quality(model);
   const auto count = static_cast<Eigen::Index>(source.size());
   Points positions(count, 3), normals(count, 3);
@@ -217,13 +201,29 @@ ExportedModel exported_model(Surface surface, const Embedding& embedding, Textur
   return model;
 }
 
+namespace {
+
+struct ModelFormat {
+  const char* ending;
+  std::string (*bytes)(const ExportedModel&);
+};
+
+constexpr ModelFormat model_formats[] = {
+    {".obj", obj_text}, {".glb", glb_bytes}, {".ply", ply_bytes}, {".vtp", vtp_text}};
+
+}  // namespace
+
+std::vector<std::string> model_endings() {
+  std::vector<std::string> endings;
+  for (const ModelFormat& format : model_formats) endings.emplace_back(format.ending);
+  return endings;
+}
+
 void write_model(const std::string& path, const ExportedModel& model) {
-  const std::string ending = lower_case_ending(path);
-  if (ending == ".obj") return write_file(path, obj_text(model));
-  if (ending == ".glb") return write_file(path, glb_bytes(model));
-  if (ending == ".ply") return write_file(path, ply_bytes(model));
-  if (ending == ".vtp") return write_file(path, vtp_text(model));
-  throw ArgumentError(fmt::format("{}: a model is written as .obj, .glb, .ply or .vtp", path));
+  const std::string ending = ending_of(path);
+  for (const ModelFormat& format : model_formats)
+    if (ending == format.ending) return write_file(path, format.bytes(model));
+  throw ArgumentError(fmt::format("{}: a model is written as {}", path, listed_choices(model_endings())));
 }
 
 }  // namespace orbitutte

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "orbitutte/export/texture_chart.h"
 #include "orbitutte/mesh/surface.h"
@@ -26,6 +27,9 @@ struct ExportedModel {
 
 /// Throws MeshError if the embedding is not one of the surface.
 ExportedModel exported_model(Surface surface, const Embedding& embedding, TextureChart chart);
+
+/// The endings that write_model knows.
+std::vector<std::string> model_endings();
 
 /// Writes the format that the path's ending names (any case):
 /// - OBJ: the input's vertices and faces, untouched; only `vt` has seams;

@@ -8,24 +8,10 @@
 #include "orbitutte/export/gltf_model.h"
 #include "orbitutte/io/file.h"
 #include "orbitutte/io/mesh_io.h"
+#include "orbitutte/mesh/surface.h"
 
 namespace orbitutte {
 namespace {
-
-// Unit normals of vertices, each the mean over its triangles by their areas; upright where there is none.
-Points smooth_normals(const Triangles& triangles, const Points& V) {
-  Points normals = Points::Zero(V.rows(), 3);
-  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
-    const Vector3 a = V.row(triangles(t, 0)), b = V.row(triangles(t, 1)), c = V.row(triangles(t, 2)),
-                  normal = (b - a).cross(c - a);
-    for (int k = 0; k < 3; ++k) normals.row(triangles(t, k)) += normal.transpose();
-  }
-  for (Eigen::Index v = 0; v < V.rows(); ++v) {
-    const Vector3 sum = normals.row(v);
-    normals.row(v) = (sum.isZero(0) ? Vector3(Vector3::UnitZ()) : sum.stableNormalized()).transpose();
-  }
-  return normals;
-}
 
 void require_same_size(const Points& from, const Points& to) {
   if (from.rows() != to.rows())
@@ -59,8 +45,8 @@ void write_morph(const std::string& path, const Morph& morph) {
   check_glb_size(bytes_per_vertex * static_cast<std::size_t>(morph.from.rows()) +
                      bytes_per_triangle * static_cast<std::size_t>(morph.triangles.rows()),
                  path);
-  const Points normals = smooth_normals(morph.triangles, morph.from),
-               normals_at_end = smooth_normals(morph.triangles, morph.to);
+  const Points normals = vertex_normals(morph.from, morph.triangles),
+               normals_at_end = vertex_normals(morph.to, morph.triangles);
   GltfModel model;
   const std::vector<std::uint32_t> indices(morph.triangles.data(),
                                            morph.triangles.data() + morph.triangles.size());

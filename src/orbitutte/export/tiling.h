@@ -63,6 +63,9 @@ struct Tiling {
 /// range; MeshError if the mesh is not closed, naming the edge or face of the input, as tiled_faces does.
 Tiling weld_copies(const Embedding& embedding, int copies = default_plane_copies);
 
+/// The endings that write_tiling knows.
+std::vector<std::string> tiling_endings();
+
 /// Writes the format that the path's ending names (any case):
 /// - PLY, binary: double x y z, int source_vertex; vertex_indices, uchar red green blue, int tile, int
 ///   source_face;

@@ -15,9 +15,10 @@
 #include "orbitutte/inspect/inspection.h"
 #include "orbitutte/io/bytes.h"
 #include "orbitutte/io/file.h"
-#include "orbitutte/io/file_ending.h"
 #include "orbitutte/io/mesh_formats.h"
 #include "orbitutte/io/ply_triangles.h"
+#include "orbitutte/mesh/surface.h"
+#include "orbitutte/names.h"
 
 namespace orbitutte {
 namespace {
@@ -71,11 +72,11 @@ void write_stl_file(const std::string& path, const Tiling& tiling) {
   write_file(path, bytes);
 }
 
-void write_obj_and_mtl(const std::filesystem::path& path, const Tiling& tiling) {
+void write_obj_and_mtl(const std::string& path, const Tiling& tiling) {
   std::filesystem::path library = path;
   library.replace_extension(".mtl");
   write_file(library.string(), mtl_text(tiling));
-  write_file(path.string(), obj_text(tiling, library.filename().string()));
+  write_file(path, obj_text(tiling, library.filename().string()));
 }
 
 }  // namespace
@@ -178,6 +179,15 @@ std::string obj_text(const Tiling& tiling, const std::string& library) {
   return text;
 }
 
+namespace {
+
+bool are_unit_vectors(const Points& V) {
+  constexpr double rounding = 1e-6;  // of single precision
+  return ((V.rowwise().squaredNorm().array() - 1).abs() < rounding).all();
+}
+
+}  // namespace
+
 std::string glb_bytes(const Tiling& tiling) {
   const Triangles& F = tiling.mesh.F;
   check_glb_size(3 * sizeof(float) * tiling.mesh.V.rows() + 3 * sizeof(std::uint32_t) * F.rows(),
@@ -186,28 +196,52 @@ std::string glb_bytes(const Tiling& tiling) {
   GltfModel model;
   // A point of the unit sphere is its own normal, so positions and normals share the same bytes.
   const int positions = model.add_positions(tiling.mesh.V);
+  const int normals =
+      are_unit_vectors(tiling.mesh.V) ? positions : model.add_vectors(vertex_normals(tiling.mesh.V, F));
   for (int m = 0; m < static_cast<int>(materials.materials.size()); ++m) {
     std::vector<std::uint32_t> indices;
     for (Eigen::Index f = 0; f < F.rows(); ++f)
       if (materials.of_copy[tiling.copy[f]] == m)
         for (int k = 0; k < 3; ++k) indices.push_back(static_cast<std::uint32_t>(F(f, k)));
     const auto& [name, colour] = materials.materials[m];
-    model.add_primitive({{"POSITION", positions}, {"NORMAL", positions}}, model.add_triangles(indices),
+    model.add_primitive({{"POSITION", positions}, {"NORMAL", normals}}, model.add_triangles(indices),
                         model.add_material(name, colour, GltfModel::Sides::front));
   }
   return model.bytes();
 }
 
+namespace {
+
+void write_ply_file(const std::string& path, const Tiling& tiling) { write_file(path, ply_bytes(tiling)); }
+
+void write_glb_file(const std::string& path, const Tiling& tiling) {
+  require_closed_triangles(tiling);
+  write_file(path, glb_bytes(tiling));
+}
+
+struct TilingFormat {
+  const char* ending;
+  void (*write)(const std::string& path, const Tiling& tiling);
+};
+
+constexpr TilingFormat tiling_formats[] = {{".ply", write_ply_file},
+                                           {".obj", write_obj_and_mtl},
+                                           {".glb", write_glb_file},
+                                           {".stl", write_stl_file}};
+
+}  // namespace
+
+std::vector<std::string> tiling_endings() {
+  std::vector<std::string> endings;
+  for (const TilingFormat& format : tiling_formats) endings.emplace_back(format.ending);
+  return endings;
+}
+
 void write_tiling(const std::string& path, const Tiling& tiling) {
-  const std::string ending = lower_case_ending(path);
-  if (ending == ".ply") return write_file(path, ply_bytes(tiling));
-  if (ending == ".stl") return write_stl_file(path, tiling);
-  if (ending == ".glb") {
-    require_closed_triangles(tiling);
-    return write_file(path, glb_bytes(tiling));
-  }
-  if (ending == ".obj") return write_obj_and_mtl(path, tiling);
-  throw ArgumentError(fmt::format("{}: a tiling is written as .ply, .obj, .stl or .glb", path));
+  const std::string ending = ending_of(path);
+  for (const TilingFormat& format : tiling_formats)
+    if (ending == format.ending) return format.write(path, tiling);
+  throw ArgumentError(fmt::format("{}: a tiling is written as {}", path, listed_choices(tiling_endings())));
 }
 
 }  // namespace orbitutte

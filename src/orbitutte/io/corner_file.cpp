@@ -38,13 +38,6 @@ std::vector<PolygonCorner> parse_corners(std::string_view text) {
 
 }  // namespace
 
-std::vector<PolygonCorner> read_corners(const std::string& path) {
-  const std::string text = read_file(path);
-  try {
-    return parse_corners(text);
-  } catch (const MeshError& error) {
-    throw MeshError(fmt::format("{}: {}", path, error.what()));
-  }
-}
+std::vector<PolygonCorner> read_corners(const std::string& path) { return parse_file(path, parse_corners); }
 
 }  // namespace orbitutte

@@ -186,4 +186,10 @@ void write_file(const std::string& path, std::string_view bytes) {
   }
 }
 
+std::string ending_of(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  for (char& c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return ending;
+}
+
 }  // namespace orbitutte

@@ -4,6 +4,9 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
+
+#include "orbitutte/errors.h"
 
 namespace orbitutte {
 
@@ -17,5 +20,20 @@ std::string read_standard_input();
 /// at all. If something exists there that is not a regular file (a pipe, /dev/stdout), it is written to
 /// directly, never replaced. Throws FileError with the path and the system's reason.
 void write_file(const std::string& path, std::string_view bytes);
+
+/// What `parse` makes of the bytes of a file. Throws FileError, and the MeshError of `parse` with the path
+/// before its message.
+template <typename Parse>
+auto parse_file(const std::string& path, const Parse& parse) {
+  std::string bytes = read_file(path);
+  try {
+    return parse(std::move(bytes));
+  } catch (const MeshError& error) {
+    throw MeshError(path + ": " + error.what());
+  }
+}
+
+/// The ending by which writers choose a format: ".ply" of "A Mesh.PLY".
+std::string ending_of(const std::string& path);
 
 }  // namespace orbitutte

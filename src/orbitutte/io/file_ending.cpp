@@ -2,7 +2,8 @@
 #include "orbitutte/io/file_ending.h"
 
 #include <algorithm>
-#include <filesystem>
+
+#include "orbitutte/io/file.h"
 
 namespace orbitutte {
 
@@ -20,12 +21,8 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-std::string lower_case_ending(const std::string& path) {
-  return lower_case(std::filesystem::path(path).extension().string());
-}
-
 std::string without_gz(const std::string& path) {
-  return lower_case_ending(path) == ".gz" ? path.substr(0, path.size() - 3) : path;
+  return ending_of(path) == ".gz" ? path.substr(0, path.size() - 3) : path;
 }
 
 }  // namespace orbitutte

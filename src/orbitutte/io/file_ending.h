@@ -16,7 +16,4 @@ std::string lower_case(std::string text);
 /// The path without `.gz` (any case) at its end.
 std::string without_gz(const std::string& path);
 
-/// The last ending of a path, in lower case with its dot; empty if there is none.
-std::string lower_case_ending(const std::string& path);
-
 }  // namespace orbitutte

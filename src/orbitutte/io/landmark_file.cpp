@@ -52,14 +52,7 @@ int vertex_of(std::string_view word, std::string_view entry) {
 
 }  // namespace
 
-std::vector<Landmark> read_landmarks(const std::string& path) {
-  std::string text = read_file(path);
-  try {
-    return landmarks_in(std::move(text));
-  } catch (const MeshError& error) {
-    throw MeshError(fmt::format("{}: {}", path, error.what()));
-  }
-}
+std::vector<Landmark> read_landmarks(const std::string& path) { return parse_file(path, landmarks_in); }
 
 std::vector<Landmark> parse_landmarks(std::string_view list) {
   std::vector<Landmark> landmarks;

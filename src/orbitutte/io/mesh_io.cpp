@@ -71,15 +71,22 @@ void write_bytes(const std::string& path, const std::string& bytes) {
 
 }  // namespace
 
+std::vector<std::string> mesh_endings() {
+  std::vector<std::string> endings;
+  for (const FormatRow& known : formats)
+    endings.emplace_back(known.endings.substr(0, known.endings.find(' ')));
+  return endings;
+}
+
 MeshFormat mesh_format(const std::string& path) {
-  const std::string ending = lower_case_ending(without_gz(path));
+  const std::string ending = ending_of(without_gz(path));
   for (const FormatRow& known : formats)
     if (!ending.empty() && has_word(known.endings, ending)) return known.format;
   throw ArgumentError(fmt::format(
       "{}: the ending names no known mesh format; use one of {}, each also with .gz", path, known_endings()));
 }
 
-bool is_compressed(const std::string& path) { return lower_case_ending(path) == ".gz"; }
+bool is_compressed(const std::string& path) { return ending_of(path) == ".gz"; }
 
 PolygonMesh parse_mesh(std::string_view bytes, MeshFormat format) {
   if (bytes.empty()) throw MeshError("the file is empty; export it again");

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "orbitutte/mesh/polygon_mesh.h"
 #include "orbitutte/names.h"
@@ -39,6 +40,9 @@ struct MeshInput {
 /// (GIfTI), .vtk, .vtp, .gltf, .glb; FreeSurfer's .pial, .white, .inflated, .sphere, .orig, .smoothwm, .reg
 /// and .nofix. Throws ArgumentError naming the endings known.
 MeshFormat mesh_format(const std::string& path);
+
+/// The usual ending of every format.
+std::vector<std::string> mesh_endings();
 
 /// Does the path end in `.gz` (any case)?
 bool is_compressed(const std::string& path);

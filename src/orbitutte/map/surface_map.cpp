@@ -108,7 +108,7 @@ class Mapping {
     map_.landmarks = landmarks;
     map_.map_class.tile = options.tile;
     // The shapes of more landmarks lie too far out in the hyperbolic plane for a search.
-    if (places_.count() > most_compared && target_.has_free_tile && !is_flat())
+    if (places_.count() > most_compared && target_.has_curved_free_tile())
       map_.map_class.tile = TileShape::regular;
   }
 
@@ -174,7 +174,7 @@ class Mapping {
   // the place of one that was asked for. The first results are kept if none is certified.
   void try_other_tours() {
     constexpr std::size_t most_tries = 3;
-    if (options_.tour.empty() || !target_.has_free_tile || is_flat()) return;
+    if (options_.tour.empty() || !target_.has_curved_free_tile()) return;
     const std::array<EmbedResult, 2> results = {sides_[0]->result, sides_[1]->result};
     const SharingOptions sharing = sharing_;
     const MapClass first_class = map_.map_class;
@@ -274,7 +274,7 @@ class Mapping {
     }
   }
 
-  bool is_twisted() const { return !is_flat() && !sharing_.braid.empty(); }
+  bool is_twisted() const { return target_.has_curved_free_tile() && !sharing_.braid.empty(); }
 
   void compare(const Problems& problems) {
     sharing_.own = own_tiles(pair_of(problems), lbfgs(), stage_);
@@ -286,7 +286,8 @@ class Mapping {
   }
 
   IsotopyClass class_of(const std::array<TiledPositions, 2>& own) const {
-    if (!is_flat()) return isotopy_class(moduli_of(target_, sides_[0]->cut), own[0].cones, own[1].cones);
+    if (target_.has_curved_free_tile())
+      return isotopy_class(moduli_of(target_, sides_[0]->cut), own[0].cones, own[1].cones);
     const auto complex = [](const Points& cones) {
       Eigen::VectorXcd result(cones.rows());
       for (Eigen::Index k = 0; k < cones.rows(); ++k) result[k] = {cones(k, 0), cones(k, 1)};
@@ -299,9 +300,9 @@ class Mapping {
   // keeps it from finer tolerances.
   LbfgsOptions lbfgs() const {
     constexpr double finest_on_free_tile = 1e-9;
-    const bool is_curved = target_.has_free_tile && !is_flat();
     LbfgsOptions result;
-    result.tolerance = std::max(options_.embed.tolerance, is_curved ? finest_on_free_tile : 0);
+    result.tolerance =
+        std::max(options_.embed.tolerance, target_.has_curved_free_tile() ? finest_on_free_tile : 0);
     result.max_iterations = options_.embed.max_iterations;
     return result;
   }
@@ -348,8 +349,6 @@ class Mapping {
     sharing_.lbfgs = lbfgs();
     return place_together(problems, sharing_, stage_);
   }
-
-  bool is_flat() const { return target_.space == Space::plane(); }
 
   bool has_classes() const {
     return target_.has_free_tile && target_.topology == Topology::sphere &&

@@ -37,4 +37,27 @@ Polygons Surface::polygons_on(const Triangles& cut, const std::vector<char>& tur
   return result;
 }
 
+Eigen::VectorXd Surface::vertex_areas() const {
+  Eigen::VectorXd areas = Eigen::VectorXd::Zero(vertex_count());
+  for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
+    const double third = area(f) / 3;
+    for (const int v : triangles.row(f)) areas[v] += third;
+  }
+  return areas;
+}
+
+Points vertex_normals(const Points& V, const Triangles& F) {
+  Points normals = Points::Zero(V.rows(), 3);
+  for (const auto& v : F.rowwise()) {
+    const Vector3 a = V.row(v[0]), b = V.row(v[1]), c = V.row(v[2]);
+    const Vector3 normal = (b - a).cross(c - a);
+    for (int k = 0; k < 3; ++k) normals.row(v[k]) += normal.transpose();
+  }
+  for (Eigen::Index v = 0; v < V.rows(); ++v) {
+    const Vector3 sum = normals.row(v);
+    normals.row(v) = (sum.isZero(0) ? Vector3(Vector3::UnitZ()) : sum.stableNormalized()).transpose();
+  }
+  return normals;
+}
+
 }  // namespace orbitutte

@@ -35,6 +35,9 @@ struct Surface {
   /// The area of a triangle.
   double area(Eigen::Index triangle) const;
 
+  /// n: a third of the area of the triangles around each vertex.
+  Eigen::VectorXd vertex_areas() const;
+
   /// n: 1 for the vertices on the boundary.
   std::vector<char> boundary_vertices() const;
 
@@ -46,5 +49,9 @@ struct Surface {
   /// (its second and third vertex exchanged), its polygon is, too.
   Polygons polygons_on(const Triangles& cut, const std::vector<char>& turned = {}) const;
 };
+
+/// Unit normals of the vertices (n x 3), each the mean over its triangles by their areas; (0, 0, 1) where
+/// there is none.
+Points vertex_normals(const Points& V, const Triangles& F);
 
 }  // namespace orbitutte

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "orbitutte/orbifold/target_words.h"
+
 namespace orbitutte {
 namespace {
 
@@ -22,7 +24,7 @@ double flat_angle(const Mark& mark) { return mark.kind == ConeKind::corner ? pi 
 void check_cone_topology(Topology topology) {
   if (topology != Topology::sphere && topology != Topology::disk)
     throw ArgumentError(
-        fmt::format("cones of any angles need a sphere or a disk, not a {}", name_of(topology)));
+        fmt::format("cones of any angles need a sphere or a disk, not a {}", text_of(topology)));
 }
 
 void check_cone_marks(Topology topology, const std::vector<Mark>& marks) {

@@ -236,6 +236,24 @@ std::optional<Points> Moduli::retract(const Points& marks, const Eigen::VectorXd
   return closed(moved);
 }
 
+namespace {
+
+// The point from which the others are seen best: the farthest from being opposite to any of them on the
+// sphere, where the directions to the opposite point are lost.
+Vector3 best_seen_from(Space space, const std::vector<Vector3>& points) {
+  if (!space.is_closed()) return points.front();
+  const auto from_opposite = [&](const Vector3& at) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Vector3& point : points) least = std::min(least, (at + point).squaredNorm());
+    return least;
+  };
+  return *std::max_element(points.begin(), points.end(), [&](const Vector3& p, const Vector3& q) {
+    return from_opposite(p) < from_opposite(q);
+  });
+}
+
+}  // namespace
+
 // Of the polygon that the surface becomes if every cone is joined by a cut of its own to the first mark, or
 // to the corner before it: at the cone its boundary turns back to what the cone's rotation makes of that.
 bool Moduli::encloses_area(const Points& marks) const {
@@ -248,9 +266,10 @@ bool Moduli::encloses_area(const Points& marks) const {
     root = order_.is_corner(i) ? corners.back() : Vector3(about[i].inverse() * root);
     if (!order_.is_corner(i)) corners.push_back(root);
   }
+  const Vector3 from = best_seen_from(space_, corners);
   double off = -area();
-  for (std::size_t c = 1; c + 1 < corners.size(); ++c)
-    off += space_.area(corners[0], corners[c], corners[c + 1]);
+  for (std::size_t c = 0; c < corners.size(); ++c)
+    off += space_.area(from, corners[c], corners[(c + 1) % corners.size()]);
   // A mirror may be longer than the chord, which runs the other way around.
   if (space_.is_closed()) off = std::remainder(off, order_.is_disk() ? 2 * pi : 4 * pi);
   return std::abs(off) < 1e-3;

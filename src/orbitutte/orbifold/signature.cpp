@@ -136,14 +136,16 @@ Halves split(const std::string& text) {
     } else if ((c == 'x' || c == 'X' || multiplication_sign) && !halves.star && !halves.cross) {
       halves.cross = true;
       if (multiplication_sign) ++k;
+    } else if (c == 'N') {
+      refuse(text, "has the letter N, which stands for any order; put a number for it, as in 22* or 2,2,12");
     } else if (c == '*' || c == 'x' || c == 'X' || multiplication_sign) {
-      refuse(text, "has more than one star or cross, which no orbifold of the sphere or the plane has");
+      refuse(text, "has more than one star or cross; orbifolds with two have no tile here");
     } else {
       refuse(text,
              "is no Conway symbol: it may hold digits, commas, one '*' and one 'x'; see 'orbitutte types'");
     }
   }
-  if (text.empty()) throw ArgumentError("the signature is empty; see 'orbitutte types'");
+  if (text.empty()) throw ArgumentError("the symbol is empty; see 'orbitutte types'");
   return halves;
 }
 
@@ -260,6 +262,11 @@ Target parse_orbifold(const std::string& signature) {
   target.is_free_to_rotate =
       !target.has_free_tile && is_free_to_rotate(basic_tile(target, first_arrangement(target)));
   return target;
+}
+
+Target standard_target(Topology topology) {
+  if (topology == Topology::projective_plane) return parse_orbifold("1x");
+  return parse_orbifold(topology == Topology::disk ? "*222" : "222");
 }
 
 bool are_opposite(const std::vector<Mark>& marks) {

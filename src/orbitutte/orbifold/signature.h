@@ -17,6 +17,9 @@ namespace orbitutte {
 /// Euclidean orbifolds that have no tile here.
 Target parse_orbifold(const std::string& signature);
 
+/// What a surface is marked for if no orbifold is named: 222, *222 or 1x.
+Target standard_target(Topology topology);
+
 /// Do the marks lie at opposite points of the sphere? They do if there are two and both are alike.
 bool are_opposite(const std::vector<Mark>& marks);
 

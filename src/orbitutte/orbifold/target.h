@@ -83,6 +83,9 @@ struct Target {
   /// Do the angles leave the shape of the tile open? Then it is found together with the map, and is the
   /// surface's own: the one for which the map is conformal (free_tile.h).
   bool has_free_tile = false;
+
+  /// Is it open in a curved space, where it takes a search? In the plane one linear solve finds it.
+  bool has_curved_free_tile() const { return has_free_tile && space != Space::plane(); }
 };
 
 }  // namespace orbitutte

@@ -15,6 +15,7 @@
 #include "orbitutte/io/base64.h"
 #include "orbitutte/orbifold/polygon.h"
 #include "orbitutte/orbifold/symmetry_group.h"
+#include "orbitutte/orbifold/target_words.h"
 #include "orbitutte/page/html_template.h"
 #include "orbitutte/page/page_assets.h"
 #include "orbitutte/page/page_frame.h"
@@ -83,7 +84,7 @@ std::string plural(long long count, const std::string& noun) {
 std::string check_meaning(const std::string& name) {
   static const std::map<std::string, std::string> meanings = {
       {"cut_mesh", "The embedding has the input's faces and vertices: offences"},
-      {"unit_positions", "Positions are unit vectors: largest error"},
+      {"unit_positions", "Positions are points of the target's space: largest error"},
       {"seam_gluing", "Seams pair the whole boundary of one disk, once, if there is any: offences"},
       {"seam_transforms", "Seams are glued by rotations and reflections: offences"},
       {"cones", "Cones and corners are those of the orbifold: offences"},
@@ -97,8 +98,8 @@ std::string check_meaning(const std::string& name) {
       {"angle_sums", "Angles around all other vertices: largest error"},
       {"offsets", "Offsets are finite and name cut vertices: offences"},
       {"exact_positions",
-       "Positions with offsets are unit vectors: largest error, in shares of the shortest edge"},
-      {"signed_area", "Total area is the tile's, 4π/|G|, or the polygon's: error"}};
+       "Positions with offsets are such points, too: largest error, in shares of the shortest edge"},
+      {"signed_area", "Total area is that of the tile or the polygon: error"}};
   const auto found = meanings.find(name);
   return found == meanings.end() ? name : found->second;
 }
@@ -122,19 +123,14 @@ std::string failed_checks(const Certificate& certificate) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-std::string group_text(const Target& target) {
-  if (!tiles_its_space(target)) return "none";
-  return target.group_order > 0 ? plural(target.group_order, "element") : "infinitely many elements";
-}
-
 // What the copies of the tile cover.
 std::string covering(const Target& target) {
-  if (!tiles_its_space(target))
-    return "the tile, glued along its seams, covers the flat surface with these cones";
-  if (target.group_order == 1) return "the tile covers the sphere";
-  if (target.group_order == 0)
-    return fmt::format("its symmetric copies cover the {} plane", target.space.name());
-  return fmt::format("its {} symmetric copies cover the sphere", target.group_order);
+  if (!target.corners.empty()) return "the map covers the polygon";
+  if (!tiles_its_space(target)) return "the tile, glued along its seams, covers the surface with these cones";
+  const std::string space = text_of(target.space);
+  if (target.group_order == 1) return "the tile covers " + space;
+  const std::string count = target.group_order > 0 ? fmt::format("{} ", target.group_order) : "";
+  return fmt::format("its {}symmetric copies cover {}", count, space);
 }
 
 std::string verdict_sentence(const Judgement& judgement, const Embedding& embedding) {
@@ -349,7 +345,9 @@ Content page_content(const PageSubject& subject, const Json& report, const PageO
                      {"style", style_sheet},
                      {"policy", page_policy(style_sheet, is_interactive(options) ? page_script : "")},
                      {"mesh_name", mesh_name(report)},
+                     {"topology", text_of(embedding.target.topology)},
                      {"signature", embedding.target.signature},
+                     {"place", place_in(embedding.space())},
                      {"group", group_text(embedding.target)},
                      {"warnings", warnings(report, judgement)},
                      {"figures", key_figures(report, embedding)},

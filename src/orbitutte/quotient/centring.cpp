@@ -155,11 +155,11 @@ Points positions_after(const Moebius& moebius, const std::vector<ChartPoint>& po
 }
 
 Eigen::VectorXd vertex_shares(const Surface& surface, Centre centre) {
-  const Triangles& F = surface.triangles;
   Eigen::VectorXd shares = Eigen::VectorXd::Zero(surface.vertex_count());
-  for (int f = 0; f < static_cast<int>(F.rows()); ++f) {
-    const double third = centre == Centre::area ? surface.area(f) / 3 : 0.0;
-    for (const int v : F.row(f)) shares[v] = centre == Centre::area ? shares[v] + third : 1.0;
+  if (centre == Centre::area) {
+    shares = surface.vertex_areas();
+  } else {
+    for (const int v : surface.triangles.reshaped()) shares[v] = 1;
   }
   const double sum = shares.sum();
   return sum > 0 ? Eigen::VectorXd(shares / sum) : shares;

@@ -177,8 +177,8 @@ Moebius wanted_map(const SphereImages& images, const QuotientOptions& options) {
 
 // What the group leaves as it is, in the frame of the embedding.
 Matrix3 fixed_by_group_of(const Embedding& embedding) {
-  const Matrix3& frame = embedding.placement.matrix();
-  return frame * fixed_by(embedding.target) * frame.transpose();
+  const Isometry& placement = embedding.placement;
+  return placement.matrix() * fixed_by(embedding.target) * placement.inverse_matrix();
 }
 
 // Moves all positions, offsets included.
@@ -209,9 +209,7 @@ Target quotient_target(const Target& base) {
   return parse_orbifold(base.topology == Topology::sphere ? "1" : "*");
 }
 
-Target quotient_base(const Target& whole) {
-  return parse_orbifold(is_closed_surface(whole) ? "222" : "*222");
-}
+Target quotient_base(const Target& whole) { return standard_target(whole.topology); }
 
 void require_points(const Surface& surface, const Target& onto, const std::vector<PolygonCorner>& points) {
   if (points.size() > 3)

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "orbitutte/io/file.h"
-#include "orbitutte/io/file_ending.h"
 #include "orbitutte/render/chart_drawing.h"
 #include "orbitutte/render/default_view.h"
 #include "orbitutte/render/render.h"
@@ -42,7 +41,7 @@ Common common_of(const std::vector<ComparedMap>& maps) {
 }
 
 PictureFormat format_of(const std::string& path) {
-  const std::string ending = lower_case_ending(path);
+  const std::string ending = ending_of(path);
   if (ending == ".png") return PictureFormat::png;
   if (ending == ".svg") return PictureFormat::svg;
   throw ArgumentError(fmt::format("{}: a comparison is written as .png or .svg", path));

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "orbitutte/export/common_view.h"
-#include "orbitutte/export/file_ending.h"
 #include "orbitutte/export/html_text.h"
 #include "orbitutte/export/overlay_pieces.h"
 #include "orbitutte/io/file.h"
@@ -224,7 +223,7 @@ std::string map_sheet_png(const MapSheet& sheet) {
 }
 
 void write_map_sheet(const std::string& path, const MapSheet& sheet) {
-  if (lower_case_ending(path) != ".png")
+  if (ending_of(path) != ".png")
     throw ArgumentError(fmt::format("{}: the pictures of a map are written as .png", path));
   write_file(path, map_sheet_png(sheet));
 }

@@ -6,14 +6,12 @@
 
 #include <Eigen/Geometry>
 #include <array>
-#include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <optional>
 #include <vector>
 
 #include "orbitutte/io/file.h"
-#include "orbitutte/io/file_ending.h"
+#include "orbitutte/io/text_scanner.h"
 #include "orbitutte/render/camera.h"
 #include "orbitutte/render/panels.h"
 
@@ -85,9 +83,7 @@ std::string picture(PictureFormat format, const RenderSubject& subject, const Re
 template <typename Number>
 std::optional<Number> to_number(std::string_view text) {
   Number number = 0;
-  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || stop != text.data() + text.size()) return std::nullopt;
-  return number;
+  return parse_number(text, number) == NumberError::none ? std::optional(number) : std::nullopt;
 }
 
 // "x,y,z", finite and not all zero.
@@ -161,7 +157,7 @@ std::string render_svg(const RenderSubject& subject, const RenderOptions& option
 }
 
 void write_picture(const std::string& path, const RenderSubject& subject, const RenderOptions& options) {
-  const std::string ending = lower_case_ending(path);
+  const std::string ending = ending_of(path);
   if (ending == ".png") return write_file(path, render_png(subject, options));
   if (ending == ".svg") return write_file(path, render_svg(subject, options));
   throw ArgumentError(fmt::format("{}: a picture is written as .png or .svg", path));

@@ -7,16 +7,12 @@
 
 #include "orbitutte/export/html_text.h"
 #include "orbitutte/orbifold/symmetry_group.h"
+#include "orbitutte/orbifold/target_words.h"
 #include "orbitutte/render/panels.h"
 #include "orbitutte/render/render.h"
 
 namespace orbitutte {
 namespace {
-
-std::string group_text(const Embedding& embedding, const Report& report) {
-  if (!tiles_its_space(embedding.target)) return "no group";
-  return report.group_order > 0 ? fmt::format("group of order {}", report.group_order) : "infinite group";
-}
 
 // What the source mesh is drawn with.
 const char* source_caption(const Embedding& embedding) {
@@ -34,7 +30,7 @@ std::string summary(const RenderSubject& subject) {
   const Report& report = subject.report;
   return fmt::format("{} faces,  {}{},  energy {:.6g},  {}",
                      grouped_digits(subject.embedding.faces().count()),
-                     marked_vertices_text(subject.embedding), group_text(subject.embedding, report),
+                     marked_vertices_text(subject.embedding), group_text(subject.embedding.target),
                      report.energy, report.bijective ? "certified bijective" : "not certified");
 }
 
@@ -63,8 +59,8 @@ void draw_captioned(Canvas& canvas, const Box& box, PictureParts& parts, const C
 
 std::string tile_caption(const Embedding& embedding) {
   if (embedding.seams.empty()) return "Its image on the sphere";
-  const int k = embedding.space().curvature();
-  const char* where = k > 0 ? "on the sphere" : k == 0 ? "in the plane" : "in Poincaré's disk";
+  const bool is_in_disk = embedding.space() == Space::hyperbolic_plane();
+  const std::string where = is_in_disk ? "in Poincaré's disk" : place_in(embedding.space());
   const bool are_all = embedding.target.group_order > 0;
   const char* copies = !tiles_its_space(embedding.target) ? ""
                        : are_all                          ? ", and the copies"

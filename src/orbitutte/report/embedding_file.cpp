@@ -146,13 +146,6 @@ std::vector<std::string> warnings_of_offsets(const Embedding& embedding) {
                   vertices, embedding.offsets.front().vertex)};
 }
 
-Embedding read_embedding(const std::string& path) {
-  const std::string bytes = read_file(path);
-  try {
-    return parse_embedding(bytes);
-  } catch (const MeshError& error) {
-    throw MeshError(fmt::format("{}: {}", path, error.what()));
-  }
-}
+Embedding read_embedding(const std::string& path) { return parse_file(path, parse_embedding); }
 
 }  // namespace orbitutte

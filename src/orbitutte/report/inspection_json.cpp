@@ -77,7 +77,8 @@ std::string families_json() {
     rows.push_back({{"family", family.family},
                     {"group_order", family.group_order},
                     {"input", name_of(family.topology)},
-                    {"marked_points", family.marked_points}});
+                    {"marked_vertices", family.marked_points},
+                    {"marked_points", family.marked_points}});  // its older name
   return rows.dump(1) + "\n";
 }
 

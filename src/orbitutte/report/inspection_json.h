@@ -22,7 +22,8 @@ std::vector<WeakPlace> weak_places_if_sound(const PolygonMesh& mesh, const Inspe
 std::string inspection_json(const std::string& path, const PolygonMesh& mesh, const Inspection& inspection,
                             const std::vector<WeakPlace>& places);
 
-/// All families, as JSON: a list of objects with `family`, `group_order`, `input` and `marked_points`.
+/// All families, as JSON: a list of objects with `family`, `group_order`, `input` and `marked_vertices` (also
+/// under its older name, `marked_points`).
 std::string families_json();
 
 }  // namespace orbitutte

@@ -401,14 +401,7 @@ Report parse_report(std::string_view text) {
   }
 }
 
-Report read_report(const std::string& path) {
-  const std::string text = read_file(path);
-  try {
-    return parse_report(text);
-  } catch (const MeshError& error) {
-    throw MeshError(fmt::format("{}: {}", path, error.what()));
-  }
-}
+Report read_report(const std::string& path) { return parse_file(path, parse_report); }
 
 namespace {
 

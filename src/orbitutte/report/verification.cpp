@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "orbitutte/orbifold/precise_group.h"
 #include "orbitutte/orbifold/signature.h"
@@ -26,7 +27,13 @@ Check claim(std::string name, bool holds, std::string detail) {
 std::optional<EdgeWeights> weights_at_hand(const Surface& surface, const Embedding& embedding,
                                            const Report& report, const VerificationOptions& options) {
   if (options.weights) return options.weights;
-  if (report.weights.kind != WeightKind::file) return weights_of(surface, embedding, report);
+  if (report.weights.kind != WeightKind::file) {
+    if (!options.weights_file.empty())
+      throw ArgumentError(fmt::format(
+          "the weights of this embedding are {}, which need no file; leave out the file of weights",
+          name_of(report.weights.kind)));
+    return weights_of(surface, embedding, report);
+  }
   if (options.weights_file.empty()) return std::nullopt;
   return read_weights(options.weights_file, surface.connectivity);
 }
@@ -52,14 +59,16 @@ bool has_cover(const Certificate& certificate) {
                      [&](const char* name) { return has_passed(certificate, name); });
 }
 
-Theorem2 not_run(const char* reason) {
+Theorem2 not_run(std::string reason) {
   Theorem2 theorem2;
-  theorem2.detail = reason;
+  theorem2.detail = std::move(reason);
   return theorem2;
 }
 
 Theorem2 theorem2_of(const Surface& surface, const std::optional<EdgeWeights>& weights,
                      const Embedding& embedding, const Certificate& certificate) {
+  if (std::string reason = reason_without_theorem2(embedding.target); !reason.empty())
+    return not_run(std::move(reason));
   if (!has_cover(certificate)) return not_run("the copies of the embedding do not fit together");
   if (!weights) return not_run("the weights came from a file: give it with --weights-file");
   return check_theorem2(surface, *weights, embedding);

@@ -36,8 +36,9 @@ struct Verdict {
   std::optional<Theorem2> theorem2;
 };
 
-/// surface: the input. Throws as read_weights and weight_kind do. Whatever is wrong with the embedding or
-/// its report is a failed check.
+/// surface: the input. Throws ArgumentError if there is a file of weights, but the weights came from none,
+/// and as read_weights and weight_kind do. Whatever is wrong with the embedding or its report is a failed
+/// check.
 Verdict verify(const Surface& surface, const Embedding& embedding, const Report& report,
                const VerificationOptions& options = {});
 

@@ -64,16 +64,6 @@ double area_of(const Surface& surface) {
   return parallel_sum(surface.triangle_count(), [&](int f) { return surface.area(f); });
 }
 
-// The share of each vertex in that area.
-Eigen::VectorXd area_shares(const Surface& surface) {
-  Eigen::VectorXd share = Eigen::VectorXd::Zero(surface.vertex_count());
-  for (int f = 0; f < surface.triangle_count(); ++f) {
-    const double area = surface.area(f);
-    for (int i = 0; i < 3; ++i) share[surface.triangles(f, i)] += area;
-  }
-  return share / share.sum();
-}
-
 // What the angles around each vertex add up to where nothing is marked; zero if no triangle uses it.
 Eigen::VectorXd ordinary_angles(const Surface& surface) {
   Eigen::VectorXd angles = Eigen::VectorXd::Zero(surface.vertex_count());
@@ -164,7 +154,7 @@ class ConformalScale {
     const Connectivity& connectivity = triangulation ? triangulation->connectivity : surface_.connectivity;
     SparseMatrix A = assemble(unknowns_, vertex_neighbors(connectivity.edges, surface_.vertex_count()),
                               problem.weights.w, [](int, int) -> Block { return Block::Ones(1, 1); });
-    const Eigen::VectorXd share = area_shares(surface_);
+    const Eigen::VectorXd areas = surface_.vertex_areas(), share = areas / areas.sum();
     for (const int v : unknowns_.order)
       A.valuePtr()[A.outerIndexPtr()[unknowns_.first[v]]] += 2 * area_ * share[v];
     return A;

@@ -603,8 +603,11 @@ class AreaContinuation {
   Points cones_of(const Points& x, const Moduli& moduli) const {
     if (const std::optional<Points> cones = moduli.closed(x(cones_as_met(problem_.cut), Eigen::all)))
       return *cones;
-    throw MeshError(fmt::format("no tile of {} with an area of {:.4g} is near that of a smaller one",
-                                problem_.target.signature, moduli.area()));
+    throw MeshError(
+        fmt::format("the search for the shape of the tile of {} failed at the area {:.4g} of {:.4g}; mark "
+                    "other vertices, "
+                    "or take other angles",
+                    problem_.target.signature, moduli.area(), free_tile_area(problem_.target)));
   }
 
   const GluingProblem& problem_;

@@ -165,7 +165,7 @@ Placement moved(const GluingProblem& problem, const Isometry& isometry, const Pl
 
 Placement place(const GluingProblem& problem, const LbfgsOptions& options, Stages& stage) {
   const bool is_free = problem.target.has_free_tile;
-  if (is_free && problem.target.space != Space::plane()) return place_on_curved_tile(problem, options, stage);
+  if (problem.target.has_curved_free_tile()) return place_on_curved_tile(problem, options, stage);
   const GluedEdges glued = glued_along(problem, problem.boundary);
   require_apart(glued, problem.boundary, problem.target);
   const LaplacianSolver laplacian = stage("factorize", [&] {

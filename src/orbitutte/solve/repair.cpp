@@ -51,7 +51,7 @@ class Repair {
 
   std::vector<int> run(const std::vector<int>& turned) {
     if (!open_stars(turned) && !relax_patches(turned)) return {};
-    const std::set<int> around = with_neighbours(vertices_of(turned));
+    const std::set<int> around = site_.stars.with_neighbours(vertices_of(turned));
     for (int sweep = 0; sweep < smoothing_sweeps; ++sweep) {
       bool any = false;
       for (const int v : around) any = smooth(v) || any;
@@ -68,7 +68,8 @@ class Repair {
     std::set<int> reached = vertices_of(turned);
     for (int sweep = 0; sweep < most_sweeps && !broken.empty(); ++sweep) {
       std::set<int> vertices = vertices_of(broken);
-      for (int ring = 0; ring < sweep / sweeps_per_ring; ++ring) vertices = with_neighbours(vertices);
+      for (int ring = 0; ring < sweep / sweeps_per_ring; ++ring)
+        vertices = site_.stars.with_neighbours(vertices);
       for (const int v : vertices) open_star(v);
       reached.merge(vertices);
       broken = nonpositive_at(reached);
@@ -82,7 +83,7 @@ class Repair {
   // Tutte's embedding of patches that grow, their rings held.
   bool relax_patches(const std::vector<int>& turned) {
     std::set<int> patch = vertices_of(turned);
-    for (int ring = 0; ring <= most_rings; ++ring, patch = with_neighbours(patch)) {
+    for (int ring = 0; ring <= most_rings; ++ring, patch = site_.stars.with_neighbours(patch)) {
       for (const PatchWeights weights : {PatchWeights::cotan, PatchWeights::mean_value}) {
         const std::size_t before = positions_.moves();
         std::vector<Neighbourhood> neighbourhoods;
@@ -132,13 +133,6 @@ class Repair {
     for (const int f : faces)
       for (const int v : site_.surface.triangles.row(f)) vertices.insert(v);
     return vertices;
-  }
-
-  std::set<int> with_neighbours(const std::set<int>& vertices) const {
-    std::set<int> result = vertices;
-    for (const int v : vertices)
-      for (const StarTriangle& triangle : site_.stars.around(v)) result.insert({triangle.a, triangle.b});
-    return result;
   }
 
   std::vector<int> nonpositive_at(const std::set<int>& vertices) const {

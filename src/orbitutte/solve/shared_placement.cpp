@@ -215,14 +215,14 @@ std::array<Placement, 2> place_on_curved_tile(const ProblemPair& problems, const
   return placed;
 }
 
-bool is_flat(const ProblemPair& problems) { return problems[0].get().target.space == Space::plane(); }
+bool is_curved(const ProblemPair& problems) { return problems[0].get().target.has_curved_free_tile(); }
 
 }  // namespace
 
 std::array<TiledPositions, 2> own_tiles(const ProblemPair& problems, const LbfgsOptions& options,
                                         Stages& stage) {
   return stage("initialize", [&]() -> std::array<TiledPositions, 2> {
-    if (!is_flat(problems)) return own_curved_tiles(problems, options);
+    if (is_curved(problems)) return own_curved_tiles(problems, options);
     const auto sides = flat_surfaces(problems);
     return {{{sides[0]->own_cones(), {}}, {sides[1]->own_cones(), {}}}};
   });
@@ -230,8 +230,8 @@ std::array<TiledPositions, 2> own_tiles(const ProblemPair& problems, const Lbfgs
 
 std::array<Placement, 2> place_together(const ProblemPair& problems, const SharingOptions& options,
                                         Stages& stage) {
-  return is_flat(problems) ? place_in_plane(problems, options, stage)
-                           : place_on_curved_tile(problems, options, stage);
+  return is_curved(problems) ? place_on_curved_tile(problems, options, stage)
+                             : place_in_plane(problems, options, stage);
 }
 
 }  // namespace orbitutte

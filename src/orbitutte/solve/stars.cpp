@@ -64,4 +64,11 @@ std::vector<StarTriangle> Stars::around(int vertex) const {
   return star;
 }
 
+std::set<int> Stars::with_neighbours(const std::set<int>& vertices) const {
+  std::set<int> result = vertices;
+  for (const int v : vertices)
+    for (const StarTriangle& triangle : around(v)) result.insert({triangle.a, triangle.b});
+  return result;
+}
+
 }  // namespace orbitutte

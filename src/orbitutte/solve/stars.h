@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -29,6 +30,9 @@ class Stars {
         Elements& elements);
 
   std::vector<StarTriangle> around(int vertex) const;
+
+  /// The vertices, and those around them.
+  std::set<int> with_neighbours(const std::set<int>& vertices) const;
 
   /// Does the triangle become an arc?
   bool leaves_out(int triangle) const { return is_flat_[triangle] != 0; }

@@ -49,7 +49,7 @@ class Tip {
         from_centre_(space_.to_origin(centre_)) {}
 
   // Is a face beside the cone or beside a neighbour of it not positive?
-  bool is_turned() const { return count_turned(with_neighbours({cone_})) > 0; }
+  bool is_turned() const { return count_turned(site_.stars.with_neighbours({cone_})) > 0; }
 
   // All faces positive, or, if no patch does that, the fewest not: thin ones are left for others to repair.
   std::vector<int> run() {
@@ -57,7 +57,7 @@ class Tip {
     int fewest = std::numeric_limits<int>::max();
     std::set<int> inside = {cone_};
     for (int rings = 0; rings < most_rings_around_tip && fewest > 0; ++rings) {
-      inside = with_neighbours(inside);
+      inside = site_.stars.with_neighbours(inside);
       if (!may_all_move(inside)) break;
       const std::optional<TipPatch> patch = patch_of(inside);
       if (!patch) continue;
@@ -75,13 +75,6 @@ class Tip {
   }
 
  private:
-  std::set<int> with_neighbours(const std::set<int>& vertices) const {
-    std::set<int> result = vertices;
-    for (const int v : vertices)
-      for (const StarTriangle& triangle : site_.stars.around(v)) result.insert({triangle.a, triangle.b});
-    return result;
-  }
-
   // Without other marks and mirrors.
   bool may_all_move(const std::set<int>& inside) const {
     return std::all_of(inside.begin(), inside.end(),

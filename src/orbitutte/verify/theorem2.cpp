@@ -98,7 +98,7 @@ double residual_norm(const Cover& cover, const SymmetryGroup& group, const Vecto
 Matrix3 coordinate_gram(const Cover& cover, const SymmetryGroup& group, const VectorXd& scale) {
   const Matrix3 here = cover.positions.transpose() * scale.asDiagonal() * cover.positions;
   Matrix3 sum = Matrix3::Zero();
-  for (const Isometry& g : group.elements()) sum += g.matrix() * here * g.matrix().transpose();
+  for (const Isometry& g : group.elements()) sum += g.matrix() * here * g.matrix().transpose();  // of (gX)
   return sum;
 }
 
@@ -310,8 +310,21 @@ Theorem2 check_cover(const Cover& cover, const SymmetryGroup& group, const Theor
 
 }  // namespace
 
+std::string reason_without_theorem2(const Target& target) {
+  if (target.group_order > 0) return {};
+  if (target.space.is_closed())
+    return "the theorem is checked for orbifolds that have a symbol, not for cones of given angles";
+  return fmt::format("the theorem speaks of finite groups of the sphere, and {} has none", target.signature);
+}
+
 Theorem2 check_theorem2(const Surface& surface, const EdgeWeights& weights, const Embedding& embedding,
                         const Theorem2Options& options) {
+  if (const std::string reason = reason_without_theorem2(embedding.target); !reason.empty()) {
+    Theorem2 result;
+    result.method = options.method;
+    result.detail = reason;
+    return result;
+  }
   const SymmetryGroup group = group_of(embedding);
   return check_cover(cover_of(surface, weights, embedding, group), group, options);
 }

@@ -68,6 +68,9 @@ struct NameTable<Theorem2::Status> {
                                                           {Theorem2::Status::not_run, "not run"}};
 };
 
+/// Why the theorem does not speak of maps to the target, which has no finite group; empty if it does.
+std::string reason_without_theorem2(const Target& target);
+
 /// Measures the longest edge, and the inertia of the matrix W of equation (11) on the |G|-fold cover,
 ///
 ///     W_ij = -w_ij d_ij / sin d_ij  (i != j),    W_ii = sum over j of w_ij d_ij cot d_ij,
@@ -85,13 +88,14 @@ struct NameTable<Theorem2::Status> {
 /// coordinates belong there. s stays at least ten times the residual, and at least 1e-6; if the residual
 /// leaves no such s, the check is inconclusive.
 ///
-/// The check is not run if the group is too large, if the factorisation breaks down or if memory runs out.
-/// The embedding must meet the conditions of cover_of; throws as cover_of does.
+/// The check is not run if the theorem does not speak of the target (reason_without_theorem2), if the group
+/// is too large, if the factorisation breaks down or if memory runs out. Otherwise the embedding must meet
+/// the conditions of cover_of; throws as cover_of does.
 Theorem2 check_theorem2(const Surface& surface, const EdgeWeights& weights, const Embedding& embedding,
                         const Theorem2Options& options = {});
 
 /// The number of eigenvalues of W x = lambda D x, as above, that the whole cover has below `shift`, with
-/// multiplicity. Throws InertiaNotFound, and as cover_of does.
+/// multiplicity. Throws ArgumentError if the group is infinite, InertiaNotFound, and as cover_of does.
 long cover_eigenvalues_below(const Surface& surface, const EdgeWeights& weights, const Embedding& embedding,
                              double shift, const Theorem2Options& options = {});
 

@@ -5,12 +5,12 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
 #include "orbitutte/io/file.h"
+#include "orbitutte/io/text_scanner.h"
 #include "orbitutte/parallel.h"
 #include "orbitutte/weights/delaunay_flips.h"
 
@@ -127,22 +127,6 @@ EdgeWeights mean_value_weights(const Surface& surface) {
   return result;
 }
 
-// Removes the next blank-separated word from a line and returns it; empty at the end.
-std::string_view next_word(std::string_view& line) {
-  const auto first = line.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return line = {};
-  line.remove_prefix(first);
-  const std::string_view word = line.substr(0, line.find_first_of(" \t\r"));
-  line.remove_prefix(word.size());
-  return word;
-}
-
-template <typename Number>
-bool parse(std::string_view word, Number& number) {
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-  return error == std::errc() && end == word.data() + word.size() && !word.empty();
-}
-
 int find_edge(const Connectivity& connectivity, int i, int j) {
   const std::array<int, 2> edge = {std::min(i, j), std::max(i, j)};
   const auto at = std::lower_bound(connectivity.edges.begin(), connectivity.edges.end(), edge);
@@ -255,18 +239,16 @@ EdgeWeights given_weights(const std::vector<WeightedEdge>& list, const Connectiv
 EdgeWeights read_weights(const std::string& path, const Connectivity& connectivity) {
   const std::string text = read_file(path);
   WeightCollector collector(connectivity);
-  int number = 0;
-  for (std::string_view rest = text; !rest.empty();) {
-    std::string_view line = rest.substr(0, rest.find('\n'));
-    rest.remove_prefix(std::min(line.size() + 1, rest.size()));
-    ++number;
-    const std::string_view first = next_word(line);
-    if (first.empty() || first.front() == '#') continue;
+  for (TextScanner scanner(text, {.comment = '#'}); scanner.find_word(); scanner.skip_words()) {
+    const int line = scanner.line();
     WeightedEdge edge;
-    if (!parse(first, edge.i) || !parse(next_word(line), edge.j) || !parse(next_word(line), edge.weight))
+    const bool is_edge = parse_number(scanner.word(), edge.i) == NumberError::none &&
+                         parse_number(scanner.word(), edge.j) == NumberError::none &&
+                         parse_number(scanner.word(), edge.weight) == NumberError::none;
+    if (!is_edge)
       throw MeshError(
-          fmt::format("{}: line {} is not 'i j w' (two vertices and a weight); mend it", path, number));
-    collector.add([&] { return fmt::format("{}: line {}", path, number); }, edge);
+          fmt::format("{}: line {} is not 'i j w' (two vertices and a weight); mend it", path, line));
+    collector.add([&] { return fmt::format("{}: line {}", path, line); }, edge);
   }
   return collector.weights(path, "line");
 }
