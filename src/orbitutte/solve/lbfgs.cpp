@@ -231,10 +231,11 @@ class LineSearch {
 
 // The rounding floor of the energy (DirichletEnergy::rounding_floor) at positions that are longer than one,
 // as in the hyperbolic plane: images of the longest are rounded by their length, and the tangential part of a
-// difference at a vertex of length z by z^2 times what the difference is.
+// difference at a vertex of length z by z^2 times what the difference is, in three coordinates.
 Eigen::VectorXd rounding_floor_at(const DirichletEnergy& energy, const Points& x) {
   const Eigen::ArrayXd length = x.col(2).array().abs().max(1.0);
-  return energy.rounding_floor().array() * length.square() * (x.rows() > 0 ? length.maxCoeff() : 1.0);
+  const double longest = x.rows() > 0 ? length.maxCoeff() : 1, coordinates = longest > 1 ? 3 : 1;
+  return coordinates * longest * energy.rounding_floor().array() * length.square();
 }
 
 bool gradient_vanishes(const Points& gradient, const Eigen::VectorXd& rounding_floor, double tolerance) {
