@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "orbitutte/parallel.h"
 
@@ -29,11 +30,10 @@ double landmark_error(const Surface& b, const SurfaceMap& map, const VertexMap& 
 ComposedMap compose(const Surface& a, const Surface& b, const SurfaceMap& map) {
   const Embedding &on_a = map.a.embedding, &on_b = map.b.embedding;
   ComposedMap result;
-  parallel_for(3, [&](int task) {
-    if (task == 0) result.overlay = overlay(on_a, on_b);
-    if (task == 1) result.a_to_b = images_of_vertices(on_a, on_b);
-    if (task == 2) result.b_to_a = images_of_vertices(on_b, on_a);
-  });
+  result.overlay = overlay(on_a, on_b);
+  VertexMaps maps = vertex_maps(result.overlay, on_a, on_b);
+  result.a_to_b = std::move(maps.a_to_b);
+  result.b_to_a = std::move(maps.b_to_a);
   result.certificate = certify(result.overlay, on_a, on_b);
   result.overlay_on_a = positions_on(a.V, on_a, result.overlay.on_a);
   result.overlay_on_b = positions_on(b.V, on_b, result.overlay.on_b);

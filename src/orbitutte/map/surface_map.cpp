@@ -27,8 +27,9 @@ namespace {
 // Tours that shut themselves off are rare.
 constexpr int most_tours = 24;
 
-// The most landmarks for which classes are compared.
-constexpr int most_compared = 8;
+// The most landmarks for which classes are compared. With more, tiles reach so far out that braids cannot be
+// followed in doubles.
+constexpr int most_compared = 12;
 
 // One of the two surfaces on the way to its embedding. The parts refer to each other.
 struct MappedSide {
@@ -107,9 +108,6 @@ class Mapping {
         stage_(options.embed.progress, map_.timings) {
     map_.landmarks = landmarks;
     map_.map_class.tile = options.tile;
-    // The shapes of more landmarks lie too far out in the hyperbolic plane for a search.
-    if (places_.count() > most_compared && target_.has_curved_free_tile())
-      map_.map_class.tile = TileShape::regular;
   }
 
   SurfaceMap run() {
@@ -232,7 +230,12 @@ class Mapping {
     Problems problems;
     state_problems(problems);
     // Other weights change neither the class nor much of the tiles.
-    if (has_classes() && sharing_.own[0].cones.size() == 0) find_class(problems);
+    if (sharing_.own[0].cones.size() == 0) {
+      if (has_classes())
+        find_class(problems);
+      else if (needs_own_tiles())
+        sharing_.own = own_tiles(pair_of(problems), lbfgs(), stage_);
+    }
     finish_both(pair_of(problems), placed(pair_of(problems)));
   }
 
@@ -286,7 +289,7 @@ class Mapping {
   }
 
   IsotopyClass class_of(const std::array<TiledPositions, 2>& own) const {
-    if (target_.has_curved_free_tile())
+    if (target_.has_curved_free_tile() || places_.count() != 4)
       return isotopy_class(moduli_of(target_, sides_[0]->cut), own[0].cones, own[1].cones);
     const auto complex = [](const Points& cones) {
       Eigen::VectorXcd result(cones.rows());
@@ -350,14 +353,20 @@ class Mapping {
     return place_together(problems, sharing_, stage_);
   }
 
+  // Where the search for the shape of a shared tile begins.
+  bool needs_own_tiles() const {
+    return target_.has_curved_free_tile() && map_.map_class.tile == TileShape::shared;
+  }
+
   bool has_classes() const {
     return target_.has_free_tile && target_.topology == Topology::sphere &&
-           target_.signature != cones_signature && places_.count() <= most_compared;
+           (!target_.has_curved_free_tile() || places_.count() <= most_compared);
   }
 
   void finish_both(const ProblemPair& problems, const std::array<Placement, 2>& placed) {
     // The map stays in its frame, which both surfaces have: more digits come before turning it.
-    const std::vector<Remedy> remedies = {with_faces_repaired, with_more_digits, with_limbs_resolved};
+    const std::vector<Remedy> remedies = {with_faces_repaired, with_tips_unrolled, with_more_digits,
+                                          with_limbs_resolved};
     for (int s = 0; s < 2; ++s) {
       MappedSide& side = *sides_[s];
       EmbedResult& result = side.result;
@@ -423,20 +432,20 @@ SurfaceMap guessed_map(const Surface& a, const Surface& b, const MapOptions& opt
   return map;
 }
 
-// Where tiles of order two reach so far out in the hyperbolic plane that doubles hardly hold them, a flat
-// target is tried first.
+// Where tiles of order two reach so far out in the hyperbolic plane that doubles do not hold them, a flat
+// target takes their place.
 SurfaceMap map_by_landmarks(const Surface& a, const Surface& b, const std::vector<Landmark>& landmarks,
                             const MapOptions& options) {
-  constexpr int most_of_order_two = 6;
+  constexpr int never_too_many = 6;
   const LandmarkPlaces places = landmark_places(a, b, landmarks);
   const std::array<const Surface*, 2> surfaces = {&a, &b};
-  const bool has_many = a.topology == Topology::sphere && places.count() > most_of_order_two;
-  if (has_many && options.tile == TileShape::shared) {
-    SurfaceMap flat =
-        Mapping(surfaces, landmarks, places, flat_landmark_target(a.topology, places), options).run();
-    if (flat.is_bijective()) return flat;
-  }
-  return Mapping(surfaces, landmarks, places, landmark_target(a.topology, places), options).run();
+  SurfaceMap map = Mapping(surfaces, landmarks, places, landmark_target(a.topology, places), options).run();
+  if (map.is_bijective() || a.topology != Topology::sphere || places.count() <= never_too_many ||
+      options.tile != TileShape::shared)
+    return map;
+  SurfaceMap flat =
+      Mapping(surfaces, landmarks, places, flat_landmark_target(a.topology, places), options).run();
+  return flat.is_bijective() ? flat : map;
 }
 
 }  // namespace

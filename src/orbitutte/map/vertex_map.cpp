@@ -23,6 +23,29 @@ SurfacePoints no_points(int count) {
   return {std::vector<int>(count, -1), Points::Constant(count, 3, not_a_number), {}};
 }
 
+VertexMap no_images(int count) { return {no_points(count), Triangles::Constant(count, 3, -1)}; }
+
+int count_vertices(const Embedding& embedding) {
+  int count = 0;
+  for (const int v : embedding.source_vertex) count = std::max(count, v + 1);
+  return count;
+}
+
+// The images on one surface of the vertices of the other, which the member names.
+VertexMap vertices_of_overlay(const Overlay& overlay, int OverlayVertex::*vertex, const SurfacePoints& places,
+                              const std::array<const Embedding*, 2>& from_and_to) {
+  const auto& [from, to] = from_and_to;
+  VertexMap map = no_images(count_vertices(*from));
+  for (int k = 0; k < overlay.vertex_count(); ++k) {
+    const int v = overlay.vertices[k].*vertex, t = places.triangle[k];
+    if (v < 0) continue;
+    map.images.triangle[v] = t;
+    map.images.barycentric.row(v) = places.barycentric.row(k);
+    for (int i = 0; i < 3; ++i) map.corners(v, i) = to->source_vertex[to->triangles(t, i)];
+  }
+  return map;
+}
+
 // Walks from the vertices of a surface to points of its triangles, which become sites of the walker.
 class PointWalks {
  public:
@@ -230,7 +253,7 @@ VertexMap images_of_vertices(const Embedding& from, const Embedding& to) {
   SurfacePair pair(to, from);
   const std::vector<Fix> fixes = pair.locate_vertices();
   const int count = static_cast<int>(fixes.size());
-  VertexMap map = {no_points(count), Triangles::Constant(count, 3, -1)};
+  VertexMap map = no_images(count);
   for (int v = 0; v < count; ++v) {
     const Fix& fix = fixes[v];
     if (fix.halfedge < 0) continue;
@@ -241,6 +264,11 @@ VertexMap images_of_vertices(const Embedding& from, const Embedding& to) {
     for (int k = 0; k < 3; ++k) map.corners(v, k) = pair.walked().vertex_of(3 * triangle + k);
   }
   return map;
+}
+
+VertexMaps vertex_maps(const Overlay& overlay, const Embedding& a, const Embedding& b) {
+  return {vertices_of_overlay(overlay, &OverlayVertex::a_vertex, overlay.on_b, {&a, &b}),
+          vertices_of_overlay(overlay, &OverlayVertex::b_vertex, overlay.on_a, {&b, &a})};
 }
 
 SurfacePoints images_of_points(const Embedding& from, const Embedding& to, const SurfacePoints& points) {

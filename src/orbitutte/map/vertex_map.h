@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "orbitutte/map/overlay.h"
 #include "orbitutte/map/point_map.h"
 #include "orbitutte/orbifold/embedding.h"
 
@@ -30,6 +31,13 @@ struct VertexMap {
 /// Embedding::cones as images, with the coordinate 1. The embeddings are as `overlay` wants them, and it
 /// throws as that does. O(1) steps a vertex.
 VertexMap images_of_vertices(const Embedding& from, const Embedding& to);
+
+/// The same of the vertices of A on B, and of those of B on A, as an overlay of both has them. Nothing is
+/// walked again.
+struct VertexMaps {
+  VertexMap a_to_b, b_to_a;
+};
+VertexMaps vertex_maps(const Overlay& overlay, const Embedding& a, const Embedding& b);
 
 /// Where any points of `from` lie on `to`. points.copy must be empty. Throws as images_of_vertices and
 /// map_points do. Points of mirrors stay on them, up to the rounding of their coordinates.

@@ -2,6 +2,7 @@
 #include "orbitutte/orbifold/braid.h"
 
 #include <Eigen/Geometry>
+#include <complex>
 #include <utility>
 
 namespace orbitutte {
@@ -73,13 +74,15 @@ std::vector<Isometry> motions(const Moduli& moduli, Points cones, const Braid& b
   return result;
 }
 
-Eigen::MatrixXcd braid_matrix(int count, const Braid& braid) {
+// The rotation about c takes z to c + e^(i angle) (z - c).
+Eigen::MatrixXcd braid_matrix(int count, const Braid& braid, double angle) {
   Eigen::MatrixXcd result = Eigen::MatrixXcd::Identity(count, count);
   for (const HalfTwist& twist : braid) {
     const auto [centre, moved] = TwistedPlaces(twist);
     const Eigen::RowVectorXcd of_centre = result.row(centre), of_moved = result.row(moved);
     result.row(moved) = of_centre;
-    result.row(centre) = 2.0 * of_centre - of_moved;
+    const std::complex<double> turn = std::polar(1.0, twist.is_forth ? -angle : angle);
+    result.row(centre) = of_centre + turn * (of_moved - of_centre);
   }
   return result;
 }

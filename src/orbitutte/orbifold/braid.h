@@ -2,6 +2,7 @@
 // How the cones of a tile are met when the same surface is cut another way.
 #pragma once
 
+#include <numbers>
 #include <vector>
 
 #include "orbitutte/orbifold/moduli.h"
@@ -40,9 +41,9 @@ Points braided(const Moduli& moduli, Points cones, const Braid& braid);
 /// By what each of them was moved: in place i lies motions[i] * the position of the cone before the braid.
 std::vector<Isometry> motions(const Moduli& moduli, Points cones, const Braid& braid);
 
-/// The same as braided for cones of order two in the plane, as a matrix (k x k) on their complex numbers x +
+/// The same as braided for cones of one angle in the plane, as a matrix (k x k) on their complex numbers x +
 /// iy, whatever these are.
-Eigen::MatrixXcd braid_matrix(int count, const Braid& braid);
+Eigen::MatrixXcd braid_matrix(int count, const Braid& braid, double angle = std::numbers::pi);
 
 /// The same of cones that move.
 VaryingMarks braided(VaryingMarks marks, const Braid& braid);

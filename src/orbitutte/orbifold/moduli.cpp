@@ -13,6 +13,7 @@
 
 #include "orbitutte/orbifold/cone_target.h"
 #include "orbitutte/orbifold/inscribed_polygon.h"
+#include "orbitutte/orbifold/precise_generators.h"
 
 namespace orbitutte {
 namespace {
@@ -22,10 +23,11 @@ using std::numbers::pi;
 // Curved surfaces of less area are flat up to rounding.
 constexpr double least_area = 1e-9;
 
-Isometry product_of(const std::vector<Isometry>& rotations) {
-  Isometry result;
-  for (const Isometry& rotation : rotations) result = result * rotation;
-  return result;
+// What the product of all rotations, which is near the identity, exceeds it by.
+Matrix3 excess_of_product(Space space, const MarkOrder& order, const Points& positions) {
+  const Matrix3Of<Precise> excess =
+      precise_product(precise_rotations(space, order, positions)) - Matrix3Of<Precise>::Identity();
+  return excess.cast<double>();
 }
 
 double largest_partial_product(const std::vector<Isometry>& rotations) {
@@ -143,9 +145,9 @@ VaryingMarks Moduli::varying(const Points& marks) const {
 }
 
 Eigen::VectorXd Moduli::closing(const Points& at) const {
-  const std::vector<Isometry> about = rotations(at);
   if (!order_.is_disk())
-    return infinitesimal_part(space_, product_of(about).matrix()).head(closing_rows(space_));
+    return infinitesimal_part(space_, excess_of_product(space_, order_, at)).head(closing_rows(space_));
+  const std::vector<Isometry> about = rotations(at);
   std::vector<double> off;
   for (const int corner : order_.corners()) {
     const auto [next, last] = corners_beside(corner, about, at);
@@ -219,8 +221,8 @@ std::optional<Points> Moduli::closed(const Points& marks) const {
 bool Moduli::closes(const Points& marks) const {
   const std::vector<Isometry> about = rotations(marks);
   const double scale = std::pow(std::max(largest_partial_product(about), marks.cwiseAbs().maxCoeff()), 2);
-  const double off =
-      order_.is_disk() ? closing(marks).cwiseAbs().maxCoeff() : product_of(about).difference(Isometry());
+  const double off = order_.is_disk() ? closing(marks).cwiseAbs().maxCoeff()
+                                      : excess_of_product(space_, order_, marks).cwiseAbs().maxCoeff();
   return off < 1e-12 * scale;
 }
 

@@ -41,6 +41,7 @@ class Moduli {
   Space space() const { return space_; }
   int mark_count() const { return order_.count(); }
   const std::vector<Mark>& marks() const { return order_.marks(); }
+  const MarkOrder& order() const { return order_; }
 
   /// 2k - 6 for a sphere; for a disk with m corners 2k - m - 3.
   int dimension() const;

@@ -4,6 +4,8 @@
 #include <Eigen/Geometry>
 #include <utility>
 
+#include "orbitutte/orbifold/precise_generators.h"
+
 namespace orbitutte {
 namespace {
 
@@ -145,9 +147,15 @@ std::vector<VaryingIsometry> VaryingMarks::generators() const {
   return result;
 }
 
+// Of a sphere.
 VaryingIsometry VaryingMarks::product_of_rotations() const {
   VaryingIsometry product = identity();
-  for (const VaryingIsometry& rotation : rotations_) product = product * rotation;
+  Matrix3Of<Precise> value = Matrix3Of<Precise>::Identity();
+  for (int i = 0; i < marks_.count(); ++i) {
+    product.motion = product.motion * rotations_[i].motion.seen_through(product.value);
+    value = (value * precise_rotation_about(space_, marks_.marks()[i], points_[i].position)).eval();
+    product.value = rounded_isometry(space_, value);
+  }
   return product;
 }
 

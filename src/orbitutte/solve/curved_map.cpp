@@ -380,7 +380,8 @@ class ShapeDescent {
   std::vector<Minimum> finished(const SharedTile& tile) const {
     const SharedTile last = last_tile(tile);
     std::vector<Minimum> result = minima(last);
-    const bool is_shape_found = last.steepest() <= std::max(1000 * slope_tolerance(), 1e-6);
+    const bool is_shape_found =
+        last.steepest() <= std::max({1000 * slope_tolerance(), 1e-6, 1e-7 * squared_reach(last)});
     for (Minimum& minimum : result)
       if (!is_shape_found && minimum.termination == Termination::converged)
         minimum.termination = Termination::max_iterations;
@@ -454,8 +455,15 @@ class ShapeDescent {
     return from.energy() - to.energy() > least_share * promised;
   }
 
-  // Is a change of the energy hidden by rounding?
-  static bool is_hidden(const SharedTile& tile, double change) { return change <= 1e-12 * tile.energy(); }
+  // Is a change of the energy hidden by rounding? That of the tile itself, which closes up to it, grows with
+  // the square of the coordinates.
+  static bool is_hidden(const SharedTile& tile, double change) {
+    return change <= 1e-12 * squared_reach(tile) * tile.energy();
+  }
+
+  static double squared_reach(const SharedTile& tile) {
+    return std::max(1.0, tile.cones().cwiseAbs2().maxCoeff());
+  }
 
   void adapt_radius(double share, double length) {
     constexpr double widest = 2;

@@ -179,8 +179,12 @@ class InverseHessian {
   Table sy_, ypy_;          // s_i' y_j, and y_i' P y_j
 };
 
-// Changes of the energy below this share of it are hidden by rounding.
-constexpr double energy_rounding = 1e-14;
+// Changes of the energy below this share of it are hidden by rounding: of positions of length one by their
+// own, of longer ones, as in the hyperbolic plane, by that of squares of their length.
+double energy_rounding_at(const Points& x) {
+  const double longest = x.rows() > 0 ? x.col(2).cwiseAbs().maxCoeff() : 1;
+  return 1e-14 * std::max(1.0, longest * longest);
+}
 
 struct State {
   Points x;
@@ -189,7 +193,8 @@ struct State {
 
 class LineSearch {
  public:
-  LineSearch(const DirichletEnergy& energy, int& evaluations) : energy_(energy), evaluations_(evaluations) {}
+  LineSearch(const DirichletEnergy& energy, double energy_rounding, int& evaluations)
+      : energy_(energy), energy_rounding_(energy_rounding), evaluations_(evaluations) {}
 
   // Finds a step along `direction` that satisfies Armijo's condition, or, within the energy's rounding, the
   // approximate Wolfe one, and the state behind it, whose memory is used again. Is there one?
@@ -210,11 +215,11 @@ class LineSearch {
  private:
   static constexpr double armijo = 1e-4;
 
-  static bool accept(const State& from, const State& to, const Points& direction, double t, double slope) {
+  bool accept(const State& from, const State& to, const Points& direction, double t, double slope) const {
     const double change = to.value.energy - from.value.energy;
     if (!std::isfinite(change) || !std::isfinite(dot(to.value.gradient, to.value.gradient))) return false;
-    if (change <= armijo * t * slope && std::abs(change) > energy_rounding * from.value.energy) return true;
-    if (std::abs(change) > energy_rounding * from.value.energy) return false;
+    const bool is_seen = std::abs(change) > energy_rounding_ * from.value.energy;
+    if (is_seen) return change <= armijo * t * slope;
     return dot(to.value.gradient, direction) <= (2 * armijo - 1) * slope;
   }
 
@@ -226,15 +231,17 @@ class LineSearch {
   }
 
   const DirichletEnergy& energy_;
+  double energy_rounding_;
   int& evaluations_;
 };
 
 // The rounding floor of the energy (DirichletEnergy::rounding_floor) at positions that are longer than one,
 // as in the hyperbolic plane: images of the longest are rounded by their length, and the tangential part of a
-// difference at a vertex of length z by z^2 times what the difference is.
+// difference at a vertex of length z by z^2 times what the difference is, in three coordinates.
 Eigen::VectorXd rounding_floor_at(const DirichletEnergy& energy, const Points& x) {
   const Eigen::ArrayXd length = x.col(2).array().abs().max(1.0);
-  return energy.rounding_floor().array() * length.square() * (x.rows() > 0 ? length.maxCoeff() : 1.0);
+  const double longest = x.rows() > 0 ? length.maxCoeff() : 1, coordinates = longest > 1 ? 3 : 1;
+  return coordinates * longest * energy.rounding_floor().array() * length.square();
 }
 
 bool gradient_vanishes(const Points& gradient, const Eigen::VectorXd& rounding_floor, double tolerance) {
@@ -246,7 +253,8 @@ bool gradient_vanishes(const Points& gradient, const Eigen::VectorXd& rounding_f
 // Does rounding hide this change of the energy, and are weights so large that some gradients are known less
 // exactly than asked? Differences of gradients and steps are nothing but rounding then.
 bool is_noise(double change, const State& state, const Eigen::VectorXd& rounding_floor, double tolerance) {
-  return rounding_floor.maxCoeff() > tolerance && std::abs(change) <= energy_rounding * state.value.energy;
+  return rounding_floor.maxCoeff() > tolerance &&
+         std::abs(change) <= energy_rounding_at(state.x) * state.value.energy;
 }
 
 void check(const LbfgsOptions& options) {
@@ -265,7 +273,7 @@ Minimum minimize(const DirichletEnergy& energy, const Preconditioner& preconditi
   result.evaluations = 1;
   Points preconditioned = preconditioner.precondition(state.value.gradient);
   InverseHessian inverse_hessian(options.memory);
-  const LineSearch line_search(energy, result.evaluations);
+  const LineSearch line_search(energy, energy_rounding_at(start), result.evaluations);
   double last_step = 0;
 
   const auto record = [&] {

@@ -2,9 +2,13 @@
 #include "orbitutte/solve/moduli_energy.h"
 
 #include <Eigen/Geometry>
+#include <cstdlib>
+#include <map>
 #include <utility>
 
+#include "orbitutte/geometry/precise_isometry.h"
 #include "orbitutte/geometry/space.h"
+#include "orbitutte/orbifold/precise_generators.h"
 #include "orbitutte/parallel.h"
 
 namespace orbitutte {
@@ -31,16 +35,46 @@ ModuliEnergy::ModuliEnergy(const Moduli& moduli, const EdgeWords& edges, Eigen::
   for (const auto& [i, j, t] : edges.edges) vertices = std::max({vertices, i + 1, j + 1});
   cone_at_.assign(vertices, -1);
   for (std::size_t k = 0; k < cones_.size(); ++k) cone_at_[cones_[k]] = static_cast<int>(k);
+  list_beginnings();
   dependent_ = parallel_select(static_cast<int>(edges.edges.size()), [&](int e) {
     const auto& [i, j, t] = edges_.edges[e];
     return t != 0 || cone_at_[i] >= 0 || cone_at_[j] >= 0;
   });
 }
 
+void ModuliEnergy::list_beginnings() {
+  std::map<std::pair<int, int>, int> numbers;
+  beginnings_ = {{}};
+  for (const GluingWord& word : edges_.words) {
+    int at = 0;
+    for (const int letter : word) {
+      const auto [found, is_new] = numbers.try_emplace({at, letter}, static_cast<int>(beginnings_.size()));
+      if (is_new) beginnings_.push_back({at, letter});
+      at = found->second;
+    }
+    beginning_of_word_.push_back(at);
+  }
+}
+
+std::vector<Isometry> ModuliEnergy::products(const Points& cones) const {
+  const Space space = moduli_.space();
+  const std::vector<Matrix3Of<Precise>> generators = precise_generators(space, moduli_.order(), cones);
+  std::vector<Matrix3Of<Precise>> precise = {Matrix3Of<Precise>::Identity()};
+  std::vector<Isometry> result = {Isometry()};
+  for (std::size_t k = 1; k < beginnings_.size(); ++k) {
+    const auto& [shorter, letter] = beginnings_[k];
+    const Matrix3Of<Precise>& generator = generators[std::abs(letter) - 1];
+    precise.push_back(precise[shorter] * (letter > 0 ? generator : precise_inverse(space, generator)));
+    result.push_back(rounded_isometry(space, precise.back()));
+  }
+  return result;
+}
+
 std::vector<Isometry> ModuliEnergy::transforms(const Points& cones) const {
-  const std::vector<Isometry> generators = moduli_.generators(cones);
+  const std::vector<Isometry> of_beginnings = products(cones);
   std::vector<Isometry> result;
-  for (const GluingWord& word : edges_.words) result.push_back(product_of_word(word, generators, Isometry()));
+  result.reserve(beginning_of_word_.size());
+  for (const int k : beginning_of_word_) result.push_back(of_beginnings[k]);
   return result;
 }
 
@@ -89,10 +123,20 @@ Points ModuliEnergy::gradient(const Points& x, const Points& cones) const {
 
 std::vector<VaryingIsometry> ModuliEnergy::varying_transforms(const VaryingMarks& marks,
                                                               Eigen::Index parameters, Order order) const {
-  const VaryingIsometry identity = {Isometry(), VaryingMotion::none(moduli_.space(), parameters, order)};
   const std::vector<VaryingIsometry> generators = marks.generators();
+  const std::vector<Isometry> values = products(positions_of(marks));
+  std::vector<VaryingIsometry> of_beginnings = {
+      {Isometry(), VaryingMotion::none(moduli_.space(), parameters, order)}};
+  for (std::size_t k = 1; k < beginnings_.size(); ++k) {
+    const auto& [shorter, letter] = beginnings_[k];
+    const VaryingIsometry& from = of_beginnings[shorter];
+    const VaryingIsometry& generator = generators[std::abs(letter) - 1];
+    const VaryingMotion motion = letter > 0 ? generator.motion : generator.inverse().motion;
+    of_beginnings.push_back({values[k], from.motion * motion.seen_through(from.value)});
+  }
   std::vector<VaryingIsometry> result;
-  for (const GluingWord& word : edges_.words) result.push_back(product_of_word(word, generators, identity));
+  result.reserve(beginning_of_word_.size());
+  for (const int k : beginning_of_word_) result.push_back(of_beginnings[k]);
   return result;
 }
 

@@ -58,6 +58,15 @@ class ModuliEnergy {
   std::vector<VaryingIsometry> varying_transforms(const VaryingMarks& marks, Eigen::Index parameters,
                                                   Order order) const;
 
+  /// The beginnings of all words, each by one letter longer than another before it; the empty one first.
+  struct Beginning {
+    int shorter = 0, letter = 0;
+  };
+  void list_beginnings();
+
+  /// Of the beginnings, rounded once.
+  std::vector<Isometry> products(const Points& cones) const;
+
   /// How the far end of an edge moves, as it is seen from the near one.
   VaryingMotion motion_along(const GluedEdge& edge, const VaryingIsometry& transform,
                              const VaryingMarks& marks) const;
@@ -70,6 +79,10 @@ class ModuliEnergy {
   const EdgeWords& edges_;
   Eigen::VectorXd w_;
   std::vector<int> cones_;
+
+  /// The beginnings, and which of them each word is.
+  std::vector<Beginning> beginnings_;
+  std::vector<int> beginning_of_word_;
 
   /// n: the number of the cone that a vertex is, or -1.
   std::vector<int> cone_at_;

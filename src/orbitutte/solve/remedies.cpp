@@ -69,11 +69,14 @@ double shortest_edge(Site& site, const MovablePositions& positions, int v) {
   return shortest;
 }
 
+// Far out in the hyperbolic plane coordinates are rounded by their length, and edges look longer by it.
+double lost_digits_at(const Vector3& position) { return std::max(1.0, position.z() * position.z()); }
+
 std::vector<int> vertices_of_limbs(Site& site, const MovablePositions& positions) {
   const int n = static_cast<int>(site.may_move.size());
   std::vector<int> result;
   for (int v = 0; v < n; ++v)
-    if (shortest_edge(site, positions, v) < small) result.push_back(v);
+    if (shortest_edge(site, positions, v) < small * lost_digits_at(positions.rounded(v))) result.push_back(v);
   return result;
 }
 

@@ -85,17 +85,18 @@ Isometry turn_towards_x(const GluingProblem& problem, const Points& positions) {
   return Space::plane().rotation(Space::origin(), -std::atan2(p.y(), p.x()));
 }
 
-// The translation that takes a point to the origin.
-Isometry translation_from(const Vector3& p) {
-  Matrix3 matrix = Matrix3::Identity();
-  matrix.col(2).head<2>() = -p.head<2>();
-  return Space::plane().isometry(matrix);
-}
-
 std::array<std::unique_ptr<FlatSurface>, 2> flat_surfaces(const ProblemPair& problems) {
   std::array<std::unique_ptr<FlatSurface>, 2> sides;
   parallel_for(2, [&](int s) { sides[s] = std::make_unique<FlatSurface>(problems[s].get()); });
   return sides;
+}
+
+// By what a braid has moved the first mark: an isometry of the group.
+Isometry motion_of_first(const GluingProblem& problem, const Eigen::VectorXcd& shape, const Braid& braid) {
+  Points cones = Points::Ones(shape.size(), 3);
+  cones.col(0) = shape.real();
+  cones.col(1) = shape.imag();
+  return motions(moduli_of(problem.target, problem.cut), cones, braid).front();
 }
 
 std::array<Placement, 2> place_in_plane(const ProblemPair& problems, const SharingOptions& options,
@@ -103,8 +104,9 @@ std::array<Placement, 2> place_in_plane(const ProblemPair& problems, const Shari
   const auto sides = stage("factorize", [&] { return flat_surfaces(problems); });
   const Braid to_second = inverse(options.braid);
   const int count = static_cast<int>(problems[0].get().cut.marks.size());
+  const double angle = problems[0].get().target.marks.front().angle;
   const std::vector<Eigen::MatrixXcd> changes = {Eigen::MatrixXcd::Identity(count, count),
-                                                 braid_matrix(count, to_second)};
+                                                 braid_matrix(count, to_second, angle)};
   Eigen::VectorXcd shape = options.is_tile_regular
                                ? sides[0]->shapes.scaled(regular_shape(problems[0]))
                                : shared_shape({&sides[0]->shapes, &sides[1]->shapes}, changes);
@@ -115,10 +117,10 @@ std::array<Placement, 2> place_in_plane(const ProblemPair& problems, const Shari
     for (int s = 0; s < 2; ++s) placed[s] = sides[s]->placed(changes[s] * shape, lbfgs);
   });
   const Isometry turn = turn_towards_x(problems[0], placed[0].minimum.positions);
-  // A braid has moved the first mark of the second surface by a translation of the group.
-  const Vector3 first = placed[1].minimum.positions.row(problems[1].get().cut.marks[0]);
+  if (!to_second.empty())
+    placed[1] = moved(problems[1], motion_of_first(problems[0], shape, to_second).inverse(), placed[1]);
   placed[0] = moved(problems[0], turn, placed[0]);
-  placed[1] = moved(problems[1], turn * translation_from(first), placed[1]);
+  placed[1] = moved(problems[1], turn, placed[1]);
   for (Placement& each : placed) each.frame = {};
   return placed;
 }

@@ -233,21 +233,21 @@ std::shared_ptr<const SparseMatrix> TangentSystem::assemble_form(const TangentPr
   return std::make_shared<SparseMatrix>(matrix.release());
 }
 
-SinglePoints TangentSystem::packed(const std::vector<Points>& gradients, std::size_t first) const {
+Points TangentSystem::packed(const std::vector<Points>& gradients, std::size_t first) const {
   const Unknowns& unknowns = factored_->unknowns;
-  SinglePoints b = SinglePoints::Zero(unknowns.total, 3);
+  Points b = Points::Zero(unknowns.total, 3);
   for (std::size_t c = 0; c < std::min<std::size_t>(3, gradients.size() - first); ++c)
     for (const int v : unknowns.order)
       b.block<2, 1>(unknowns.first[v], static_cast<Eigen::Index>(c)) =
-          (frames_[v].transpose() * gradients[first + c].row(v).transpose()).cast<float>();
+          frames_[v].transpose() * gradients[first + c].row(v).transpose();
   return b;
 }
 
-Points TangentSystem::unpacked(const SinglePoints& y, Eigen::Index column) const {
+Points TangentSystem::unpacked(const Points& y, Eigen::Index column) const {
   const Unknowns& unknowns = factored_->unknowns;
   Points result = Points::Zero(static_cast<Eigen::Index>(frames_.size()), 3);
   for (const int v : unknowns.order)
-    result.row(v) = (frames_[v] * y.block<2, 1>(unknowns.first[v], column).cast<double>()).transpose();
+    result.row(v) = (frames_[v] * y.block<2, 1>(unknowns.first[v], column)).transpose();
   return result;
 }
 
@@ -264,17 +264,51 @@ SinglePoints TangentSystem::refined(const SinglePoints& b, const SinglePoints& y
 }
 
 Points TangentSystem::precondition(const Points& gradient) const {
-  const SinglePoints b = packed({gradient}, 0), y = solved(b);
-  return unpacked(factored_->is_stiff ? refined(b, y) : y, 0);
+  const SinglePoints b = packed({gradient}, 0).cast<float>(), y = solved(b);
+  return unpacked((factored_->is_stiff ? refined(b, y) : y).cast<double>(), 0);
+}
+
+// M. R. Hestenes, E. Stiefel, "Methods of conjugate gradients for solving linear systems", J. Res. Nat. Bur.
+// Standards 49 (1952), preconditioned, each of the three columns for itself.
+Points TangentSystem::conjugate_gradients(const Points& b) const {
+  constexpr int most_rounds = 60;
+  constexpr double tolerance = 1e-9;
+  const auto products = [](const Points& x, const Points& y) -> Eigen::RowVector3d {
+    return x.cwiseProduct(y).colwise().sum();
+  };
+  const auto preconditioned = [&](const Points& r) -> Points {
+    const Eigen::RowVector3d size =
+        r.cwiseAbs().colwise().maxCoeff().cwiseMax(1e-300);  // float's range is narrow
+    const Points scaled = r * size.cwiseInverse().asDiagonal();
+    return Points(solved(scaled.cast<float>()).cast<double>()) * size.asDiagonal();
+  };
+  Points y = Points::Zero(b.rows(), 3), r = b, z = preconditioned(r), p = z;
+  Eigen::RowVector3d rz = products(r, z);
+  const Eigen::RowVector3d wanted = tolerance * tolerance * rz.cwiseAbs();
+  for (int round = 0; round < most_rounds && (rz.array() > wanted.array()).any(); ++round) {
+    const Points image = form_->selfadjointView<Eigen::Lower>() * p;
+    const Eigen::RowVector3d curvature = products(p, image);
+    Eigen::RowVector3d step = Eigen::RowVector3d::Zero();
+    for (int c = 0; c < 3; ++c)
+      if (curvature[c] > 0 && rz[c] > wanted[c]) step[c] = rz[c] / curvature[c];
+    y += p * step.asDiagonal();
+    r -= image * step.asDiagonal();
+    z = preconditioned(r);
+    const Eigen::RowVector3d next = products(r, z);
+    Eigen::RowVector3d share = Eigen::RowVector3d::Zero();
+    for (int c = 0; c < 3; ++c)
+      if (rz[c] > 0) share[c] = next[c] / rz[c];
+    p = z + p * share.asDiagonal();
+    rz = next;
+  }
+  return y;
 }
 
 std::vector<Points> TangentSystem::solve(const std::vector<Points>& gradients) const {
-  constexpr int rounds = 2;  // the factor may be that of another map nearby
   std::vector<Points> results;
+  results.reserve(gradients.size());
   for (std::size_t first = 0; first < gradients.size(); first += 3) {
-    const SinglePoints b = packed(gradients, first);
-    SinglePoints y = solved(b);
-    for (int round = 0; round < rounds; ++round) y = refined(b, y);
+    const Points y = conjugate_gradients(packed(gradients, first));
     for (std::size_t c = first; c < std::min(first + 3, gradients.size()); ++c)
       results.push_back(unpacked(y, static_cast<Eigen::Index>(c - first)));
   }

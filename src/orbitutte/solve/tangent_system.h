@@ -52,7 +52,8 @@ class TangentSystem : public Preconditioner {
   /// far as the factor knows it.
   Points precondition(const Points& gradient) const override;
 
-  /// The same of several, refined twice by the Hessian itself. Three of them take little longer than one.
+  /// The inverse of the Hessian itself, times several covectors, by conjugate gradients that the factor
+  /// preconditions. Three of them take little longer than one.
   std::vector<Points> solve(const std::vector<Points>& gradients) const;
 
   /// Is it the second derivative that was factorised?
@@ -75,9 +76,10 @@ class TangentSystem : public Preconditioner {
 
   /// The coordinates of up to three covectors in the frames (unknowns x 3), and what tangent vectors have
   /// these coordinates.
-  SinglePoints packed(const std::vector<Points>& gradients, std::size_t first) const;
-  Points unpacked(const SinglePoints& y, Eigen::Index column) const;
+  Points packed(const std::vector<Points>& gradients, std::size_t first) const;
+  Points unpacked(const Points& y, Eigen::Index column) const;
   SinglePoints solved(const SinglePoints& b) const;
+  Points conjugate_gradients(const Points& b) const;
   SinglePoints refined(const SinglePoints& b, const SinglePoints& y) const;
 
   Space space_;
