@@ -16,9 +16,9 @@
 #include "orbitutte/export/map_files.h"
 #include "orbitutte/export/overlay_pieces.h"
 #include "orbitutte/export/texture_bake.h"
+#include "orbitutte/io/curve_file.h"
 #include "orbitutte/io/file.h"
 #include "orbitutte/io/texture_file.h"
-#include "orbitutte/io/value_file.h"
 #include "orbitutte/page/map_page.h"
 
 namespace orbitutte::cli {
@@ -28,22 +28,27 @@ namespace fs = std::filesystem;
 
 const std::vector<std::string> morph_endings = {".obj", ".off", ".ply", ".stl", ".vtk"};
 
+// "values_on_a.shape.gii" for a file of that kind; nothing for no file.
+std::string on_a(const std::string& what, const std::string& path) {
+  return path.empty() ? "" : what + "_on_a" + vertex_data_ending(path);
+}
+
 // An option that reads a file, and what is written into the folder for it.
 struct CarryingOption {
   std::string name, path, content;
-  std::vector<const char*> files;
+  std::vector<std::string> files;
 };
 
 std::vector<CarryingOption> carrying_options(const MapArguments& arguments) {
   std::vector<CarryingOption> given;
-  for (CarryingOption& option :
-       std::vector<CarryingOption>{{"--texture",
-                                    arguments.texture,
-                                    "the texture of B",
-                                    {"texture.png", "textured_a.obj", "textured_a.mtl"}},
-                                   {"--values", arguments.values, "the values of B", {"values_on_a.txt"}},
-                                   {"--labels", arguments.labels, "the labels of B", {"labels_on_a.txt"}},
-                                   {"--curves", arguments.curves, "the curves of B", {"curves_on_a.obj"}}})
+  for (CarryingOption& option : std::vector<CarryingOption>{
+           {"--texture",
+            arguments.texture,
+            "the texture of B",
+            {"texture.png", "textured_a.obj", "textured_a.mtl"}},
+           {"--values", arguments.values, "the values of B", {on_a("values", arguments.values)}},
+           {"--labels", arguments.labels, "the labels of B", {on_a("labels", arguments.labels)}},
+           {"--curves", arguments.curves, "the curves of B", {"curves_on_a.obj"}}})
     if (!option.path.empty()) given.push_back(std::move(option));
   return given;
 }
@@ -55,10 +60,25 @@ bool is_glb(const std::string& path) {
   return ending == ".glb";
 }
 
-void require_vertices(const std::string& option, Eigen::Index lines, const Surface& b) {
-  if (lines != b.V.rows())
-    throw MeshError(fmt::format("{} has {} lines, but B has {} vertices; it needs a line for each", option,
-                                lines, b.V.rows()));
+// The values at the vertices of B that an option names; none if there is no file.
+VertexData values_of_b(const std::string& option, const std::string& path, const Surface& b) {
+  if (path.empty()) return {};
+  VertexData data = read_vertex_data(path);
+  if (data.values.rows() != b.V.rows())
+    throw MeshError(fmt::format("{} has {} rows, but B has {} vertices; it needs one for each", option,
+                                data.values.rows(), b.V.rows()));
+  return data;
+}
+
+// Throws MeshError naming a label that is no whole number.
+void require_labels(const VertexData& data) {
+  const Eigen::MatrixXd rounded = data.values.array().round();
+  for (Eigen::Index v = 0; v < rounded.rows(); ++v)
+    for (Eigen::Index map = 0; map < rounded.cols(); ++map)
+      if (!(data.values(v, map) == rounded(v, map)))
+        throw MeshError(
+            fmt::format("--labels has {} at vertex {}; labels are whole numbers, --values takes others",
+                        data.values(v, map), v));
 }
 
 TextureLayout layout_of_b(const std::string& path) {
@@ -125,15 +145,37 @@ std::string carried_curves(const std::vector<std::vector<int>>& curves, const Ma
   return curves_obj(images);
 }
 
-void add_carried(const CarriedInputs& carried, const MappedSurfaces& mapped, const fs::path& folder,
-                 ProductBytes& products) {
+VertexData carried_labels(const VertexMap& a_to_b, VertexData data) {
+  Eigen::MatrixXd on_a(a_to_b.count(), data.values.cols());
+  for (Eigen::Index map = 0; map < on_a.cols(); ++map) {
+    const Eigen::VectorXi column = data.values.col(map).cast<int>();
+    const std::vector<int> labels = transfer_labels(a_to_b, {column.begin(), column.end()});
+    for (Eigen::Index v = 0; v < on_a.rows(); ++v) on_a(v, map) = labels[v];
+  }
+  data.values = on_a;
+  return data;
+}
+
+// Values as on B's triangles; labels, which cannot be added, as at the nearest corner.
+VertexData carried_values(const VertexMap& a_to_b, VertexData data) {
+  if (data.labels.empty()) {
+    data.values = transfer(a_to_b, data.values);
+    return data;
+  }
+  return carried_labels(a_to_b, std::move(data));
+}
+
+void add_carried(const MapArguments& arguments, const CarriedInputs& carried, const MappedSurfaces& mapped,
+                 const fs::path& folder, ProductBytes& products) {
   const VertexMap& a_to_b = mapped.composed.a_to_b;
-  if (carried.values.rows() > 0)
-    products.emplace_back((folder / "values_on_a.txt").string(),
-                          value_lines(transfer(a_to_b, carried.values)));
-  if (!carried.labels.empty())
-    products.emplace_back((folder / "labels_on_a.txt").string(),
-                          label_lines(transfer_labels(a_to_b, carried.labels)));
+  if (!arguments.values.empty())
+    products.emplace_back(
+        (folder / on_a("values", arguments.values)).string(),
+        serialize_vertex_data(carried_values(a_to_b, carried.values), vertex_data_format(arguments.values)));
+  if (!arguments.labels.empty())
+    products.emplace_back(
+        (folder / on_a("labels", arguments.labels)).string(),
+        serialize_vertex_data(carried_labels(a_to_b, carried.labels), vertex_data_format(arguments.labels)));
   if (!carried.curves.empty())
     products.emplace_back((folder / "curves_on_a.obj").string(), carried_curves(carried.curves, mapped));
 }
@@ -168,14 +210,9 @@ CarriedInputs::CarriedInputs(const MapArguments& arguments, const Surface& a, co
     if (layout_of_a) texture_triangles(a, *layout_of_a);
     texture = read_image(arguments.texture);
   }
-  if (!arguments.values.empty()) {
-    values = read_values(arguments.values);
-    require_vertices("--values", values.rows(), b);
-  }
-  if (!arguments.labels.empty()) {
-    labels = read_labels(arguments.labels);
-    require_vertices("--labels", static_cast<Eigen::Index>(labels.size()), b);
-  }
+  values = values_of_b("--values", arguments.values, b);
+  labels = values_of_b("--labels", arguments.labels, b);
+  require_labels(labels);
   if (!arguments.curves.empty()) curves = read_curves(arguments.curves);
 }
 
@@ -183,11 +220,8 @@ std::vector<OutputFile> files_of_products(const MapArguments& arguments, const s
   std::vector<OutputFile> files;
   files.reserve(16 + static_cast<std::size_t>(arguments.frames));
   for (const CarryingOption& option : carrying_options(arguments))
-    for (const char* const name : option.files)
-      files.push_back({option.name,
-                       option.content,
-                       (fs::path(folder) / name).string(),
-                       {".png", ".obj", ".mtl", ".txt"}});
+    for (const std::string& name : option.files)
+      files.push_back({option.name, option.content, (fs::path(folder) / name).string(), {ending_of(name)}});
   if (arguments.frames != 0)
     for (const std::string& path : frame_paths(arguments.morph, arguments.frames))
       files.push_back({"--morph", "the morph", path, morph_endings});
@@ -237,7 +271,7 @@ void write_products(const MapArguments& arguments, const std::string& folder, co
                     const MappedSurfaces& mapped) {
   ProductBytes products;
   if (carried.texture) add_texture(arguments, carried, mapped, folder, products);
-  add_carried(carried, mapped, folder, products);
+  add_carried(arguments, carried, mapped, folder, products);
   if (!arguments.colours.empty())
     products.emplace_back(arguments.colours,
                           coloured_mesh(arguments.colours, mapped.a, colours_on_a(mapped)));

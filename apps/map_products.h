@@ -9,6 +9,7 @@
 #include "command_files.h"
 #include "commands.h"
 #include "orbitutte/io/image_file.h"
+#include "orbitutte/io/vertex_data.h"
 #include "orbitutte/map/composed_map.h"
 #include "orbitutte/mesh/texture_layout.h"
 
@@ -24,8 +25,7 @@ class CarriedInputs {
 
   /// Of A, only if it has one that is to be used; of B, if there is a texture.
   std::optional<TextureLayout> layout_of_a, layout_of_b;
-  Eigen::MatrixXd values;
-  std::vector<int> labels;
+  VertexData values, labels;
   std::vector<std::vector<int>> curves;
 };
 

@@ -14,10 +14,10 @@
 #include "orbitutte/export/overlay_pieces.h"
 #include "orbitutte/export/texture_bake.h"
 #include "orbitutte/inspect/recognition.h"
+#include "orbitutte/io/curve_file.h"
 #include "orbitutte/io/image_file.h"
 #include "orbitutte/io/mesh_io.h"
 #include "orbitutte/io/texture_file.h"
-#include "orbitutte/io/value_file.h"
 #include "orbitutte/map/composed_map.h"
 #include "orbitutte/map/surface_map.h"
 #include "orbitutte/page/map_page.h"
@@ -326,18 +326,11 @@ TEST(TextureFile, KnowsAllKindsOfCorners) {
   EXPECT_THAT(texture_refusal("vt x 0\n"), HasSubstr("line 1"));
 }
 
-TEST(ValueFile, HasALineForEveryVertex) {
-  const Eigen::MatrixXd values = parse_values("x, y\n1, 2.5\n# a remark\n\n-3 4e1\n");
-  EXPECT_EQ(values, (Eigen::MatrixXd(2, 2) << 1, 2.5, -3, 40).finished());
-  EXPECT_EQ(parse_values(value_lines(values)), values);
-  EXPECT_EQ(parse_labels("label\n3\n-1\n"), (std::vector<int>{3, -1}));
-  EXPECT_EQ(parse_labels(label_lines({7, 8})), (std::vector<int>{7, 8}));
-  EXPECT_EQ(parse_curves("1 2 3\n5,6\n"), (std::vector<std::vector<int>>{{1, 2, 3}, {5, 6}}));
-  EXPECT_THROW(parse_values("1 2\n3\n"), MeshError);
-  EXPECT_THROW(parse_values("1\ntwo\n"), MeshError);
-  EXPECT_THROW(parse_labels("1.5\n"), MeshError);
-  EXPECT_THROW(parse_labels("1 2\n"), MeshError);
+TEST(CurveFile, HasACurveALine) {
+  const std::vector<std::vector<int>> curves = {{1, 2, 3}, {5, 6}};
+  EXPECT_EQ(parse_curves("1 2 3\n# a remark\n\n5,6\n"), curves);
   EXPECT_THROW(parse_curves("4\n"), MeshError);
+  EXPECT_THROW(parse_curves("1 2.5\n"), MeshError);
 }
 
 TEST(MapPage, HoldsTheSceneAndNothingHostile) {

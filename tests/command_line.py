@@ -277,7 +277,7 @@ class Maps(CommandLine):
         (self.folder / 'words.txt').write_text('1\none\n')
         (self.folder / 'no.png').write_text('no picture')
         mesh, picture = self.textured_figure()
-        for code, options, says in ((IS_UNSUITABLE, ['--values', 'short.txt', '-o', 'none'], 'it needs a line for each'),
+        for code, options, says in ((IS_UNSUITABLE, ['--values', 'short.txt', '-o', 'none'], 'it needs one for each'),
                                     (IS_UNSUITABLE, ['--labels', 'words.txt', '-o', 'none'], 'words.txt: line 2'),
                                     (IS_WRONG, ['--values', 'short.txt'], 'writes into the folder of -o'),
                                     (IS_UNSUITABLE, ['--texture', picture, '-o', 'none'], 'B has no texture coordinates'),

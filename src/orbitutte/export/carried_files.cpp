@@ -56,23 +56,6 @@ std::string coloured_ply(const Surface& surface, const Points& colours) {
 
 }  // namespace
 
-std::string value_lines(const Eigen::MatrixXd& values) {
-  std::string text;
-  for (Eigen::Index row = 0; row < values.rows(); ++row) {
-    for (Eigen::Index column = 0; column < values.cols(); ++column)
-      fmt::format_to(std::back_inserter(text), FMT_COMPILE("{}{}"), column == 0 ? "" : " ",
-                     values(row, column));
-    text += '\n';
-  }
-  return text;
-}
-
-std::string label_lines(const std::vector<int>& labels) {
-  std::string text;
-  for (const int label : labels) fmt::format_to(std::back_inserter(text), FMT_COMPILE("{}\n"), label);
-  return text;
-}
-
 SurfacePoints points_at_vertices(const Embedding& embedding, const std::vector<int>& vertices) {
   const int count = embedding.source_vertex.empty() ? 0
                                                     : 1 + *std::max_element(embedding.source_vertex.begin(),

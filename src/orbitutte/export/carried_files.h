@@ -10,12 +10,6 @@
 
 namespace orbitutte {
 
-/// Values (n x c) as lines, with all digits; `nan` for those of vertices without image.
-std::string value_lines(const Eigen::MatrixXd& values);
-
-/// Labels as lines.
-std::string label_lines(const std::vector<int>& labels);
-
 /// Vertices of an embedded surface as points of it. Throws ArgumentError naming the vertex if it does not
 /// exist or no face uses it.
 SurfacePoints points_at_vertices(const Embedding& embedding, const std::vector<int>& vertices);

@@ -43,20 +43,35 @@ const VertexDataRow& row_of(VertexDataFormat format) {
                        [format](const VertexDataRow& known) { return known.format == format; });
 }
 
-bool has_ending(const std::string& name, std::string_view endings) {
-  while (!endings.empty()) {
-    const std::size_t end = std::min(endings.find(' '), endings.size());
-    if (name.ends_with(endings.substr(0, end))) return true;
-    endings.remove_prefix(std::min(end + 1, endings.size()));
+// A row, and the one of its endings that a name has.
+struct NamedFormat {
+  VertexDataFormat format;
+  std::string_view ending;
+};
+
+std::optional<NamedFormat> format_of_path(const std::string& path) {
+  const std::string name = lower_case(std::filesystem::path(without_gz(path)).filename().string());
+  for (const VertexDataRow& known : vertex_data_formats) {
+    std::string_view endings = known.endings;
+    while (!endings.empty()) {
+      const std::size_t end = std::min(endings.find(' '), endings.size());
+      if (name.ends_with(endings.substr(0, end))) return NamedFormat{known.format, endings.substr(0, end)};
+      endings.remove_prefix(std::min(end + 1, endings.size()));
+    }
   }
-  return false;
+  return std::nullopt;
 }
 
-std::optional<VertexDataFormat> format_of_path(const std::string& path) {
-  const std::string name = lower_case(std::filesystem::path(without_gz(path)).filename().string());
+// The same; throws ArgumentError if there is none.
+NamedFormat known_format(const std::string& path) {
+  if (const std::optional<NamedFormat> found = format_of_path(path)) return *found;
+  std::string endings;
   for (const VertexDataRow& known : vertex_data_formats)
-    if (has_ending(name, known.endings)) return known.format;
-  return std::nullopt;
+    fmt::format_to(std::back_inserter(endings), "{} ", known.endings);
+  endings.pop_back();
+  throw ArgumentError(fmt::format(
+      "{}: the ending names no known format of values at vertices; use one of {}, each also with .gz", path,
+      endings));
 }
 
 bool is_gzip_path(const std::string& path) { return without_gz(path) != path; }
@@ -79,16 +94,9 @@ auto naming(const std::string& path, const Step& step) {
 
 }  // namespace
 
-VertexDataFormat vertex_data_format(const std::string& path) {
-  if (const std::optional<VertexDataFormat> format = format_of_path(path)) return *format;
-  std::string endings;
-  for (const VertexDataRow& known : vertex_data_formats)
-    fmt::format_to(std::back_inserter(endings), "{} ", known.endings);
-  endings.pop_back();
-  throw ArgumentError(fmt::format(
-      "{}: the ending names no known format of values at vertices; use one of {}, each also with .gz", path,
-      endings));
-}
+VertexDataFormat vertex_data_format(const std::string& path) { return known_format(path).format; }
+
+std::string vertex_data_ending(const std::string& path) { return std::string(known_format(path).ending); }
 
 bool is_vertex_data_path(const std::string& path) { return format_of_path(path).has_value(); }
 

@@ -39,6 +39,10 @@ enum class VertexDataFormat { curv, annot, shape_gifti, func_gifti, label_gifti,
 /// alone, which is written as .shape.gii; .txt, .csv, .npy. Throws ArgumentError naming the endings known.
 VertexDataFormat vertex_data_format(const std::string& path);
 
+/// The ending that names the format, in lower case: ".shape.gii" of "lh.SHAPE.gii.gz". Throws ArgumentError
+/// as vertex_data_format does.
+std::string vertex_data_ending(const std::string& path);
+
 /// Does the path's ending name such a format?
 bool is_vertex_data_path(const std::string& path);
 
