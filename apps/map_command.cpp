@@ -189,6 +189,8 @@ int map_command(const MapArguments& arguments) {
   for (MappedInput* const side : {&a, &b}) {
     side->run.total_seconds = total.seconds();
     side->run.peak_memory_bytes = peak_memory_bytes();
+    const Embedding& embedding = (side == &a ? map.a : map.b).embedding;
+    side->run.strain = strain_statistics(measure_strain(*side->input.surface, embedding).at_vertices);
   }
   const std::string json = map_json(map, composed, timings);
   if (!arguments.output.empty()) {

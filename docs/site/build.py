@@ -16,7 +16,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 SITE = ROOT / "docs/site"
-COMMANDS = ["embed", "choose", "info", "repair", "types", "verify", "tile", "render", "report", "export", "compare", "map", "sample"]
+COMMANDS = ["embed", "choose", "info", "repair", "types", "verify", "tile", "render", "report", "export", "measure", "compare", "map", "sample"]
 FOLDERS = {  # of src/orbitutte, in the order of the reference: title
     "": "The method",
     "mesh": "Meshes",
