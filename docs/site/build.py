@@ -199,6 +199,14 @@ Meshes
 .. autofunction:: sample_mesh
 .. autofunction:: read_mesh
 .. autofunction:: write_mesh
+.. autofunction:: read_vertex_data
+.. autofunction:: write_vertex_data
+.. autoclass:: VertexData
+   :members:
+   :exclude-members: count, index, __init__, __new__
+.. autoclass:: ValueLabel
+   :members:
+   :exclude-members: count, index, __init__, __new__
 
 The result
 ----------
