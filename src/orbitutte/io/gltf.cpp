@@ -169,6 +169,7 @@ class GltfMeshes {
                               std::size_t mesh) const {
     std::vector<int> corners;
     if (primitive.indices < 0) {
+      corners.reserve(static_cast<std::size_t>(vertices.count));
       for (int k = 0; k < vertices.count; ++k) corners.push_back(vertices.first + k);
       return corners;
     }
