@@ -257,9 +257,12 @@ int map_command(const MapArguments& arguments) {
   timings.emplace_back("compose", composing.seconds());
   timings.emplace_back("total", total.seconds());
   std::array<RunRecord, 2> runs = {a.run, b.run};
-  for (RunRecord& run : runs) {
+  for (const int side : {0, 1}) {
+    RunRecord& run = runs[side];
     run.total_seconds = total.seconds();
     run.peak_memory_bytes = peak_memory_bytes();
+    const EmbedResult& embedded = side == 0 ? result.map.a : result.map.b;
+    run.strain = strain_statistics(measure_strain(side == 0 ? on_a : on_b, embedded.embedding).at_vertices);
   }
   // What was measured when the map was sought is in its file.
   const std::string json = arguments.from.empty() ? map_json(result.map, result.composed, timings)

@@ -16,7 +16,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 SITE = ROOT / "docs/site"
-COMMANDS = ["embed", "choose", "info", "repair", "types", "verify", "tile", "render", "report", "export", "compare", "map", "sample"]
+COMMANDS = ["embed", "choose", "info", "repair", "types", "verify", "tile", "render", "report", "export", "measure", "compare", "map", "sample"]
 FOLDERS = {  # of src/orbitutte, in the order of the reference: title
     "": "The method",
     "mesh": "Meshes",
@@ -199,6 +199,14 @@ Meshes
 .. autofunction:: sample_mesh
 .. autofunction:: read_mesh
 .. autofunction:: write_mesh
+.. autofunction:: read_vertex_data
+.. autofunction:: write_vertex_data
+.. autoclass:: VertexData
+   :members:
+   :exclude-members: count, index, __init__, __new__
+.. autoclass:: ValueLabel
+   :members:
+   :exclude-members: count, index, __init__, __new__
 
 The result
 ----------

@@ -137,3 +137,32 @@ def test_the_first_steps_of_a_new_user(tmp_path, monkeypatch, capsys):
         pytest.skip(str(error))
     assert names["embedding"].bijective and "bijective" in capsys.readouterr().out
     assert {path.name for path in tmp_path.iterdir()} == {"tiling.obj", "map.ply", "map.json", "map.png"}
+
+
+@pytest.mark.parametrize("ending", ["shape.gii", "func.gii.gz", "csv", "txt", "npy"])
+def test_values_at_vertices_come_back(ending, tmp_path):
+    values = np.random.default_rng(5).normal(size=(50, 2)).astype(np.float32)
+    orbitutte.write_vertex_data(tmp_path / f"values.{ending}", values, ["one", "two"])
+    read = orbitutte.read_vertex_data(tmp_path / f"values.{ending}")
+    assert np.array_equal(read.values, values) and read.labels == []
+    assert read.names == ([] if ending in ("txt", "npy") else ["one", "two"])
+
+
+@pytest.mark.parametrize("ending", ["label.gii", "annot"])
+def test_labels_come_back(ending, tmp_path):
+    labels = [orbitutte.ValueLabel(0, "unknown", (1.0, 1.0, 1.0, 1.0)), orbitutte.ValueLabel(3, "insula", (1.0, 0.0, 0.0, 1.0))]
+    orbitutte.write_vertex_data(tmp_path / f"values.{ending}", [3, 0, 0, 3], labels=labels)
+    read = orbitutte.read_vertex_data(tmp_path / f"values.{ending}")
+    assert read.values.tolist() == [[3], [0], [0], [3]] and read.labels == labels
+
+
+def test_values_that_cannot_be_written_are_refused(tmp_path):
+    with pytest.raises(orbitutte.ArgumentError, match="ending names no known format of values"):
+        orbitutte.write_vertex_data(tmp_path / "thickness", [1.0])
+    with pytest.raises(orbitutte.MeshError, match="one map, but there are 2"):
+        orbitutte.write_vertex_data(tmp_path / "lh.curv", [[1.0, 2.0]])
+    with pytest.raises(orbitutte.ArgumentError, match="shape"):
+        orbitutte.write_vertex_data(tmp_path / "a.npy", np.zeros((2, 2, 2)))
+    with pytest.raises(orbitutte.FileError):
+        orbitutte.read_vertex_data(tmp_path / "no.shape.gii")
+    assert list(tmp_path.iterdir()) == []

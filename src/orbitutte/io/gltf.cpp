@@ -106,42 +106,49 @@ class GltfMeshes {
   }
 
  private:
-  // Numbers of an accessor, `columns` for each element. Throws MeshError.
-  std::vector<double> numbers(int index, int kind, int columns) const {
-    const auto refuse = [&](std::string_view problem) -> MeshError {
-      return MeshError(fmt::format("accessor {}: {}; export the file again", index, problem));
-    };
-    if (index < 0 || index >= static_cast<int>(model_.accessors.size())) throw refuse("it does not exist");
+  [[noreturn]] static void refuse(int accessor, std::string_view problem) {
+    throw MeshError(fmt::format("accessor {}: {}; export the file again", accessor, problem));
+  }
+
+  // Numbers of an accessor, 3 for each element of positions, 1 of indices.
+  std::vector<double> numbers(int index, int columns) const {
+    if (index < 0 || index >= static_cast<int>(model_.accessors.size())) refuse(index, "it does not exist");
     const tinygltf::Accessor& accessor = model_.accessors[static_cast<std::size_t>(index)];
-    if (accessor.type != kind)
-      throw refuse(fmt::format("it has elements of another kind than {} numbers", columns));
-    if (accessor.sparse.isSparse) throw refuse("sparse accessors are not read");
-    const NumberType* const type = component_type(accessor.componentType);
+    if (accessor.type != (columns == 3 ? TINYGLTF_TYPE_VEC3 : TINYGLTF_TYPE_SCALAR))
+      refuse(index, fmt::format("it has elements of another kind than {} numbers", columns));
+    if (accessor.sparse.isSparse) refuse(index, "sparse accessors are not read");
     const bool is_index = accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
-    if (!type || (is_index && kind != TINYGLTF_TYPE_SCALAR))
-      throw refuse(fmt::format("its type {} of numbers is not known", accessor.componentType));
-    if (accessor.bufferView < 0 || accessor.bufferView >= static_cast<int>(model_.bufferViews.size()))
-      throw refuse("it has no numbers, as in compressed files, which are not read");
-    const tinygltf::BufferView& view = model_.bufferViews[static_cast<std::size_t>(accessor.bufferView)];
-    if (view.buffer < 0 || view.buffer >= static_cast<int>(model_.buffers.size()))
-      throw refuse("its buffer does not exist");
-    const std::vector<unsigned char>& bytes = model_.buffers[static_cast<std::size_t>(view.buffer)].data;
+    const NumberType* const type = component_type(accessor.componentType);
+    if (!type || (is_index && columns != 1))
+      refuse(index, fmt::format("its type {} of numbers is not known", accessor.componentType));
+    const std::string_view bytes = bytes_of_view(index, accessor.bufferView);
     const std::size_t element = type->size * static_cast<std::size_t>(columns),
-                      stride = view.byteStride > 0 ? view.byteStride : element;
-    if (view.byteOffset > bytes.size() || view.byteLength > bytes.size() - view.byteOffset ||
-        accessor.byteOffset > view.byteLength)
-      throw refuse("its view lies outside of the buffer");
-    const std::size_t room = view.byteLength - accessor.byteOffset;
-    if (accessor.count > 0 && (room < element || (room - element) / stride < accessor.count - 1))
-      throw refuse(fmt::format("{} elements do not fit into {} bytes", accessor.count, room));
-    const char* at = reinterpret_cast<const char*>(bytes.data()) + view.byteOffset + accessor.byteOffset;
+                      given = model_.bufferViews[static_cast<std::size_t>(accessor.bufferView)].byteStride,
+                      stride = given > 0 ? given : element;
+    if (accessor.byteOffset > bytes.size()) refuse(index, "it begins behind its view");
+    const std::string_view rest = bytes.substr(accessor.byteOffset);
+    if (accessor.count > 0 &&
+        (rest.size() < element || (rest.size() - element) / stride < accessor.count - 1))
+      refuse(index, fmt::format("{} elements do not fit into {} bytes", accessor.count, rest.size()));
     std::vector<double> values;
     values.reserve(accessor.count * static_cast<std::size_t>(columns));
     for (std::size_t k = 0; k < accessor.count; ++k)
-      for (int column = 0; column < columns; ++column)
-        values.push_back(
-            type->load(at + k * stride + static_cast<std::size_t>(column) * type->size, std::endian::little));
+      for (std::size_t at = k * stride; at < k * stride + element; at += type->size)
+        values.push_back(type->load(rest.data() + at, std::endian::little));
     return values;
+  }
+
+  // Of an accessor.
+  std::string_view bytes_of_view(int accessor, int view_index) const {
+    if (view_index < 0 || view_index >= static_cast<int>(model_.bufferViews.size()))
+      refuse(accessor, "it has no numbers, as in compressed files, which are not read");
+    const tinygltf::BufferView& view = model_.bufferViews[static_cast<std::size_t>(view_index)];
+    if (view.buffer < 0 || view.buffer >= static_cast<int>(model_.buffers.size()))
+      refuse(accessor, "its buffer does not exist");
+    const std::vector<unsigned char>& bytes = model_.buffers[static_cast<std::size_t>(view.buffer)].data;
+    if (view.byteOffset > bytes.size() || view.byteLength > bytes.size() - view.byteOffset)
+      refuse(accessor, "its view lies outside of the buffer");
+    return {reinterpret_cast<const char*>(bytes.data()) + view.byteOffset, view.byteLength};
   }
 
   // Vertices `first` .. `first + count - 1` of the result.
@@ -151,7 +158,7 @@ class GltfMeshes {
 
   VertexRange vertices_of(int accessor) {
     if (const auto known = ranges_.find(accessor); known != ranges_.end()) return known->second;
-    const std::vector<double> values = numbers(accessor, TINYGLTF_TYPE_VEC3, 3);
+    const std::vector<double> values = numbers(accessor, 3);
     const VertexRange range = {checked_count(coordinates_.size() / 3, "vertices"),
                                checked_count(values.size() / 3, "vertices")};
     coordinates_.insert(coordinates_.end(), values.begin(), values.end());
@@ -162,10 +169,11 @@ class GltfMeshes {
                               std::size_t mesh) const {
     std::vector<int> corners;
     if (primitive.indices < 0) {
+      corners.reserve(static_cast<std::size_t>(vertices.count));
       for (int k = 0; k < vertices.count; ++k) corners.push_back(vertices.first + k);
       return corners;
     }
-    const std::vector<double> indices = numbers(primitive.indices, TINYGLTF_TYPE_SCALAR, 1);
+    const std::vector<double> indices = numbers(primitive.indices, 1);
     corners.reserve(indices.size());
     for (const double index : indices) {
       if (!(index >= 0 && index < vertices.count))
@@ -219,12 +227,11 @@ class GltfMeshes {
   bool has_triangles_ = false;
 };
 
-// What both kinds of files say of a buffer: positions, then indices.
+// What both kinds of files have, but for the entry of the buffer: positions, then indices.
 struct GltfText {
   std::string json, buffer;
 };
 
-// uri: what the buffer's entry has beside its length.
 GltfText gltf_of(const Mesh& mesh) {
   GltfText result;
   Eigen::RowVector3f low = Eigen::RowVector3f::Zero(), high = low;

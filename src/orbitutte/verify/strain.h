@@ -19,10 +19,11 @@ namespace orbitutte {
 enum class StrainMeasure {
   /// The area of the triangles around a vertex, image over source.
   area,
-  /// sigma_1 sigma_2, the area ratio of a triangle; at a vertex the logarithm of the mean over its triangles.
-  J,
-  /// sigma_1/sigma_2 >= 1, the elongation of a triangle; at a vertex likewise.
-  R,
+  /// J = sigma_1 sigma_2, the area ratio of a triangle; at a vertex the logarithm of the mean over its
+  /// triangles.
+  j,
+  /// R = sigma_1/sigma_2 >= 1, the elongation of a triangle; at a vertex likewise.
+  r,
   /// The length of an edge, image over source: the mean of the absolute logarithms of a vertex' edges.
   edge
 };
@@ -31,8 +32,8 @@ enum class StrainMeasure {
 template <>
 struct NameTable<StrainMeasure> {
   static constexpr NamedValue<StrainMeasure> rows[] = {{StrainMeasure::area, "area"},
-                                                       {StrainMeasure::J, "J"},
-                                                       {StrainMeasure::R, "R"},
+                                                       {StrainMeasure::j, "J"},
+                                                       {StrainMeasure::r, "R"},
                                                        {StrainMeasure::edge, "edge"}};
 };
 
