@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// NumPy's archives and PNG: bytes are refused in one sentence, or what is read comes back after it was
+// written.
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <string_view>
+
+#include "orbitutte/errors.h"
+#include "orbitutte/io/numpy_array.h"
+#include "orbitutte/io/png.h"
+
+namespace {
+
+using orbitutte::NumpyArchive;
+
+bool are_same(const NumpyArchive& a, const NumpyArchive& b) {
+  if (a.size() != b.size()) return false;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    const auto& [a_name, a_array] = a[k], &[ b_name, b_array ] = b[k];
+    if (a_name != b_name || a_array.shape != b_array.shape || a_array.values.size() != b_array.values.size())
+      return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view bytes(reinterpret_cast<const char*>(data), size);
+  try {
+    if (bytes.starts_with("\x89PNG")) {
+      const orbitutte::PngPixels pixels = orbitutte::parse_png(bytes);
+      const std::string written = orbitutte::serialize_png(pixels, orbitutte::PngDepth::sixteen);
+      if (orbitutte::parse_png(written).values != pixels.values) std::abort();
+      return 0;
+    }
+    const NumpyArchive archive = orbitutte::parse_numpy_archive(bytes);
+    if (!are_same(archive, orbitutte::parse_numpy_archive(orbitutte::serialize_numpy_archive(archive))))
+      std::abort();
+  } catch (const orbitutte::MeshError&) {
+    return 0;
+  }
+  return 0;
+}
