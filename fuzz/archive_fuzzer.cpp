@@ -17,8 +17,9 @@ using orbitutte::NumpyArchive;
 bool are_same(const NumpyArchive& a, const NumpyArchive& b) {
   if (a.size() != b.size()) return false;
   for (std::size_t k = 0; k < a.size(); ++k) {
-    const auto& [a_name, a_array] = a[k], &[ b_name, b_array ] = b[k];
-    if (a_name != b_name || a_array.shape != b_array.shape || a_array.values.size() != b_array.values.size())
+    const auto& [name, array] = a[k];
+    if (name != b[k].first || array.shape != b[k].second.shape ||
+        array.values.size() != b[k].second.values.size())
       return false;
   }
   return true;
