@@ -76,13 +76,13 @@ TEST(NumpyArchives, ThatAreDamagedAreRefused) {
   }
 }
 
-std::string corpus_file(const std::string& name) {
-  return read_file(std::string(ORBITUTTE_SOURCE_DIR) + "/fuzz/corpus/npz/" + name);
+std::string file_at(const std::string& path) {
+  return read_file(std::string(ORBITUTTE_SOURCE_DIR) + "/" + path);
 }
 
 // numpy.savez_compressed(values=zeros((3, 4), float32), f=asfortranarray(arange(6).reshape(2, 3)))
 TEST(NumpyArchives, ThatNumpyHasCompressedAreRead) {
-  const NumpyArchive archive = parse_numpy_archive(corpus_file("packed.npz"));
+  const NumpyArchive archive = parse_numpy_archive(file_at("fuzz/corpus/npz/packed.npz"));
   ASSERT_EQ(archive.size(), 2U);
   EXPECT_EQ(archive[0].first, "values");
   EXPECT_EQ(archive[0].second.shape, (std::vector<int>{3, 4}));
@@ -93,7 +93,7 @@ TEST(NumpyArchives, ThatNumpyHasCompressedAreRead) {
 
 // Two rows, the first as differences to the left, the second as Paeth has them.
 TEST(Png, FiltersAreUndone) {
-  const PngPixels pixels = parse_png(corpus_file("colour.png"));
+  const PngPixels pixels = parse_png(file_at("tests/pictures/colour.png"));
   EXPECT_EQ(pixels.channels, 3);
   const std::vector<int> expected = {1, 2, 3, 2, 4, 6, 4, 6, 8, 7, 10, 13};
   ASSERT_EQ(pixels.values.size(), expected.size());
