@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "orbitutte/errors.h"
+#include "orbitutte/io/file.h"
 #include "orbitutte/io/png.h"
 
 namespace orbitutte::numpy_array_test {
@@ -73,6 +74,30 @@ TEST(NumpyArchives, ThatAreDamagedAreRefused) {
       continue;  // as it should be, or a byte that means nothing here
     }
   }
+}
+
+std::string file_at(const std::string& path) {
+  return read_file(std::string(ORBITUTTE_SOURCE_DIR) + "/" + path);
+}
+
+// numpy.savez_compressed(values=zeros((3, 4), float32), f=asfortranarray(arange(6).reshape(2, 3)))
+TEST(NumpyArchives, ThatNumpyHasCompressedAreRead) {
+  const NumpyArchive archive = parse_numpy_archive(file_at("fuzz/corpus/npz/packed.npz"));
+  ASSERT_EQ(archive.size(), 2U);
+  EXPECT_EQ(archive[0].first, "values");
+  EXPECT_EQ(archive[0].second.shape, (std::vector<int>{3, 4}));
+  EXPECT_FALSE(archive[0].second.is_whole);
+  EXPECT_EQ(archive[1].second.values, (std::vector<double>{0, 1, 2, 3, 4, 5}));
+  EXPECT_TRUE(archive[1].second.is_whole);
+}
+
+// Two rows, the first as differences to the left, the second as Paeth has them.
+TEST(Png, FiltersAreUndone) {
+  const PngPixels pixels = parse_png(file_at("tests/pictures/colour.png"));
+  EXPECT_EQ(pixels.channels, 3);
+  const std::vector<int> expected = {1, 2, 3, 2, 4, 6, 4, 6, 8, 7, 10, 13};
+  ASSERT_EQ(pixels.values.size(), expected.size());
+  for (std::size_t k = 0; k < expected.size(); ++k) EXPECT_EQ(pixels.values[k], 257 * expected[k]) << k;
 }
 
 TEST(Png, PixelsReadBack) {

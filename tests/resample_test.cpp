@@ -7,11 +7,14 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <numbers>
 #include <random>
 #include <set>
 
+#include "orbitutte/inspect/recognition.h"
+#include "orbitutte/io/mesh_io.h"
 #include "orbitutte/map/point_map.h"
 #include "orbitutte/mesh/connectivity.h"
 #include "orbitutte/orbifold/symmetry_group.h"
@@ -277,6 +280,40 @@ TEST(Labels, AreNeverMixed) {
   EXPECT_EQ(result(2, 0), 5);
   EXPECT_THAT([&] { apply(table, labels.topRows(2)); },
               ThrowsMessage<ArgumentError>(HasSubstr("2 values for 4")));
+}
+
+// What a cortex keeps on the icosphere of the field, and back.
+TEST(Cortex, KeepsPositionsIntegralAndLabels) {
+  const std::string path = std::string(ORBITUTTE_SHARED_DIR) + "/meshes/cortex_icbm152_lh.off";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is missing";
+  const Surface surface = make_surface(read_mesh(path));
+  EmbedOptions options;
+  options.quotient.centre = Centre::area;
+  const Embedding embedding = embed(surface, parse_orbifold("1"), {}, options).embedding;
+  const Grid grid = make_grid(parse_grid("ico:7"));
+  const Eigen::MatrixXd back = apply(table_to_surface(embedding, grid, ResampleKind::linear),
+                                     apply(table_to_grid(embedding, grid, ResampleKind::linear), surface.V));
+  const double size = (surface.V.colwise().maxCoeff() - surface.V.colwise().minCoeff()).norm();
+  const Eigen::VectorXd off = (back - surface.V).rowwise().norm() / size;
+  EXPECT_LT(std::sqrt(off.squaredNorm() / static_cast<double>(off.size())), 5e-4);
+  EXPECT_GT((off.array() < 1e-3).cast<double>().mean(), 0.99);
+  EXPECT_LT(off.maxCoeff(), 5e-3);  // in folds that the map shrinks below the grid
+
+  const Eigen::VectorXd areas = vertex_areas(surface);
+  const ConservativeTables tables = conservative_tables(embedding, grid, areas);
+  const Eigen::MatrixXd on_grid = apply(tables.to_grid, surface.V);
+  for (int c = 0; c < 3; ++c)
+    EXPECT_NEAR(tables.cell_areas.dot(on_grid.col(c)), areas.dot(surface.V.col(c)),
+                1e-12 * areas.dot(surface.V.col(c).cwiseAbs()));
+  Eigen::VectorXd labels = octants(surface.V.rowwise() - surface.V.colwise().mean());
+  for (const SparseTable& table : {table_to_grid(embedding, grid, ResampleKind::nearest), tables.to_grid}) {
+    const Eigen::VectorXd moved = apply_to_labels(table, labels);
+    for (int label = 0; label < 8; ++label) {
+      const double before = (labels.array() == label).select(areas, 0).sum(),
+                   after = (moved.array() == label).select(tables.cell_areas, 0).sum();
+      EXPECT_NEAR(after, before, 0.01 * before) << label;
+    }
+  }
 }
 
 // ---- Through orbifolds ----

@@ -71,6 +71,10 @@ PngPixels parse_png(std::string_view bytes) {
   int channels = 0;
   if (stbi_info_from_memory(data, size, &pixels.width, &pixels.height, &channels) == 0)
     throw MeshError(fmt::format("the file is no PNG ({})", stbi_failure_reason()));
+  constexpr std::size_t best_ratio = 1032, bits_in_byte = 8;  // of deflate
+  if (static_cast<std::size_t>(pixels.width) * pixels.height / (bits_in_byte * best_ratio) > bytes.size())
+    throw MeshError(fmt::format("the PNG promises {} x {} pixels, for which it has too few bytes",
+                                pixels.width, pixels.height));
   pixels.channels = channels < 3 ? 1 : 3;
   const std::unique_ptr<stbi_us, FreeStb> loaded(
       stbi_load_16_from_memory(data, size, &pixels.width, &pixels.height, &channels, pixels.channels));
