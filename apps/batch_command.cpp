@@ -272,15 +272,15 @@ void keep_messages(JobRecord& record, std::string_view text) {
   }
 }
 
-// What is said of a process that could say nothing itself.
+// What is said of a process that was ended.
 std::string message_of_end(const JobRecord& record, const JobLimits& limits) {
   if (record.outcome == JobOutcome::out_of_time)
     return fmt::format("ended after {:g} s, the limit of --time-limit", limits.seconds.value_or(0));
   if (record.outcome == JobOutcome::out_of_memory && record.signal && limits.bytes)
     return fmt::format("ended with more than {:g} MB, the limit of --memory-limit", *limits.bytes / 1e6);
   if (record.signal)
-    return fmt::format("the process was ended by signal {} ({})", *record.signal,
-                       ::strsignal(*record.signal));
+    return fmt::format("the process was ended by signal {} ({}){}{}", *record.signal,
+                       ::strsignal(*record.signal), record.message.empty() ? "" : ": ", record.message);
   return record.message;
 }
 
