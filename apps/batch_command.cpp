@@ -272,15 +272,15 @@ void keep_messages(JobRecord& record, std::string_view text) {
   }
 }
 
-// What is said of a process that could say nothing itself.
+// What is said of a process that was ended.
 std::string message_of_end(const JobRecord& record, const JobLimits& limits) {
   if (record.outcome == JobOutcome::out_of_time)
     return fmt::format("ended after {:g} s, the limit of --time-limit", limits.seconds.value_or(0));
   if (record.outcome == JobOutcome::out_of_memory && record.signal && limits.bytes)
     return fmt::format("ended with more than {:g} MB, the limit of --memory-limit", *limits.bytes / 1e6);
   if (record.signal)
-    return fmt::format("the process was ended by signal {} ({})", *record.signal,
-                       ::strsignal(*record.signal));
+    return fmt::format("the process was ended by signal {} ({}){}{}", *record.signal,
+                       ::strsignal(*record.signal), record.message.empty() ? "" : ": ", record.message);
   return record.message;
 }
 
@@ -317,11 +317,10 @@ class JobPool {
   template <typename Ended>
   void run(std::deque<Attempt> waiting, const Ended& ended) {
     while (!waiting.empty() || !running_.empty()) {
-      while (!waiting.empty() && running_.size() < at_once_) {
-        start(waiting.front());
-        waiting.pop_front();
-      }
-      for (const auto& [attempt, end] : next_ends()) {
+      start_some(waiting);
+      const std::vector<std::pair<Attempt, ProcessEnd>> ends = next_ends();
+      start_some(waiting);  // before records are written, which takes a moment
+      for (const auto& [attempt, end] : ends) {
         JobRecord record = record_of(*attempt.job, end, limits_);
         record.attempts = attempt.number;
         if (is_worth_another_try(record.outcome) && attempt.number < largest_try) {
@@ -338,6 +337,10 @@ class JobPool {
     Attempt attempt;
     JobProcess process;
   };
+
+  void start_some(std::deque<Attempt>& waiting) {
+    for (; !waiting.empty() && running_.size() < at_once_; waiting.pop_front()) start(waiting.front());
+  }
 
   void start(const Attempt& attempt) {
     const auto work = [embed = &attempt.job->embed] {
@@ -502,6 +505,7 @@ int run_single(const std::vector<PreparedJob>& jobs, const BatchArguments& argum
 // The jobs of one part.
 std::vector<PreparedJob> jobs_of(const std::vector<PreparedJob>& jobs, const Shard& shard) {
   std::vector<PreparedJob> part;
+  part.reserve(jobs.size() / shard.count + 1);
   for (std::size_t k = shard.index; k < jobs.size(); k += shard.count) part.push_back(jobs[k]);
   return part;
 }

@@ -145,8 +145,10 @@ std::vector<PolygonCorner> followed(std::vector<PolygonCorner> corners, const st
 // The same of --cones.
 std::string followed(const std::string& cones, const std::vector<int>& image) {
   if (cones_word(cones) != ConesWord::none) return cones;
+  const std::vector<int> vertices = parse_cones(cones);
   std::vector<std::string> entries;
-  for (const int vertex : parse_cones(cones))
+  entries.reserve(vertices.size());
+  for (const int vertex : vertices)
     entries.push_back(vertex == best_vertex ? "best" : std::to_string(followed(vertex, image)));
   return fmt::format("{}", fmt::join(entries, ","));
 }

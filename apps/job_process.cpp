@@ -42,11 +42,25 @@ void limit(int resource, double value) {
   ::setrlimit(static_cast<decltype(RLIMIT_AS)>(resource), &both);
 }
 
-// These stand behind those that the parent enforces. Address space is much more than memory; and if there is
-// none left, OpenBLAS 0.3.21 waits for it forever, or ends the process by SIGINT.
+// How large a process is, in bytes; zeros where /proc does not say.
+struct ProcessSize {
+  double address_space = 0, resident = 0;
+};
+
+ProcessSize size_of(const std::string& process) {
+  std::ifstream file(fmt::format("/proc/{}/statm", process));
+  ProcessSize pages;
+  if (!(file >> pages.address_space >> pages.resident)) return {};
+  const auto bytes = static_cast<double>(::sysconf(_SC_PAGESIZE));
+  return {pages.address_space * bytes, pages.resident * bytes};
+}
+
+// These stand behind those that the parent enforces. Address space is much more than memory: gigabytes are
+// reserved already, and where none is left OpenBLAS 0.3.21 waits for it forever, or ends the process by
+// SIGINT.
 void take_limits(const JobLimits& limits) {
   limit(RLIMIT_CORE, 0);
-  if (limits.bytes) limit(RLIMIT_AS, 2 * *limits.bytes + room_for_libraries);
+  if (limits.bytes) limit(RLIMIT_AS, size_of("self").address_space + 2 * *limits.bytes + room_for_libraries);
   if (limits.seconds) limit(RLIMIT_CPU, std::ceil(*limits.seconds) + 1);
 }
 
@@ -69,14 +83,6 @@ void take_streams(int pipe) {
 #else
   for (int file = STDERR_FILENO + 1; file < static_cast<int>(::sysconf(_SC_OPEN_MAX)); ++file) ::close(file);
 #endif
-}
-
-// What a process has in memory, in bytes; 0 where /proc does not say.
-double resident_bytes(pid_t process) {
-  std::ifstream file(fmt::format("/proc/{}/statm", process));
-  double total = 0, resident = 0;
-  file >> total >> resident;
-  return file ? resident * static_cast<double>(::sysconf(_SC_PAGESIZE)) : 0;
 }
 
 double seconds_since(Clock::time_point start) {
@@ -143,7 +149,8 @@ std::optional<double> JobProcess::seconds_to_check() const {
 
 void JobProcess::enforce_limits() {
   if (limits_.seconds && seconds_since(start_) >= *limits_.seconds) end_.is_out_of_time = true;
-  if (limits_.bytes && resident_bytes(process_) > *limits_.bytes) end_.is_out_of_memory = true;
+  if (limits_.bytes && size_of(std::to_string(process_)).resident > *limits_.bytes)
+    end_.is_out_of_memory = true;
   if (!end_.is_out_of_time && !end_.is_out_of_memory) return;
   limits_ = {};
   ::kill(process_, SIGKILL);

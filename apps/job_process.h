@@ -38,6 +38,8 @@ class JobProcess {
   /// and does not outlive this one (Linux). This process must not have started threads that `work` needs.
   /// Throws FileError if the system allows no further process.
   JobProcess(const std::function<int()>& work, const JobLimits& limits);
+  JobProcess(const JobProcess&) = delete;
+  JobProcess& operator=(const JobProcess&) = delete;
   JobProcess(JobProcess&& other) noexcept;
   JobProcess& operator=(JobProcess&& other) noexcept;
   /// Ends the process if it still runs.

@@ -181,10 +181,13 @@ class Limits(Batch):
         self.expect(0, 'jobs.csv', '-o', 'out', '--again')
         self.assertEqual(self.by_name()['large']['outcome'], 'certified')
 
+    @unittest.skipUnless(sys.platform == 'linux', 'only there memory is looked at')
     def test_a_job_out_of_memory_is_named_so(self):
         self.manifest('mesh,cones', f'{self.meshes}/large.off,best', f'{self.meshes}/small.off,extremities')
         self.expect(IS_A_FILE, 'jobs.csv', '-o', 'out', '--memory-limit', '10M', '--jobs', 1, says='memory')
         self.assertEqual(self.by_name()['large']['outcome'], 'out_of_memory')
+        self.expect(0, 'jobs.csv', '-o', 'out', '--memory-limit', '1G', '--again')
+        self.assertEqual({record['outcome'] for record in self.by_name().values()}, {'certified'})
 
     @unittest.skipUnless(sys.platform == 'linux', 'finds the processes in /proc')
     def test_a_process_that_is_killed_takes_only_its_job_with_it(self):

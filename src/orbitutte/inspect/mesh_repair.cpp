@@ -51,7 +51,7 @@ struct FaceList {
 
 // The next vertex around a face.
 template <class Corners>
-int next(const Corners& face, std::size_t k) {
+int vertex_after(const Corners& face, std::size_t k) {
   return face[(k + 1) % face.size()];
 }
 
@@ -221,10 +221,10 @@ class MeshRepair {
     for (const int v : mesh_.corners)
       if (is_vertex(v)) is_used[v] = mesh_.V.row(v).allFinite();
     DisjointSets sets(vertex_count());
-    Neighbourhoods near(mesh_.V, options_.weld_tolerance);
+    Neighbourhoods known(mesh_.V, options_.weld_tolerance);
     for (int v = 0; v < vertex_count(); ++v) {
       if (!is_used[v]) continue;
-      near.add(v, [&](int u) {
+      known.add(v, [&](int u) {
         if ((at(u) - at(v)).norm() <= options_.weld_tolerance) sets.unite(u, v);
       });
     }
@@ -278,7 +278,7 @@ class MeshRepair {
     const std::span<const int> corners = face(f);
     double longest = 0;
     for (std::size_t k = 0; k < corners.size(); ++k)
-      longest = std::max(longest, (at(corners[k]) - at(next(corners, k))).squaredNorm());
+      longest = std::max(longest, (at(corners[k]) - at(vertex_after(corners, k))).squaredNorm());
     return !(2 * vector_area(f).norm() > flat * longest);
   }
 
@@ -516,7 +516,8 @@ class MeshRepair {
     Vector3 middle = Vector3::Zero();
     for (const int v : curve) middle += at(v) / static_cast<double>(curve.size());
     const int tip = add_vertex(middle, -1);
-    for (std::size_t k = 0; k < curve.size(); ++k) faces.append(std::array{curve[k], next(curve, k), tip});
+    for (std::size_t k = 0; k < curve.size(); ++k)
+      faces.append(std::array{curve[k], vertex_after(curve, k), tip});
   }
 
   // By dynamic programming over stretches i .. j of the curve.
@@ -587,7 +588,7 @@ class MeshRepair {
     for (std::size_t k = 0; k < face.size(); ++k) {
       around.push_back(face[k]);
       is_new.push_back(0);
-      if (const auto at = middle.find(undirected(face[k], next(face, k))); at != middle.end()) {
+      if (const auto at = middle.find(undirected(face[k], vertex_after(face, k))); at != middle.end()) {
         around.push_back(at->second);
         is_new.push_back(1);
       }

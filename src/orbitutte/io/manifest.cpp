@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view mesh_column = "mesh", name_column = "name";
 constexpr std::size_t longest_name = 200;  // a file's name has up to 255 bytes, with the ending
 
-using Kind = ManifestColumn::Kind;
+using ColumnKind = ManifestColumn::Kind;
 
 // The names of all columns, for messages.
 std::string known_columns(const std::vector<ManifestColumn>& options) {
@@ -44,7 +44,7 @@ std::vector<ManifestColumn> columns_of(const CsvRow& header, const std::vector<M
     if (known != options.end()) {
       columns.push_back(*known);
     } else if (name == mesh_column || name == name_column) {
-      columns.push_back({name, name == mesh_column ? Kind::file : Kind::value});
+      columns.push_back({name, name == mesh_column ? ColumnKind::file : ColumnKind::value});
     } else {
       throw ArgumentError(fmt::format("line {}: '{}' is no column of a manifest; its columns are {}",
                                       header.line, name, known_columns(options)));
@@ -82,7 +82,7 @@ void require_name_of_file(const std::string& name) {
 
 void read_cell(BatchJob& job, const ManifestColumn& column, const std::string& cell) {
   if (cell.empty()) return;
-  if (column.kind == Kind::flag) {
+  if (column.kind == ColumnKind::flag) {
     const std::optional<bool> is_set = parse_flag(cell);
     if (!is_set) throw ArgumentError(fmt::format("'{}' is neither yes nor no", cell));
     if (*is_set) job.options.push_back("--" + column.name);
@@ -157,7 +157,7 @@ std::vector<BatchJob> parse_manifest(std::string_view text, const std::vector<Ma
 BatchJob in_folder(BatchJob job, const std::vector<ManifestColumn>& columns, const std::string& folder) {
   job.mesh = path_in(folder, job.mesh);
   for (const ManifestColumn& column : columns) {
-    if (column.kind != Kind::file) continue;
+    if (column.kind != ColumnKind::file) continue;
     const std::string option = fmt::format("--{}=", column.name);
     for (std::string& given : job.options)
       if (given.starts_with(option)) given = option + path_in(folder, given.substr(option.size()));
