@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <set>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -81,6 +82,22 @@ void require_labels(const VertexData& data) {
                         data.values(v, map), v));
 }
 
+std::pair<int, int> ascending(int v, int w) { return {std::min(v, w), std::max(v, w)}; }
+
+// Two vertices that follow each other must share a triangle.
+void require_curves_on(const Surface& b, const std::vector<std::vector<int>>& curves) {
+  std::set<std::pair<int, int>> edges;
+  for (int t = 0; t < b.triangle_count(); ++t)
+    for (int k = 0; k < 3; ++k) edges.insert(ascending(b.triangles(t, k), b.triangles(t, (k + 1) % 3)));
+  for (std::size_t c = 0; c < curves.size(); ++c)
+    for (std::size_t k = 1; k < curves[c].size(); ++k)
+      if (!edges.contains(ascending(curves[c][k - 1], curves[c][k])))
+        throw MeshError(
+            fmt::format("--curves: curve {}, counted from 0, goes from vertex {} to vertex {} of B, "
+                        "which share no triangle",
+                        c, curves[c][k - 1], curves[c][k]));
+}
+
 TextureLayout layout_of_b(const std::string& path) {
   std::optional<TextureLayout> layout = read_texture_layout(path);
   if (!layout)
@@ -131,17 +148,11 @@ void add_texture(const MapArguments& arguments, const CarriedInputs& carried, co
 }
 
 std::string carried_curves(const std::vector<std::vector<int>>& curves, const MappedSurfaces& mapped) {
+  const Embedding &a = mapped.map.a.embedding, &b = mapped.map.b.embedding;
   std::vector<Points> images;
   images.reserve(curves.size());
-  for (std::size_t k = 0; k < curves.size(); ++k) {
-    try {
-      const Embedding &a = mapped.map.a.embedding, &b = mapped.map.b.embedding;
-      images.push_back(
-          positions_on(mapped.a.V, a, image_of_polyline(b, a, points_at_vertices(b, curves[k]))));
-    } catch (const ArgumentError& error) {
-      throw ArgumentError(fmt::format("--curves: curve {}, counted from 0: {}", k, error.what()));
-    }
-  }
+  for (const std::vector<int>& curve : curves)
+    images.push_back(positions_on(mapped.a.V, a, image_of_polyline(b, a, points_at_vertices(b, curve))));
   return curves_obj(images);
 }
 
@@ -213,7 +224,10 @@ CarriedInputs::CarriedInputs(const MapArguments& arguments, const Surface& a, co
   values = values_of_b("--values", arguments.values, b);
   labels = values_of_b("--labels", arguments.labels, b);
   require_labels(labels);
-  if (!arguments.curves.empty()) curves = read_curves(arguments.curves);
+  if (!arguments.curves.empty()) {
+    curves = read_curves(arguments.curves);
+    require_curves_on(b, curves);
+  }
 }
 
 std::vector<OutputFile> files_of_products(const MapArguments& arguments, const std::string& folder) {

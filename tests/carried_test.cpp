@@ -142,6 +142,8 @@ TEST(BakedTexture, HasAtAVertexTheColourOfItsImage) {
   int seen = 0;
   for (int t = 0; t < pair.a.triangle_count(); ++t) {
     const int v = pair.a.triangles(t, 0), on_b = images.images.triangle[v];
+    if (touches_seams(b, on_b, on_seams_of_b)) continue;
+    ++seen;
     Eigen::RowVector2d uv = Eigen::RowVector2d::Zero();
     for (int k = 0; k < 3; ++k) uv += images.images.barycentric(v, k) * pair.layout_b.uv.row(rows_b(on_b, k));
     EXPECT_LE(difference(pixel_at(baked, pair.layout_a.uv.row(rows_a(t, 0))), pixel_at(picture, uv)), 12)

@@ -276,9 +276,13 @@ class Maps(CommandLine):
         (self.folder / 'short.txt').write_text('1\n2\n')
         (self.folder / 'words.txt').write_text('1\none\n')
         (self.folder / 'no.png').write_text('no picture')
+        V, _ = read_obj(self.folder / 'figure.obj')
+        far = max(range(len(V)), key=lambda v: math.dist(V[v], V[1]))
+        (self.folder / 'jump.txt').write_text(f'1 {far}\n')
         mesh, picture = self.textured_figure()
         for code, options, says in ((IS_UNSUITABLE, ['--values', 'short.txt', '-o', 'none'], 'it needs one for each'),
                                     (IS_UNSUITABLE, ['--labels', 'words.txt', '-o', 'none'], 'words.txt: line 2'),
+                                    (IS_UNSUITABLE, ['--curves', 'jump.txt', '-o', 'none'], f'from vertex 1 to vertex {far} of B, which share no triangle'),
                                     (IS_WRONG, ['--values', 'short.txt'], 'writes into the folder of -o'),
                                     (IS_UNSUITABLE, ['--texture', picture, '-o', 'none'], 'B has no texture coordinates'),
                                     (IS_WRONG, ['--frames', '4'], '--frames belongs to --morph'),

@@ -76,12 +76,15 @@ TEST(CommonView, FindsTheTurnBetweenCopies) {
 
 TEST(MapSheet, IsAPicture) {
   const Pair& pair = sample_pair();
-  const MapSheet sheet = {pair.a, pair.b, pair.map, pair.composed, "a.ply", "b.ply"};
+  MapSheet sheet = {pair.a, pair.b, pair.map, pair.composed, "a.ply", "b.ply"};
+  sheet.width = 400;
   const PixelImage image = parse_image(map_sheet_png(sheet));
-  EXPECT_EQ(image.width, 2400);
+  EXPECT_EQ(image.width, 400);
   const std::set<std::array<std::uint8_t, 4>> colours(image.pixels.begin(), image.pixels.end());
   EXPECT_GT(colours.size(), 1000U) << "shaded surfaces and scales of colours";
   EXPECT_THROW(write_map_sheet("sheet.svg", sheet), ArgumentError);
+  sheet.width = 0;
+  EXPECT_THROW(map_sheet_png(sheet), ArgumentError);
 }
 
 }  // namespace

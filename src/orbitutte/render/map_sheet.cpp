@@ -21,10 +21,10 @@
 namespace orbitutte {
 namespace {
 
-constexpr PictureSize sheet_size = {2400, 1840};
-constexpr double sheet_em = 25, sheet_scale_height = 4;  // pixels, ems
-constexpr double landmark_share = 0.042;                 // of half the picture's shorter side
-constexpr double cube_side = 0.14;                       // where the surface's half diagonal is 1
+constexpr double height_of_sheet = 1840.0 / 2400, em_of_sheet = 1.0 / 96;  // of its width
+constexpr double sheet_scale_height = 4;                                   // ems
+constexpr double landmark_share = 0.042;  // of half the picture's shorter side
+constexpr double cube_side = 0.14;        // where the surface's half diagonal is 1
 
 // Which of the two surfaces a panel shows.
 enum class Shown { a, b };
@@ -209,11 +209,14 @@ void draw_map_panels(Canvas& canvas, const Box& body, const SheetParts& parts) {
 }  // namespace
 
 std::string map_sheet_png(const MapSheet& sheet) {
-  Canvas canvas(PictureFormat::png, sheet_size, sheet_em);
+  if (sheet.width < 300 || sheet.width > 10000)
+    throw ArgumentError(fmt::format("a sheet {} pixels wide; it may have 300 to 10000", sheet.width));
+  const PictureSize size = {sheet.width, static_cast<int>(std::lround(height_of_sheet * sheet.width))};
+  Canvas canvas(PictureFormat::png, size, em_of_sheet * size.width);
   const double em = canvas.em();
   const SheetParts parts(sheet);
-  const Box page = Box{0, 0, sheet_size.width * 1.0, sheet_size.height * 1.0}.inset(1.5 * em, 1.5 * em,
-                                                                                    1.5 * em, 1.5 * em);
+  const Box whole = {0, 0, size.width * 1.0, size.height * 1.0};
+  const Box page = whole.inset(1.5 * em, 1.5 * em, 1.5 * em, 1.5 * em);
   canvas.text({page.x, page.y + 1.6 * em},
               fmt::format("A: {}   to   B: {}", sheet.name_of_a, sheet.name_of_b),
               {.size = 1.7, .bold = true});
