@@ -7,6 +7,7 @@
 #include "commands.h"
 #include "orbitutte/io/mesh_io.h"
 #include "orbitutte/orbifold/signature.h"
+#include "orbitutte/orbifold/target_words.h"
 #include "orbitutte/report/inspection_json.h"
 #include "standard_streams.h"
 
@@ -18,7 +19,7 @@ constexpr int sound = 0, defective = 3;
 double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
 void print_text(const std::string& path, const Inspection& inspection, const std::vector<WeakPlace>& places) {
-  fmt::print("{}: {}\n", path, inspection.defects.empty() ? name_of(inspection.topology) : "defective");
+  fmt::print("{}: {}\n", path, inspection.defects.empty() ? text_of(inspection.topology) : "defective");
   fmt::print("  vertices {} ({} in no face), edges {}, faces {} ({} triangles, up to {} corners)\n",
              inspection.vertices, inspection.unreferenced_vertices, inspection.edges, inspection.faces,
              inspection.triangles, inspection.max_face_degree);

@@ -21,7 +21,7 @@ Cones = Union[Sequence[Union[int, str]], npt.NDArray[np.integer], str, None]
 
 def embed(V: npt.ArrayLike, F: Any, signature: str = "best", cones: Cones = "best", *, objective: str = "sigma", progress: Progress | None = None,
           angles: Any = None, polygon: Any = None, geometry: str | None = None, repair: bool = False, **options: Any) -> Embedding:
-    """Embed a mesh into an orbifold of the sphere or the plane.
+    """Embed a mesh into an orbifold of the sphere, the plane or the hyperbolic plane.
 
     Parameters
     ----------
@@ -30,15 +30,15 @@ def embed(V: npt.ArrayLike, F: Any, signature: str = "best", cones: Cones = "bes
     F : (m, 3) array_like of int, (m, k), or list of sequences
         Faces, counterclockwise seen from outside, 0-based; sequences of different lengths are polygons.
     signature : str
-        Conway's symbol, such as "432" (see `families`); "best", the one of least distortion; "1" or "sphere" for the whole sphere, ``"*"``
-        or "hemisphere" for a disk; "cones", or ``"*cones"`` for a disk, for the plane with cones of any angles; or "polygon" for a fixed
-        boundary.
+        Conway's symbol, such as "432" (see `families`) or "7,3,2"; "best", the spherical one of least distortion; "1" or "sphere" for the
+        whole sphere, ``"*"`` or "hemisphere" for a disk; "cones", or ``"*cones"`` for a disk, for cones of any angles, which decide the
+        space; or "polygon" for a fixed boundary.
     cones : sequence of int and "best", "best", or "extremities"
         The vertices to be marked, in the order of the symbol; "best" in place of those, or all, that are to be chosen so that the map
         distorts least. "auto" is an older name of "best". "extremities" takes vertices that are far from each other. None for "1" and
         ``"*"``.
     objective : "sigma", "symmetric-dirichlet" or "range"
-        What the best have least of: the standard deviation of the logarithm of the scale, the mean of the symmetric Dirichlet energy,
+        What the choice is for the least of: the standard deviation of the logarithm of the scale, the mean of the symmetric Dirichlet energy,
         or the ratio of the largest scale to the smallest.
     progress : callable(stage, iteration, energy, gradient_norm), optional
         Called in every stage and iteration. Returning False cancels; what it raises passes through.

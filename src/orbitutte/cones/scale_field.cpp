@@ -156,11 +156,9 @@ std::vector<ScaleSample> scale_samples(const KnownMap& map, int count, const std
 }
 
 bool has_closed_form(const Target& target) {
-  if (!target.corners.empty() || target.has_free_tile) return false;
-  if (target.symbol.cross || target.space.curvature() < 0) return false;
-  const std::vector<double> angles = angles_of_double(target);
-  if (target.space.curvature() == 0) return angles.size() == 3;
-  return angles.size() == 2 || angles.size() == 3;
+  if (!target.corners.empty() || target.has_free_tile || target.symbol.cross) return false;
+  const std::size_t cones = angles_of_double(target).size();
+  return cones == 2 || cones == 3;
 }
 
 VertexStars::VertexStars(const Surface& s)

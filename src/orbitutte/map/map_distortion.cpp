@@ -82,6 +82,7 @@ MapDistortion measure_map(const Triangles& triangles, const Points& from, const 
     sum += share * energy;
     if (std::abs(std::log(map.determinant * scale)) <= std::log(4.0)) result.within_4 += share;
   }
+  result.within_4 = std::min(result.within_4, 1.0);  // shares add up to 1 but for rounding
   std::sort(energies.begin(), energies.end());
   result.symmetric_dirichlet.mean = measured > 0 ? sum / measured : 0;
   result.symmetric_dirichlet.median = quantile(energies, 0.5);
