@@ -96,6 +96,7 @@ LocalMinimum::Change LocalMinimum::change_by(const MovablePositions& positions,
                                              const std::vector<Vector3>& steps) const {
   Change result;
   for (std::size_t n = 0; n < neighbourhoods_.size(); ++n) {
+    double shortest = std::numeric_limits<double>::infinity();
     for (const Neighbour& at : neighbourhoods_[n].neighbours) {
       const auto other = place_.find(at.vertex);
       Vector3 change = -steps[n];
@@ -104,9 +105,27 @@ LocalMinimum::Change LocalMinimum::change_by(const MovablePositions& positions,
       const double relative = length > 0 ? change.norm() / length : std::numeric_limits<double>::max();
       if (change.norm() > 0) result.largest = std::max(result.largest, relative);
       if (change.norm() > 0 && !(relative < settled_change)) ++result.unsettled;
+      shortest = std::min(shortest, length);
     }
+    if (const double step = steps[n].norm(); step > 0)
+      result.shift =
+          std::max(result.shift, shortest > 0 ? step / shortest : std::numeric_limits<double>::max());
   }
   return result;
+}
+
+bool LocalMinimum::settle_in_place(MovablePositions& positions) const {
+  constexpr int most_steps_in_place = 150, patience_in_place = 12;
+  if (factor_.info() != Eigen::Success) return false;
+  double best = std::numeric_limits<double>::infinity();
+  for (int k = 0, without_gain = 0; k < most_steps_in_place && without_gain < patience_in_place; ++k) {
+    const double shift = step(positions).shift;
+    if (!std::isfinite(shift)) return false;
+    if (shift < converged_change) return true;
+    without_gain = shift < 0.9 * best ? 0 : without_gain + 1;
+    best = std::min(best, shift);
+  }
+  return false;
 }
 
 bool LocalMinimum::settle(MovablePositions& positions) const {
