@@ -69,19 +69,11 @@ LocalMinimum::LocalMinimum(const Gluing& gluing, const MovablePositions& positio
 LocalMinimum::Change LocalMinimum::step(MovablePositions& positions) const {
   const std::size_t count = neighbourhoods_.size();
   Eigen::VectorXd force(first_.back());
-  visit_curvature(space_, [&]<int k>(Curvature<k>) {
-    for (std::size_t n = 0; n < count; ++n) {
-      const auto& [vertex, neighbours] = neighbourhoods_[n];
-      std::vector<double> factors;
-      for (const Neighbour& at : neighbours) {
-        const Vector3 difference = positions.difference(vertex, at.vertex, at.element);
-        factors.push_back(at.weight * Curvature<k>::over_sn(space_.dot(difference, difference)));
-      }
-      const Vector3 pull = positions.pull(vertex, neighbours, factors);
-      for (Eigen::Index i = 0; i < bases_[n].cols(); ++i)
-        force[first_[n] + i] = space_.dot(bases_[n].col(i), pull);
-    }
-  });
+  for (std::size_t n = 0; n < count; ++n) {
+    const Vector3 pull = positions.harmonic_pull(neighbourhoods_[n].vertex, neighbourhoods_[n].neighbours);
+    for (Eigen::Index i = 0; i < bases_[n].cols(); ++i)
+      force[first_[n] + i] = space_.dot(bases_[n].col(i), pull);
+  }
   const Eigen::VectorXd move = factor_.solve(force);
   std::vector<Vector3> steps(count, Vector3::Zero());
   for (std::size_t n = 0; n < count; ++n)
