@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <optional>
 #include <random>
@@ -113,6 +114,20 @@ TEST(Braid, MovesConesAsDifferencesDo) {
     EXPECT_LT((moving.rotations()[k].value.matrix() - rotation.matrix()).norm(),
               1e-9 * rotation.matrix().norm());
   }
+}
+
+// In the plane braids are linear.
+TEST(Braid, OfEqualConesInThePlaneIsAMatrix) {
+  constexpr double angle = 2 * pi - 4 * pi / 6;
+  const Moduli moduli(Space::plane(), std::vector<double>(6, angle));
+  Points cones = Points::Ones(6, 3);
+  cones.leftCols(2).setRandom();
+  const Braid braid = random_pure_braid(6, 5, 3);
+  const Points moved = braided(moduli, cones, braid);
+  const Eigen::VectorXcd z = cones.col(0) + std::complex<double>(0, 1) * cones.col(1),
+                         image = braid_matrix(6, braid, angle) * z;
+  for (int k = 0; k < 6; ++k)
+    EXPECT_LT(std::abs(image[k] - std::complex<double>(moved(k, 0), moved(k, 1))), 1e-9) << k;
 }
 
 TEST(IsotopyClass, OfFourConesUndoesAnyPureBraid) {

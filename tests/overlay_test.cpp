@@ -144,6 +144,17 @@ TEST_P(OverlayOf, MapsThereAndBackAreTheIdentity) {
   }
 }
 
+TEST_P(OverlayOf, HasTheImagesOfAllVertices) {
+  const Pair pair = sample_pair(GetParam());
+  const Embedding &a = pair.a.embedding, &b = pair.b.embedding;
+  const VertexMaps maps = vertex_maps(overlay(a, b), a, b);
+  const auto difference = [](const Points& V, const Embedding& on, const VertexMap& x, const VertexMap& y) {
+    return (positions_on(V, on, x.images) - positions_on(V, on, y.images)).rowwise().norm().maxCoeff();
+  };
+  EXPECT_LT(difference(pair.b_mesh.V, b, maps.a_to_b, images_of_vertices(a, b)), 1e-12);
+  EXPECT_LT(difference(pair.a_mesh.V, a, maps.b_to_a, images_of_vertices(b, a)), 1e-12);
+}
+
 // Values and points of a certified pair.
 
 TEST(VertexMap, IsAMatrixWhoseRowsSumToOne) {
@@ -579,6 +590,24 @@ TEST(Overlay, OfOctocatIsCertified) {
   ASSERT_TRUE(a.certificate.bijective && b.certificate.bijective);
   ASSERT_FALSE(a.embedding.offsets.empty());
   EXPECT_EQ(fault_in(certify(overlay(a.embedding, b.embedding), a.embedding, b.embedding)), "");
+}
+
+// With three landmarks, five of six limbs shrink below what doubles resolve.
+TEST(Overlay, OfOctocatWithItselfMovesNothingWhicheverTheCuts) {
+  const std::string path = std::string(ORBITUTTE_SHARED_DIR) + "/meshes/octocat.off";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is missing";
+  const Mesh mesh = to_triangle_mesh(read_mesh(path));
+  const Surface surface = make_surface(mesh);
+  std::vector<Landmark> landmarks;
+  for (const int v : choose_extremities(surface, {3, 0})) landmarks.push_back({v, v});
+  MapOptions options;
+  options.cut_b.seed = 7;
+  const SurfaceMap map = map_between(surface, surface, landmarks, options);
+  ASSERT_TRUE(map.is_bijective());
+  const Embedding &a = map.a.embedding, &b = map.b.embedding;
+  const double size = (mesh.V.colwise().maxCoeff() - mesh.V.colwise().minCoeff()).norm();
+  const Points images = positions_on(mesh.V, b, images_of_vertices(a, b).images);
+  EXPECT_LT((images - mesh.V).rowwise().norm().maxCoeff(), 1e-7 * size);
 }
 
 // Two limbs that shrink below what doubles resolve.

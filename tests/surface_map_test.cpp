@@ -9,6 +9,7 @@
 #include "orbitutte/cut/cut.h"
 #include "orbitutte/inspect/recognition.h"
 #include "orbitutte/io/landmark_file.h"
+#include "orbitutte/orbifold/polygon.h"
 #include "sample_embeddings.h"
 #include "test_meshes.h"
 
@@ -54,7 +55,7 @@ std::string refusal(const Surface& a, const Surface& b, const std::vector<Landma
 }
 
 class LandmarksOnSpheres : public testing::TestWithParam<int> {};
-INSTANTIATE_TEST_SUITE_P(Count, LandmarksOnSpheres, testing::Values(3, 4, 5, 6));
+INSTANTIATE_TEST_SUITE_P(Count, LandmarksOnSpheres, testing::Values(3, 4, 5, 6, 8, 10));
 
 TEST_P(LandmarksOnSpheres, GiveTwoCertifiedEmbeddingsIntoOneTile) {
   const Surface a = make_surface(irregular_sphere()), b = make_surface(stretched_sphere());
@@ -91,8 +92,10 @@ TEST_P(LandmarksOnSpheres, AreMappedAlikeWhicheverTheTourOrWarned) {
     options.tour.push_back((2 * k) % GetParam() + (2 * k >= GetParam() && GetParam() % 2 == 0));
   const SurfaceMap other = map_between(a, b, landmarks, options);
   EXPECT_TRUE(other.is_bijective());
-  for (const SurfaceMap* map : {&shortest, &other})
+  for (const SurfaceMap* map : {&shortest, &other}) {
+    EXPECT_EQ(map->map_class.tile, TileShape::shared) << map->warnings.front();
     if (!map->warnings.empty()) GTEST_SKIP() << map->warnings.front();
+  }
   EXPECT_LT(difference(mesh, shortest.a, other.a), 1e-6)
       << other.map_class.distance << " " << shortest.map_class.distance;
   EXPECT_LT(difference(mesh, shortest.b, other.b), 1e-6);
@@ -104,6 +107,16 @@ TEST_P(LandmarksOnSpheres, MayHaveARegularTile) {
   options.tile = TileShape::regular;
   const SurfaceMap map = map_between(a, b, spread_landmarks(a, GetParam(), 0), options);
   EXPECT_TRUE(map.is_bijective());
+}
+
+// Conformal maps of both sides, and so as even as can be.
+TEST_P(LandmarksOnSpheres, ShareATileUpToTheirConformalShapes) {
+  const Surface a = make_surface(irregular_sphere());
+  MapOptions options;
+  options.cut_b.seed = 5;
+  const SurfaceMap map = map_between(a, a, spread_landmarks(a, GetParam(), 0), options);
+  for (const EmbedResult* side : {&map.a, &map.b})
+    EXPECT_LT(side->minimum.energy / (2 * target_area(map.target())), 1.2);
 }
 
 struct OnDisk {

@@ -129,7 +129,14 @@ void finish(const EmbedRequest& request, const GluingProblem& problem, const Pla
   const Placement& placed = map.placed;
   const bool has_converged = placed.minimum.termination == Termination::converged;
   const auto needs_mending = [&] { return has_converged && !result.certificate.bijective; };
+  const bool is_refined = has_converged && map.refinement && stage("refine", [&] {
+    return helps(map.refinement, problem, placed, result);
+  });
   stage("certify", [&] {
+    if (is_refined) {
+      judge(request, result);
+      return;
+    }
     // A map that turns faces over is mended before it is certified.
     const SpreadMap spread = spread_map(problem, placed);
     if (!has_converged || !turns_faces_over(problem, spread)) take(problem, spread, result);

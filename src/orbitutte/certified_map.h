@@ -28,6 +28,9 @@ struct PlacedMap {
   const Placement& placed;
   std::vector<Remedy> remedies = {with_faces_repaired, with_tips_unrolled, with_limbs_resolved,
                                   with_more_digits};
+
+  /// Taken before all of them, also where the map is a bijection in doubles, if it makes it one; none.
+  Remedy refinement = {};
 };
 
 /// Puts the map into the result, with its certificate, distortion and warnings. `result` already has the

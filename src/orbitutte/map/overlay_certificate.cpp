@@ -166,14 +166,10 @@ class PointSource {
   bool has_offsets_;
 };
 
-// An edge of the overlay as a face has it.
+// An edge of the overlay as a face has it, and the same as a face on the other side has it: its number, or
+// -1.
 struct DirectedEdge {
-  std::uint64_t ends;  // origin, target
-  int face;
-
-  int origin() const { return static_cast<int>(ends >> 32); }
-  int target() const { return static_cast<int>(ends & 0xffffffff); }
-  std::uint64_t reversed() const { return ends << 32 | ends >> 32; }
+  int origin = -1, target = -1, face = -1, twin = -1;
 };
 
 class OverlayExaminer {
@@ -303,15 +299,13 @@ class OverlayExaminer {
     element_of_[first] = element_of_first;
     is_reached[first] = 1;
     for (std::size_t n = 0; n < reached.size(); ++n) {
-      int origin = corners(reached[n]).back();
-      for (const int v : corners(reached[n])) {
-        const DirectedEdge edge = {ends_of(origin, v), reached[n]};
-        origin = v;
-        const DirectedEdge* const other = find_edge(edge.reversed());
-        if (!other || is_reached[other->face]) continue;
-        is_reached[other->face] = 1;
-        element_of_[other->face] = element_beyond(edge);
-        reached.push_back(other->face);
+      for (int e = first_edge(reached[n]); e < first_edge(reached[n] + 1); ++e) {
+        if (edges_[e].twin < 0) continue;
+        const int beyond = edges_[edges_[e].twin].face;
+        if (is_reached[beyond]) continue;
+        is_reached[beyond] = 1;
+        element_of_[beyond] = element_beyond(edges_[e]);
+        reached.push_back(beyond);
       }
     }
   }
@@ -337,28 +331,41 @@ class OverlayExaminer {
 
   // -- The surface --
 
+  // Edge e of the list leads to corner e of all faces' corners.
+  int first_edge(int face) const { return overlay_.faces.start[face]; }
+
   void list_edges() {
+    edges_.reserve(overlay_.faces.corners.size());
     for (int f = 0; f < face_count(); ++f) {
       int origin = corners(f).back();
       for (const int v : corners(f)) {
-        edges_.push_back({ends_of(origin, v), f});
+        edges_.push_back({origin, v, f, -1});
         origin = v;
       }
     }
-    std::sort(edges_.begin(), edges_.end(), [](const DirectedEdge& x, const DirectedEdge& y) {
-      return x.ends != y.ends ? x.ends < y.ends : x.face < y.face;
-    });
+    find_twins();
   }
 
-  static std::uint64_t ends_of(int origin, int target) {
-    return static_cast<std::uint64_t>(origin) << 32 | static_cast<std::uint32_t>(target);
-  }
-
-  // The edge with these ends, or nothing.
-  const DirectedEdge* find_edge(std::uint64_t ends) const {
-    const auto at = std::lower_bound(edges_.begin(), edges_.end(), ends,
-                                     [](const DirectedEdge& x, std::uint64_t y) { return x.ends < y; });
-    return at != edges_.end() && at->ends == ends ? &*at : nullptr;
+  // Of edges in one direction that have the same ends, which is a fault, the first one has the twin.
+  void find_twins() {
+    std::vector<std::pair<std::uint64_t, int>> by_ends;
+    by_ends.reserve(edges_.size());
+    for (int e = 0; e < static_cast<int>(edges_.size()); ++e) {
+      const auto [low, high] = std::minmax(edges_[e].origin, edges_[e].target);
+      by_ends.emplace_back(static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint32_t>(high), e);
+    }
+    std::sort(by_ends.begin(), by_ends.end());
+    for (std::size_t begin = 0, end = 0; begin < by_ends.size(); begin = end) {
+      int forward = -1, backward = -1;
+      for (end = begin; end < by_ends.size() && by_ends[end].first == by_ends[begin].first; ++end) {
+        const int e = by_ends[end].second;
+        int& first = edges_[e].origin < edges_[e].target ? forward : backward;
+        (first < 0 ? first : repeated_edge_) = e;
+      }
+      if (forward < 0 || backward < 0) continue;
+      edges_[forward].twin = backward;
+      edges_[backward].twin = forward;
+    }
   }
 
   void examine_surface() {
@@ -367,16 +374,16 @@ class OverlayExaminer {
     DisjointSets pieces(face_count());
     long long boundary = 0;
     std::vector<int> leaving(overlay_.vertex_count(), 0);
-    for (std::size_t k = 0; k < edges_.size(); ++k) {
-      const DirectedEdge& edge = edges_[k];
-      if (k > 0 && edges_[k - 1].ends == edge.ends)
-        findings.add("two faces run along the edge from {} to {}", edge.origin(), edge.target());
-      if (const DirectedEdge* const other = find_edge(edge.reversed())) {
-        pieces.unite(edge.face, other->face);
+    if (repeated_edge_ >= 0)
+      findings.add("two faces run along the edge from {} to {}", edges_[repeated_edge_].origin,
+                   edges_[repeated_edge_].target);
+    for (const DirectedEdge& edge : edges_) {
+      if (edge.twin >= 0) {
+        pieces.unite(edge.face, edges_[edge.twin].face);
         continue;
       }
       ++boundary;
-      if (++leaving[edge.origin()] > 1) findings.add("the boundary meets vertex {} twice", edge.origin());
+      if (++leaving[edge.origin] > 1) findings.add("the boundary meets vertex {} twice", edge.origin);
       if (!is_disk) findings.add("face {} has an edge without a neighbour", edge.face);
     }
     for (int f = 1; f < face_count(); ++f)
@@ -401,8 +408,8 @@ class OverlayExaminer {
     std::vector<char> is_begun(overlay_.vertex_count(), 0);
     for (const int v : overlay_.faces.corners) ++faces[v];
     for (const DirectedEdge& edge : edges_) {
-      const int v = edge.origin();
-      const bool is_first = find_edge(edge.reversed()) == nullptr;
+      const int v = edge.origin;
+      const bool is_first = edge.twin < 0;
       if (is_begun[v] == 2 || (is_begun[v] == 1 && !is_first)) continue;
       is_begun[v] = is_first ? 2 : 1;
       met[v] = faces_around(edge);
@@ -411,26 +418,24 @@ class OverlayExaminer {
       if (met[v] != faces[v] || faces[v] == 0) findings.add("the faces around vertex {} are not one fan", v);
   }
 
-  // Counterclockwise from the face on the left of an edge, until the same face or the boundary.
+  // Counterclockwise from the face on the left of an edge, until the same face or the boundary: on by the
+  // twin of the edge of the face that leads to the vertex.
   int faces_around(const DirectedEdge& first) const {
-    const int v = first.origin();
     int count = 0;
     const DirectedEdge* edge = &first;
     do {
       ++count;
-      const int before = corner_before(edge->face, v);
-      edge = find_edge(ends_of(v, before));
+      const int twin = edges_[edge_to(edge->face, first.origin)].twin;
+      edge = twin < 0 ? nullptr : &edges_[twin];
     } while (edge && edge != &first && count <= face_count());
     return count;
   }
 
-  int corner_before(int f, int v) const {
-    int before = corners(f).back();
-    for (const int c : corners(f)) {
-      if (c == v) return before;
-      before = c;
-    }
-    return before;
+  // The edge of a face that leads to one of its corners.
+  int edge_to(int face, int corner) const {
+    int e = first_edge(face);
+    while (edges_[e].target != corner) ++e;
+    return e;
   }
 
   // -- Vertices --
@@ -623,13 +628,13 @@ class OverlayExaminer {
 
   void examine_neighbours() {
     Findings findings("neighbours");
-    for (const DirectedEdge& edge : edges_) {
-      const DirectedEdge* const other = find_edge(edge.reversed());
-      if (!other) {
+    for (int e = 0; e < static_cast<int>(edges_.size()); ++e) {
+      const DirectedEdge& edge = edges_[e];
+      if (edge.twin < 0) {
         if (!is_on_boundary(edge)) findings.add("face {} ends where a surface goes on", edge.face);
-      } else if (edge.ends < other->ends && !fits(edge, other->face)) {
-        findings.add("faces {} and {} do not fit along the edge from {} to {}", edge.face, other->face,
-                     edge.origin(), edge.target());
+      } else if (const int other = edges_[edge.twin].face; e < edge.twin && !fits(edge, other)) {
+        findings.add("faces {} and {} do not fit along the edge from {} to {}", edge.face, other, edge.origin,
+                     edge.target);
       }
     }
     conclude(findings);
@@ -644,7 +649,7 @@ class OverlayExaminer {
   // The half-edge of the parent that an edge of the overlay lies on, or -1.
   int halfedge_under(int side, const DirectedEdge& edge) const {
     for (int k = 0; k < 3; ++k)
-      if (is_on_edge(side, edge.face, edge.origin(), k) && is_on_edge(side, edge.face, edge.target(), k))
+      if (is_on_edge(side, edge.face, edge.origin, k) && is_on_edge(side, edge.face, edge.target, k))
         return 3 * parent(side, edge.face) + k;
     return -1;
   }
@@ -775,6 +780,9 @@ class OverlayExaminer {
   PointSource points_;
   std::vector<int> element_of_;  // of faces
   std::vector<DirectedEdge> edges_;
+
+  // One whose ends another edge has in the same direction; -1 for none.
+  int repeated_edge_ = -1;
   OverlayCertificate result_;
 };
 

@@ -364,7 +364,8 @@ class Mapping {
   }
 
   void finish_both(const ProblemPair& problems, const std::array<Placement, 2>& placed) {
-    // The map stays in its frame, which both surfaces have: more digits come before turning it.
+    // The map stays in its frame, which both surfaces have: more digits come before turning it. Limbs have
+    // them in any case, since what is off there shows in full size on the other surface.
     const std::vector<Remedy> remedies = {with_faces_repaired, with_tips_unrolled, with_more_digits,
                                           with_limbs_resolved};
     for (int s = 0; s < 2; ++s) {
@@ -374,7 +375,7 @@ class Mapping {
       result.threads = thread_count();
       result.backend = side.options.laplacian.backend;
       Stages stage(options_.embed.progress, result.timings);
-      finish(side.request(), problems[s], {placed[s], remedies}, stage, result);
+      finish(side.request(), problems[s], {placed[s], remedies, with_limbs_in_place}, stage, result);
     }
   }
 

@@ -53,7 +53,7 @@ std::vector<int> places_of_corners(const Target& target, const CutMesh& cut) {
 }
 
 // The product of the rotations about the cones that are met after `after`, up to `last`.
-Matrix3Of<Precise> precise_product(const std::vector<MetCone>& met, int after, int last) {
+Matrix3Of<Precise> product_of_met(const std::vector<MetCone>& met, int after, int last) {
   Matrix3Of<Precise> product = Matrix3Of<Precise>::Identity();
   for (const MetCone& cone : met)
     if (after < cone.place && cone.place <= last) product = product * cone.rotation;
@@ -62,7 +62,7 @@ Matrix3Of<Precise> precise_product(const std::vector<MetCone>& met, int after, i
 
 // The same in doubles.
 Matrix3 product_between(const std::vector<MetCone>& met, int after, int last) {
-  return precise_product(met, after, last).cast<double>();
+  return product_of_met(met, after, last).cast<double>();
 }
 
 // The mark that an input vertex is; the number of the target's marks if it is none.
@@ -171,11 +171,11 @@ class TileWalk {
     const int to = is_last ? corner_places_.front() : *after;
     const auto seen = [&](int at, int until) -> Vector3Of<Precise> {
       const Vector3 p = positions_.row(cut_.boundary[at]);
-      return precise_product(met_, from, until) * precise_retract<Precise>(target_.space, p.cast<Precise>());
+      return product_of_met(met_, from, until) * precise_retract<Precise>(target_.space, p.cast<Precise>());
     };
     const Vector3Of<Precise> line =
         seen(from, from).cross(seen(to, is_last ? static_cast<int>(cut_.boundary.size()) : to));
-    const Matrix3Of<Precise> behind = precise_product(met_, from, place);
+    const Matrix3Of<Precise> behind = product_of_met(met_, from, place);
     const Matrix3Of<Precise> reflection =
         precise_inverse(target_.space, behind) * precise_reflection(target_.space, line) * behind;
     return target_.space.isometry(reflection.cast<double>());
@@ -303,7 +303,7 @@ Points spread_on_free_tile(const Target& target, const CutMesh& cut, const Point
     place[v] = b;
     if (v == source) continue;
     const auto [at, is_new] = elements.try_emplace({count_met(place[source]), count_met(b)});
-    if (is_new) at->second = precise_inverse(target.space, precise_product(met, place[source], b));
+    if (is_new) at->second = precise_inverse(target.space, product_of_met(met, place[source], b));
     const Vector3Of<Precise> there = positions.row(source).transpose().cast<Precise>();
     result.row(v) = Vector3Of<Precise>(at->second * there).cast<double>();
   }
@@ -318,7 +318,7 @@ Vector3 closing_position(const Target& target, const CutMesh& cut, const Points&
   if (target.topology != Topology::sphere) return positions.row(cut.marks.front());
   const std::vector<MetCone> met = met_cones(target, cut, positions);
   const Matrix3Of<Precise> others =
-      precise_product(met, met.front().place, static_cast<int>(cut.boundary.size()));
+      product_of_met(met, met.front().place, static_cast<int>(cut.boundary.size()));
   return precise_fixed_point(target.space, others, positions.row(cut.marks.front())).cast<double>();
 }
 

@@ -7,7 +7,7 @@
 namespace orbitutte {
 namespace {
 
-Vector3Of<Precise> precise_position(Space space, const Vector3& position) {
+Vector3Of<Precise> point_with_digits(Space space, const Vector3& position) {
   return precise_retract<Precise>(space, position.cast<Precise>());
 }
 
@@ -16,7 +16,7 @@ Vector3Of<Precise> precise_position(Space space, const Vector3& position) {
 // A half turn is 2 p n^T - 1, with n = (k x, k y, z).
 Matrix3Of<Precise> precise_rotation_about(Space space, const Mark& mark, const Vector3& position) {
   if (mark.kind == ConeKind::corner) return Matrix3Of<Precise>::Identity();
-  const Vector3Of<Precise> p = precise_position(space, position);
+  const Vector3Of<Precise> p = point_with_digits(space, position);
   if (mark.order() != 2 || space.curvature() == 0)
     return precise_rotation<Precise>(space, p, precise_angle<Precise>(mark));
   const Vector3Of<Precise> n(space.curvature() * p.x(), space.curvature() * p.y(), p.z());
@@ -39,9 +39,9 @@ std::vector<Matrix3Of<Precise>> precise_generators(Space space, const MarkOrder&
   const Matrix3Of<Precise> identity = Matrix3Of<Precise>::Identity();
   for (const int corner : marks.corners()) {
     const Matrix3Of<Precise> between = marks.product_up_to_corner(corner, about, identity);
-    const Vector3Of<Precise> here = precise_position(space, positions.row(corner)),
-                             next =
-                                 between * precise_position(space, positions.row(marks.corner_after(corner)));
+    const Vector3Of<Precise> here = point_with_digits(space, positions.row(corner)),
+                             next = between *
+                                    point_with_digits(space, positions.row(marks.corner_after(corner)));
     result[corner] = precise_reflection<Precise>(space, here.cross(next));
   }
   return result;

@@ -101,7 +101,7 @@ class GluingWalk {
       MetMark met = {place, precise_retract(space_, boundary_.position(boundary_.loop[place])), 0, {}};
       if (const int k = at->second; k >= 0 && boundary_.cones[k].mark.kind == ConeKind::rotation) {
         met.angle = angles[k];
-        met.rotation = precise_rotation(space_, met.position, met.angle);
+        met.rotation = rotation_about(met);
       }
       met_.push_back(std::move(met));
     }
@@ -121,8 +121,8 @@ class GluingWalk {
 
   // Newton's method with one Jacobian in doubles: each step gains some ten digits.
   void turn_by_angle() {
-    constexpr int most_steps = 100;
-    constexpr double finest = 1e-300;
+    constexpr int most_steps = 400;
+    const Real finest = ldexp(Real(1), 60 - std::numeric_limits<Real>::digits);
     Points marks(static_cast<Eigen::Index>(met_.size()), 3);
     std::vector<double> angles;
     for (std::size_t k = 0; k < met_.size(); ++k) {
@@ -131,29 +131,38 @@ class GluingWalk {
     }
     const Moduli moduli(space_, angles);
     const auto solver = moduli.closing_jacobian(marks).completeOrthogonalDecomposition();
-    double least = std::numeric_limits<double>::infinity();
+    Real least = 1;
     for (int step = 0; step < most_steps; ++step) {
-      const Vector3 rest = closing_defect();
-      const double size = rest.cwiseAbs().maxCoeff();
-      if (!(size < 0.1 * least) || size < finest) break;
+      const Point rest = closing_defect();
+      const Real size = std::max({Real(abs(rest[0])), Real(abs(rest[1])), Real(abs(rest[2]))});
+      if (size < finest || !(size < least / 10)) break;
       least = size;
-      const Points moves = moduli.tangents(marks, -solver.solve(rest));
+      const Point scaled = rest / size;  // which doubles hold, however small the rest is
+      const Points moves = moduli.tangents(marks, -solver.solve(scaled.template cast<double>()));
       for (std::size_t k = 0; k < met_.size(); ++k)
-        move(met_[k], moves.row(static_cast<Eigen::Index>(k)).transpose());
+        move(met_[k], size * moves.row(static_cast<Eigen::Index>(k)).transpose().template cast<Real>());
     }
   }
 
   // The product of all rotations at first order (Moduli::closing).
-  Vector3 closing_defect() const {
+  Point closing_defect() const {
     const Matrix M = met_.front().rotation.value() * product_between(met_.front().place, count_);
     const int k = space_.curvature();
-    const Point defect((k * M(2, 1) - M(1, 2)) / 2, (M(0, 2) - k * M(2, 0)) / 2, (M(1, 0) - M(0, 1)) / 2);
-    return defect.template cast<double>();
+    return {(k * M(2, 1) - M(1, 2)) / 2, (M(0, 2) - k * M(2, 0)) / 2, (M(1, 0) - M(0, 1)) / 2};
   }
 
-  void move(MetMark& mark, const Vector3& step) const {
-    mark.position = precise_retract(space_, Point(mark.position + step.template cast<Real>()));
-    mark.rotation = precise_rotation(space_, mark.position, mark.angle);
+  void move(MetMark& mark, const Point& step) const {
+    mark.position = precise_retract(space_, Point(mark.position + step));
+    mark.rotation = rotation_about(mark);
+  }
+
+  // A half turn is 2 p n^T - 1, with n = (k x, k y, z), without series for sines.
+  Matrix rotation_about(const MetMark& mark) const {
+    const int k = space_.curvature();
+    if (k == 0 || mark.angle != boost::math::constants::pi<Real>())
+      return precise_rotation(space_, mark.position, mark.angle);
+    const Point n(k * mark.position.x(), k * mark.position.y(), mark.position.z());
+    return Real(2) * (mark.position * n.transpose()) - Matrix::Identity();
   }
 
   // Of the rotations about the cones that are met after `after`, up to `last`.

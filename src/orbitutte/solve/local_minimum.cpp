@@ -69,19 +69,11 @@ LocalMinimum::LocalMinimum(const Gluing& gluing, const MovablePositions& positio
 LocalMinimum::Change LocalMinimum::step(MovablePositions& positions) const {
   const std::size_t count = neighbourhoods_.size();
   Eigen::VectorXd force(first_.back());
-  visit_curvature(space_, [&]<int k>(Curvature<k>) {
-    for (std::size_t n = 0; n < count; ++n) {
-      const auto& [vertex, neighbours] = neighbourhoods_[n];
-      std::vector<double> factors;
-      for (const Neighbour& at : neighbours) {
-        const Vector3 difference = positions.difference(vertex, at.vertex, at.element);
-        factors.push_back(at.weight * Curvature<k>::over_sn(space_.dot(difference, difference)));
-      }
-      const Vector3 pull = positions.pull(vertex, neighbours, factors);
-      for (Eigen::Index i = 0; i < bases_[n].cols(); ++i)
-        force[first_[n] + i] = space_.dot(bases_[n].col(i), pull);
-    }
-  });
+  for (std::size_t n = 0; n < count; ++n) {
+    const Vector3 pull = positions.harmonic_pull(neighbourhoods_[n].vertex, neighbourhoods_[n].neighbours);
+    for (Eigen::Index i = 0; i < bases_[n].cols(); ++i)
+      force[first_[n] + i] = space_.dot(bases_[n].col(i), pull);
+  }
   const Eigen::VectorXd move = factor_.solve(force);
   std::vector<Vector3> steps(count, Vector3::Zero());
   for (std::size_t n = 0; n < count; ++n)
@@ -96,6 +88,7 @@ LocalMinimum::Change LocalMinimum::change_by(const MovablePositions& positions,
                                              const std::vector<Vector3>& steps) const {
   Change result;
   for (std::size_t n = 0; n < neighbourhoods_.size(); ++n) {
+    double shortest = std::numeric_limits<double>::infinity();
     for (const Neighbour& at : neighbourhoods_[n].neighbours) {
       const auto other = place_.find(at.vertex);
       Vector3 change = -steps[n];
@@ -104,9 +97,27 @@ LocalMinimum::Change LocalMinimum::change_by(const MovablePositions& positions,
       const double relative = length > 0 ? change.norm() / length : std::numeric_limits<double>::max();
       if (change.norm() > 0) result.largest = std::max(result.largest, relative);
       if (change.norm() > 0 && !(relative < settled_change)) ++result.unsettled;
+      shortest = std::min(shortest, length);
     }
+    if (const double step = steps[n].norm(); step > 0)
+      result.shift =
+          std::max(result.shift, shortest > 0 ? step / shortest : std::numeric_limits<double>::max());
   }
   return result;
+}
+
+bool LocalMinimum::settle_in_place(MovablePositions& positions) const {
+  constexpr int most_steps_in_place = 150, patience_in_place = 12;
+  if (factor_.info() != Eigen::Success) return false;
+  double best = std::numeric_limits<double>::infinity();
+  for (int k = 0, without_gain = 0; k < most_steps_in_place && without_gain < patience_in_place; ++k) {
+    const double shift = step(positions).shift;
+    if (!std::isfinite(shift)) return false;
+    if (shift < converged_change) return true;
+    without_gain = shift < 0.9 * best ? 0 : without_gain + 1;
+    best = std::min(best, shift);
+  }
+  return false;
 }
 
 bool LocalMinimum::settle(MovablePositions& positions) const {

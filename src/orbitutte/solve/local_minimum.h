@@ -30,6 +30,9 @@ class LocalMinimum {
   struct Change {
     double largest = 0;
     int unsettled = 0;
+
+    /// The largest step of a vertex, relative to the shortest of its edges.
+    double shift = 0;
   };
 
   /// One Newton step.
@@ -37,6 +40,10 @@ class LocalMinimum {
 
   /// Steps until edges change by small parts of their lengths only. Did that come about?
   bool settle(MovablePositions& positions) const;
+
+  /// Steps until all vertices move by small parts of their shortest edges only, so that also what is far
+  /// smaller than its surroundings lies where these hold it. Did that come about?
+  bool settle_in_place(MovablePositions& positions) const;
 
  private:
   using Basis = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, 2>;

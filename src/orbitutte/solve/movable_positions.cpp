@@ -26,6 +26,24 @@ PreciseGroup<Real> group_of(const Gluing& gluing, const Target& target) {
                                  {cut.boundary, cut.source_vertex, boundary.seams, boundary.cones, position});
 }
 
+// d/sn d of the squared chord s, the sum of G_j (k s/4)^j with G_j = 4^j j!^2/(2j + 1)!. Of long edges
+// doubles have to do.
+template <typename Real>
+Real precise_over_sn(int k, const Real& s) {
+  constexpr double longest = 2.5, enough = 1e-50;
+  const double rough = static_cast<double>(s);
+  if (k == 0) return 1;
+  if (!(rough < longest)) return k > 0 ? Curvature<1>::over_sn(rough) : Curvature<-1>::over_sn(rough);
+  const Real ratio = k * s / 4;
+  Real sum = 1, term = 1;
+  for (int j = 1; j < 500 && abs(term) > enough; ++j) {
+    term *= ratio * (2 * j);
+    term /= 2 * j + 1;
+    sum += term;
+  }
+  return sum;
+}
+
 }  // namespace
 
 Vector3 MovablePositions::difference(int v, int u, int element) const {
@@ -39,6 +57,19 @@ Vector3 MovablePositions::pull(int v, const std::vector<Neighbour>& neighbours,
   for (std::size_t k = 0; k < neighbours.size(); ++k)
     sum += factors[k] * difference(v, neighbours[k].vertex, neighbours[k].element);
   return gluing_.boundary.space.tangent(positions_.row(v), sum);
+}
+
+Vector3 MovablePositions::harmonic_pull(int v, const std::vector<Neighbour>& neighbours) const {
+  const Space space = gluing_.boundary.space;
+  std::vector<double> factors;
+  factors.reserve(neighbours.size());
+  visit_curvature(space, [&]<int k>(Curvature<k>) {
+    for (const Neighbour& at : neighbours) {
+      const Vector3 away = difference(v, at.vertex, at.element);
+      factors.push_back(at.weight * Curvature<k>::over_sn(space.dot(away, away)));
+    }
+  });
+  return pull(v, neighbours, factors);
 }
 
 void MovablePositions::move(int v, const Vector3& step) {
@@ -106,9 +137,28 @@ Vector3 PrecisePositions<Real>::pull(int v, const std::vector<Neighbour>& neighb
     const Vector there = e == 0 ? precise(u) : Vector(element(e) * precise(u));
     sum += Real(factors[k]) * Vector(there - here);
   }
+  return tangential(here, sum);
+}
+
+// See Curvature::tangent.
+template <typename Real>
+Vector3 PrecisePositions<Real>::tangential(const Vector& here, const Vector& sum) const {
   const int curvature = gluing().boundary.space.curvature();
   const Real off = here.z() * sum.z() + curvature * (here.x() * sum.x() + here.y() * sum.y());
-  return Vector(sum - off * here).template cast<double>();  // see Curvature::tangent
+  return Vector(sum - off * here).template cast<double>();
+}
+
+template <typename Real>
+Vector3 PrecisePositions<Real>::harmonic_pull(int v, const std::vector<Neighbour>& neighbours) const {
+  const int curvature = gluing().boundary.space.curvature();
+  const Vector here = precise(v);
+  Vector sum = Vector::Zero();
+  for (const auto& [u, e, weight] : neighbours) {
+    const Vector away = e == 0 ? Vector(precise(u) - here) : Vector(element(e) * precise(u) - here);
+    const Real s = away.x() * away.x() + away.y() * away.y() + curvature * (away.z() * away.z());
+    sum += Real(weight) * precise_over_sn<Real>(curvature, s) * away;
+  }
+  return tangential(here, sum);
 }
 
 template <typename Real>

@@ -38,6 +38,9 @@ class MovablePositions {
   virtual Vector3 pull(int v, const std::vector<Neighbour>& neighbours,
                        const std::vector<double>& factors) const;
 
+  /// The same of the harmonic map: factors w d/sn d, with the weights and lengths of the edges.
+  virtual Vector3 harmonic_pull(int v, const std::vector<Neighbour>& neighbours) const;
+
   /// p_v in doubles.
   Vector3 rounded(int v) const { return positions_.row(v); }
 
@@ -85,6 +88,7 @@ class PrecisePositions final : public MovablePositions {
   Vector3 difference(int v, int u, int element) const override;
   Vector3 pull(int v, const std::vector<Neighbour>& neighbours,
                const std::vector<double>& factors) const override;
+  Vector3 harmonic_pull(int v, const std::vector<Neighbour>& neighbours) const override;
   bool is_refined(int v) const override { return slot_[v] >= 0; }
   void move(int v, const Vector3& step) override;
   void shift(int v, const Vector3& step) override;
@@ -113,6 +117,7 @@ class PrecisePositions final : public MovablePositions {
   };
 
   Vector precise(int v) const;
+  Vector3 tangential(const Vector& here, const Vector& sum) const;
   Vector feasible(int v, Vector p) const;
   Vector cut_position(int cut_vertex) const;
   const Matrix& element(int k) const;

@@ -80,11 +80,17 @@ std::vector<int> vertices_of_limbs(Site& site, const MovablePositions& positions
   return result;
 }
 
+std::vector<Neighbourhood> neighbourhoods_of(Site& site, const std::vector<int>& vertices) {
+  std::vector<Neighbourhood> result;
+  result.reserve(vertices.size());
+  for (const int v : vertices)
+    if (site.placed.boundary.basis_of[v] != held_in_place) result.push_back({v, site.neighbours(v)});
+  return result;
+}
+
 // The minimum over the limbs; false if it is not found.
 bool settle_limbs(Site& site, const std::vector<int>& limbs, MovablePositions& positions) {
-  std::vector<Neighbourhood> neighbourhoods;
-  for (const int v : limbs)
-    if (site.placed.boundary.basis_of[v] != held_in_place) neighbourhoods.push_back({v, site.neighbours(v)});
+  std::vector<Neighbourhood> neighbourhoods = neighbourhoods_of(site, limbs);
   if (neighbourhoods.empty()) return true;
   return LocalMinimum(site.gluing, positions, std::move(neighbourhoods)).settle(positions);
 }
@@ -227,6 +233,17 @@ bool refine_and_settle(Site& site, const std::vector<int>& limbs, PrecisePositio
   return settle_limbs(site, limbs, positions);
 }
 
+// All vertices at their minimum.
+template <typename Real>
+bool settle_in_place(Site& site, const std::vector<int>&, PrecisePositions<Real>& positions) {
+  std::vector<int> vertices;
+  for (int v = 0; v < static_cast<int>(site.may_move.size()); ++v)
+    if (!site.neighbours(v).empty()) vertices.push_back(v);
+  for (const int v : vertices) positions.refine(v);
+  std::vector<Neighbourhood> neighbourhoods = neighbourhoods_of(site, vertices);
+  return LocalMinimum(site.gluing, positions, std::move(neighbourhoods)).settle_in_place(positions);
+}
+
 // The shortest edge that so many digits are enough for, and what is told if there is a shorter one.
 struct Resolution {
   double finest;
@@ -345,6 +362,21 @@ std::optional<SpreadMap> with_more_digits(const GluingProblem& problem, const Pl
   } catch (const ArgumentError&) {  // doubles do not tell the group's elements apart
     return std::nullopt;
   }
+}
+
+std::optional<SpreadMap> with_limbs_in_place(const GluingProblem& problem, const Placement& placed) {
+  constexpr Eigen::Index most_vertices = 60000;
+  if (placed.minimum.positions.rows() <= most_vertices) {
+    Resolution resolution = {finest_edge};
+    try {
+      if (std::optional<SpreadMap> map =
+              refined<Precise>(problem, placed, resolution, settle_in_place<Precise>))
+        return map;
+    } catch (const ArgumentError&) {  // doubles do not tell the group's elements apart
+      return std::nullopt;
+    }
+  }
+  return with_more_digits(problem, placed);
 }
 
 }  // namespace orbitutte
