@@ -10,7 +10,7 @@
 namespace orbitutte {
 namespace {
 
-constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+constexpr std::string_view utf8_mark = "\xEF\xBB\xBF";
 constexpr std::string_view csv_blanks = " \t\r";
 
 std::string without_blanks(std::string_view text) {
@@ -102,7 +102,7 @@ class CsvReader {
 }  // namespace
 
 std::vector<CsvRow> read_csv(std::string_view text) {
-  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  if (text.starts_with(utf8_mark)) text.remove_prefix(utf8_mark.size());
   return CsvReader(text).rows();
 }
 

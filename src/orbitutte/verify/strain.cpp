@@ -12,18 +12,18 @@
 namespace orbitutte {
 namespace {
 
-using Sides = std::array<double, 3>;
+using TriangleSides = std::array<double, 3>;
 
 // A triangle in the source and in the image, both flat.
 struct StrainedTriangle {
-  Sides source, image;
+  TriangleSides source, image;
   double source_area = 0, image_area = 0;
 
   // sigma_1/sigma_2; 0 if the triangle is not measured.
   double elongation = 0;
 };
 
-StrainedTriangle strained(const Sides& source, const Sides& image) {
+StrainedTriangle strained(const TriangleSides& source, const TriangleSides& image) {
   StrainedTriangle result = {source, image};
   const auto p = lay_out(source[0], source[1], source[2]), q = lay_out(image[0], image[1], image[2]);
   if (!p || !q) return result;
@@ -40,7 +40,7 @@ std::vector<StrainedTriangle> strained_triangles(const Surface& surface, const E
   std::vector<StrainedTriangle> result(faces.size());
   for (std::size_t t = 0; t < faces.size(); ++t) {
     if (!(faces[t].area > 0)) continue;
-    Sides source, image;
+    TriangleSides source, image;
     for (int k = 0; k < 3; ++k) {
       const int a = embedding.triangles(static_cast<Eigen::Index>(t), k),
                 b = embedding.triangles(static_cast<Eigen::Index>(t), (k + 1) % 3);
