@@ -23,6 +23,9 @@ struct NameTable<MeshFormat> {
                                                     {MeshFormat::ply, "ply"},
                                                     {MeshFormat::stl, "stl"},
                                                     {MeshFormat::vtk, "vtk"},
+                                                    {MeshFormat::vtp, "vtp"},
+                                                    {MeshFormat::gltf, "gltf"},
+                                                    {MeshFormat::glb, "glb"},
                                                     {MeshFormat::gifti, "gifti"},
                                                     {MeshFormat::freesurfer, "freesurfer"}};
 };
