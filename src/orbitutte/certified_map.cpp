@@ -129,9 +129,8 @@ void finish(const EmbedRequest& request, const GluingProblem& problem, const Pla
   const Placement& placed = map.placed;
   const bool has_converged = placed.minimum.termination == Termination::converged;
   const auto needs_mending = [&] { return has_converged && !result.certificate.bijective; };
-  const bool is_refined = has_converged && map.refinement && stage("refine", [&] {
-    return helps(map.refinement, problem, placed, result);
-  });
+  const bool is_refined = has_converged && map.refinement &&
+                          stage("refine", [&] { return helps(map.refinement, problem, placed, result); });
   stage("certify", [&] {
     if (is_refined) {
       judge(request, result);

@@ -18,16 +18,12 @@ enum class MeshFormat { obj, off, ply, stl, gifti, freesurfer, vtk, vtp, gltf, g
 /// Its names.
 template <>
 struct NameTable<MeshFormat> {
-  static constexpr NamedValue<MeshFormat> rows[] = {{MeshFormat::obj, "obj"},
-                                                    {MeshFormat::off, "off"},
-                                                    {MeshFormat::ply, "ply"},
-                                                    {MeshFormat::stl, "stl"},
-                                                    {MeshFormat::vtk, "vtk"},
-                                                    {MeshFormat::vtp, "vtp"},
-                                                    {MeshFormat::gltf, "gltf"},
-                                                    {MeshFormat::glb, "glb"},
-                                                    {MeshFormat::gifti, "gifti"},
-                                                    {MeshFormat::freesurfer, "freesurfer"}};
+  static constexpr NamedValue<MeshFormat> rows[] = {
+      {MeshFormat::obj, "obj"},     {MeshFormat::off, "off"},
+      {MeshFormat::ply, "ply"},     {MeshFormat::stl, "stl"},
+      {MeshFormat::vtk, "vtk"},     {MeshFormat::vtp, "vtp"},
+      {MeshFormat::gltf, "gltf"},   {MeshFormat::glb, "glb"},
+      {MeshFormat::gifti, "gifti"}, {MeshFormat::freesurfer, "freesurfer"}};
 };
 
 /// Where a mesh is read from.
