@@ -22,6 +22,7 @@ class Elements {
   int index(const Isometry& element) { return index_among(elements_, element); }
 
   const Isometry& operator[](int k) const { return elements_[k]; }
+  int count() const { return static_cast<int>(elements_.size()); }
 
  private:
   std::vector<Isometry> elements_ = {Isometry()};

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "orbitutte/geometry/space.h"
+#include "orbitutte/parallel.h"
 
 namespace orbitutte {
 namespace {
@@ -66,14 +67,16 @@ LocalMinimum::LocalMinimum(const Gluing& gluing, const MovablePositions& positio
   factor_.compute(matrix);
 }
 
-LocalMinimum::Change LocalMinimum::step(MovablePositions& positions) const {
+LocalMinimum::Change LocalMinimum::step(MovablePositions& positions, double error) const {
   const std::size_t count = neighbourhoods_.size();
+  positions.prepare_elements(gluing_.elements.count() - 1);
   Eigen::VectorXd force(first_.back());
-  for (std::size_t n = 0; n < count; ++n) {
-    const Vector3 pull = positions.harmonic_pull(neighbourhoods_[n].vertex, neighbourhoods_[n].neighbours);
+  parallel_for(static_cast<int>(count), [&](int n) {
+    const auto& [vertex, neighbours] = neighbourhoods_[n];
+    const Vector3 pull = positions.harmonic_pull(vertex, neighbours, error);
     for (Eigen::Index i = 0; i < bases_[n].cols(); ++i)
       force[first_[n] + i] = space_.dot(bases_[n].col(i), pull);
-  }
+  });
   const Eigen::VectorXd move = factor_.solve(force);
   std::vector<Vector3> steps(count, Vector3::Zero());
   for (std::size_t n = 0; n < count; ++n)
@@ -86,8 +89,9 @@ LocalMinimum::Change LocalMinimum::step(MovablePositions& positions) const {
 
 LocalMinimum::Change LocalMinimum::change_by(const MovablePositions& positions,
                                              const std::vector<Vector3>& steps) const {
-  Change result;
-  for (std::size_t n = 0; n < neighbourhoods_.size(); ++n) {
+  std::vector<Change> changes(neighbourhoods_.size());
+  parallel_for(static_cast<int>(changes.size()), [&](int n) {
+    Change& result = changes[n];
     double shortest = std::numeric_limits<double>::infinity();
     for (const Neighbour& at : neighbourhoods_[n].neighbours) {
       const auto other = place_.find(at.vertex);
@@ -100,18 +104,34 @@ LocalMinimum::Change LocalMinimum::change_by(const MovablePositions& positions,
       shortest = std::min(shortest, length);
     }
     if (const double step = steps[n].norm(); step > 0)
-      result.shift =
-          std::max(result.shift, shortest > 0 ? step / shortest : std::numeric_limits<double>::max());
+      result.shift = shortest > 0 ? step / shortest : std::numeric_limits<double>::max();
+  });
+  Change result;
+  for (const Change& change : changes) {
+    result.largest = std::max(result.largest, change.largest);
+    result.unsettled += change.unsettled;
+    result.shift = std::max(result.shift, change.shift);
   }
   return result;
+}
+
+double LocalMinimum::shortest_edge(const MovablePositions& positions) const {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const auto& [vertex, neighbours] : neighbourhoods_)
+    for (const Neighbour& at : neighbours)
+      if (const double length = positions.difference(vertex, at.vertex, at.element).norm(); length > 0)
+        shortest = std::min(shortest, length);
+  return shortest;
 }
 
 bool LocalMinimum::settle_in_place(MovablePositions& positions) const {
   constexpr int most_steps_in_place = 150, patience_in_place = 12;
   if (factor_.info() != Eigen::Success) return false;
+  // What all edges together may miss must not show in the place of the shortest ones.
+  const double error = 1e-3 * converged_change * shortest_edge(positions);
   double best = std::numeric_limits<double>::infinity();
   for (int k = 0, without_gain = 0; k < most_steps_in_place && without_gain < patience_in_place; ++k) {
-    const double shift = step(positions).shift;
+    const double shift = step(positions, error).shift;
     if (!std::isfinite(shift)) return false;
     if (shift < converged_change) return true;
     without_gain = shift < 0.9 * best ? 0 : without_gain + 1;

@@ -35,8 +35,8 @@ class LocalMinimum {
     double shift = 0;
   };
 
-  /// One Newton step.
-  Change step(MovablePositions& positions) const;
+  /// One Newton step, with that error of d/sn d.
+  Change step(MovablePositions& positions, double error = 1e-15) const;
 
   /// Steps until edges change by small parts of their lengths only. Did that come about?
   bool settle(MovablePositions& positions) const;
@@ -50,6 +50,7 @@ class LocalMinimum {
 
   Basis basis_at(const Vector3& p, int vertex) const;
   Change change_by(const MovablePositions& positions, const std::vector<Vector3>& steps) const;
+  double shortest_edge(const MovablePositions& positions) const;
 
   Gluing gluing_;
   Space space_;

@@ -26,17 +26,18 @@ PreciseGroup<Real> group_of(const Gluing& gluing, const Target& target) {
                                  {cut.boundary, cut.source_vertex, boundary.seams, boundary.cones, position});
 }
 
-// d/sn d of the squared chord s, the sum of G_j (k s/4)^j with G_j = 4^j j!^2/(2j + 1)!. Of long edges
-// doubles have to do.
+// d/sn d of the squared chord s up to an error, the sum of G_j (k s/4)^j with G_j = 4^j j!^2/(2j + 1)!. Of
+// long edges doubles have to do.
 template <typename Real>
-Real precise_over_sn(int k, const Real& s) {
-  constexpr double longest = 2.5, enough = 1e-50;
+Real precise_over_sn(int k, const Real& s, double error) {
+  constexpr double longest = 2.5, of_doubles = 1e-15;
   const double rough = static_cast<double>(s);
   if (k == 0) return 1;
-  if (!(rough < longest)) return k > 0 ? Curvature<1>::over_sn(rough) : Curvature<-1>::over_sn(rough);
+  if (error >= of_doubles || !(rough < longest))
+    return k > 0 ? Curvature<1>::over_sn(rough) : Curvature<-1>::over_sn(rough);
   const Real ratio = k * s / 4;
   Real sum = 1, term = 1;
-  for (int j = 1; j < 500 && abs(term) > enough; ++j) {
+  for (int j = 1; j < 500 && abs(term) > error; ++j) {
     term *= ratio * (2 * j);
     term /= 2 * j + 1;
     sum += term;
@@ -59,7 +60,7 @@ Vector3 MovablePositions::pull(int v, const std::vector<Neighbour>& neighbours,
   return gluing_.boundary.space.tangent(positions_.row(v), sum);
 }
 
-Vector3 MovablePositions::harmonic_pull(int v, const std::vector<Neighbour>& neighbours) const {
+Vector3 MovablePositions::harmonic_pull(int v, const std::vector<Neighbour>& neighbours, double) const {
   const Space space = gluing_.boundary.space;
   std::vector<double> factors;
   factors.reserve(neighbours.size());
@@ -149,14 +150,15 @@ Vector3 PrecisePositions<Real>::tangential(const Vector& here, const Vector& sum
 }
 
 template <typename Real>
-Vector3 PrecisePositions<Real>::harmonic_pull(int v, const std::vector<Neighbour>& neighbours) const {
+Vector3 PrecisePositions<Real>::harmonic_pull(int v, const std::vector<Neighbour>& neighbours,
+                                              double error) const {
   const int curvature = gluing().boundary.space.curvature();
   const Vector here = precise(v);
   Vector sum = Vector::Zero();
   for (const auto& [u, e, weight] : neighbours) {
     const Vector away = e == 0 ? Vector(precise(u) - here) : Vector(element(e) * precise(u) - here);
     const Real s = away.x() * away.x() + away.y() * away.y() + curvature * (away.z() * away.z());
-    sum += Real(weight) * precise_over_sn<Real>(curvature, s) * away;
+    sum += Real(weight) * precise_over_sn<Real>(curvature, s, error) * away;
   }
   return tangential(here, sum);
 }

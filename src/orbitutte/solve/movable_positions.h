@@ -38,8 +38,13 @@ class MovablePositions {
   virtual Vector3 pull(int v, const std::vector<Neighbour>& neighbours,
                        const std::vector<double>& factors) const;
 
-  /// The same of the harmonic map: factors w d/sn d, with the weights and lengths of the edges.
-  virtual Vector3 harmonic_pull(int v, const std::vector<Neighbour>& neighbours) const;
+  /// The same of the harmonic map: factors w d/sn d, with the weights and lengths of the edges; `error` of
+  /// d/sn d is allowed.
+  virtual Vector3 harmonic_pull(int v, const std::vector<Neighbour>& neighbours, double error) const;
+
+  /// Until this has been called for the last of them, differences and pulls may be asked for by one thread
+  /// only.
+  virtual void prepare_elements(int) const {}
 
   /// p_v in doubles.
   Vector3 rounded(int v) const { return positions_.row(v); }
@@ -88,7 +93,8 @@ class PrecisePositions final : public MovablePositions {
   Vector3 difference(int v, int u, int element) const override;
   Vector3 pull(int v, const std::vector<Neighbour>& neighbours,
                const std::vector<double>& factors) const override;
-  Vector3 harmonic_pull(int v, const std::vector<Neighbour>& neighbours) const override;
+  Vector3 harmonic_pull(int v, const std::vector<Neighbour>& neighbours, double error) const override;
+  void prepare_elements(int last) const override { element(last); }
   bool is_refined(int v) const override { return slot_[v] >= 0; }
   void move(int v, const Vector3& step) override;
   void shift(int v, const Vector3& step) override;
