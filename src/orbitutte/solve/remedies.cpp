@@ -366,7 +366,8 @@ std::optional<SpreadMap> with_more_digits(const GluingProblem& problem, const Pl
 
 std::optional<SpreadMap> with_limbs_in_place(const GluingProblem& problem, const Placement& placed) {
   constexpr Eigen::Index most_vertices = 60000;
-  constexpr double misplaced = 1e-11;  // doubles put longer edges where they belong to some 1e-5 of themselves
+  constexpr double misplaced =
+      1e-11;  // doubles put longer edges where they belong to some 1e-5 of themselves
   const DirichletEnergy energy(glued_along(problem, placed.boundary), problem.weights, placed.boundary);
   if (!(energy.smallest_spot(placed.minimum.positions).second < misplaced)) return std::nullopt;
   if (placed.minimum.positions.rows() <= most_vertices) {
