@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// NumPy's archives and PNG: bytes are refused in one sentence, or what is read comes back after it was
-// written.
+// NumPy's archives: bytes are refused in one sentence, or what is read comes back after it was written.
 #include <cstdint>
 #include <cstdlib>
 #include <string_view>

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "../fuzz/picture_round_trip.h"
 #include "../fuzz/round_trip.h"
 #include "orbitutte/io/file.h"
 
@@ -62,6 +63,14 @@ INSTANTIATE_TEST_SUITE_P(
                     std::pair{"values_gifti", VertexDataFormat::func_gifti},
                     std::pair{"values_gifti", VertexDataFormat::label_gifti}),
     [](const auto& test) { return test.param.first + std::to_string(static_cast<int>(test.param.second)); });
+
+TEST(PictureFuzzCorpus, IsReadAndComesBackOrIsRefusedInOneSentence) {
+  const std::vector<fs::path> files = corpus("png");
+  EXPECT_FALSE(files.empty());
+  for (const fs::path& file : files) {
+    EXPECT_NO_THROW(fuzz::check_picture_round_trip(read_file(file.string()))) << file;
+  }
+}
 
 }  // namespace
 }  // namespace orbitutte::fuzz_corpus_test

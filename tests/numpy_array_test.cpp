@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-// NumPy's files and PNG.
+// NumPy's files.
 #include "orbitutte/io/numpy_array.h"
 
 #include <gmock/gmock.h>
 
 #include "orbitutte/errors.h"
 #include "orbitutte/io/file.h"
-#include "orbitutte/io/png.h"
 
 namespace orbitutte::numpy_array_test {
 namespace {
@@ -89,32 +88,6 @@ TEST(NumpyArchives, ThatNumpyHasCompressedAreRead) {
   EXPECT_FALSE(archive[0].second.is_whole);
   EXPECT_EQ(archive[1].second.values, (std::vector<double>{0, 1, 2, 3, 4, 5}));
   EXPECT_TRUE(archive[1].second.is_whole);
-}
-
-// Two rows, the first as differences to the left, the second as Paeth has them.
-TEST(Png, FiltersAreUndone) {
-  const PngPixels pixels = parse_png(file_at("tests/pictures/colour.png"));
-  EXPECT_EQ(pixels.channels, 3);
-  const std::vector<int> expected = {1, 2, 3, 2, 4, 6, 4, 6, 8, 7, 10, 13};
-  ASSERT_EQ(pixels.values.size(), expected.size());
-  for (std::size_t k = 0; k < expected.size(); ++k) EXPECT_EQ(pixels.values[k], 257 * expected[k]) << k;
-}
-
-TEST(Png, PixelsReadBack) {
-  for (const int channels : {1, 3})
-    for (const PngDepth depth : {PngDepth::eight, PngDepth::sixteen}) {
-      PngPixels pixels;
-      pixels.width = 7, pixels.height = 5, pixels.channels = channels;
-      for (int k = 0; k < 35 * channels; ++k)
-        pixels.values.push_back(
-            static_cast<std::uint16_t>(depth == PngDepth::eight ? 257 * (2 * k) : 600 * k + 1));
-      const PngPixels again = parse_png(serialize_png(pixels, depth));
-      EXPECT_EQ(again.width, 7);
-      EXPECT_EQ(again.height, 5);
-      EXPECT_EQ(again.channels, channels);
-      EXPECT_EQ(again.values, pixels.values);
-    }
-  EXPECT_THAT([] { parse_png("no picture"); }, ThrowsMessage<MeshError>(HasSubstr("no PNG")));
 }
 
 }  // namespace

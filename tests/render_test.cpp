@@ -15,6 +15,7 @@
 
 #include "orbitutte/export/palette.h"
 #include "orbitutte/io/file.h"
+#include "orbitutte/io/image_file.h"
 #include "orbitutte/page/svg_chart.h"
 #include "orbitutte/parallel.h"
 #include "orbitutte/render/chart_drawing.h"
@@ -24,14 +25,6 @@
 #include "orbitutte/report/charts.h"
 #include "orbitutte/report/comparison.h"
 #include "sample_embeddings.h"
-
-#define STB_IMAGE_IMPLEMENTATION
-#define STB_IMAGE_STATIC
-#define STBI_ONLY_PNG
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wunused-function"
-#include <stb_image.h>
-#pragma GCC diagnostic pop
 
 // Cairo keeps fonts until the program ends, in fontconfig's memory: the leak sanitizer should not count them.
 // It calls this function; without sanitizers nobody does.
@@ -83,12 +76,11 @@ struct Picture {
   std::vector<std::uint8_t> bytes;  // red, green, blue
 
   explicit Picture(const std::string& png) {
-    int channels = 0;
-    stbi_uc* const data = stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(png.data()),
-                                                static_cast<int>(png.size()), &width, &height, &channels, 3);
-    EXPECT_NE(data, nullptr);
-    if (data) bytes.assign(data, data + static_cast<std::ptrdiff_t>(3) * width * height);
-    stbi_image_free(data);
+    const PixelImage image = parse_image(png);
+    width = image.width;
+    height = image.height;
+    bytes.reserve(3 * image.pixels.size());
+    for (const Pixel& pixel : image.pixels) bytes.insert(bytes.end(), pixel.begin(), pixel.begin() + 3);
   }
 
   bool is_paper(int column, int row) const {

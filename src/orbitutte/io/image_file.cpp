@@ -2,30 +2,28 @@
 #include "orbitutte/io/image_file.h"
 
 #include <fmt/format.h>
-#include <png.h>
 #include <turbojpeg.h>
 
 #include <algorithm>
-#include <cstring>
 #include <memory>
 #include <type_traits>
 
 #include "orbitutte/errors.h"
 #include "orbitutte/io/file.h"
+#include "orbitutte/io/png.h"
 
 namespace orbitutte {
 namespace {
 
-constexpr long long longest_side = 32768;
 constexpr int bytes_per_pixel = 4;
 
 static_assert(sizeof(Pixel) == bytes_per_pixel, "rows of pixels are rows of bytes");
 
 // No memory is taken for what no picture is.
 PixelImage blank_image(long long width, long long height) {
-  if (width < 1 || height < 1 || width > longest_side || height > longest_side)
+  if (width < 1 || height < 1 || width > longest_picture_side || height > longest_picture_side)
     throw FileError(fmt::format("the picture has {} x {} pixels; sides of 1 to {} can be read", width, height,
-                                longest_side));
+                                longest_picture_side));
   PixelImage image;
   image.width = static_cast<int>(width);
   image.height = static_cast<int>(height);
@@ -33,34 +31,15 @@ PixelImage blank_image(long long width, long long height) {
   return image;
 }
 
-// libpng's simplified interface, which is freed whatever happens.
-class PngStruct {
- public:
-  PngStruct() {
-    std::memset(&png_, 0, sizeof png_);
-    png_.version = PNG_IMAGE_VERSION;
-  }
-  ~PngStruct() { png_image_free(&png_); }
-  PngStruct(const PngStruct&) = delete;
-  PngStruct& operator=(const PngStruct&) = delete;
-
-  png_image& operator*() { return png_; }
-  png_image* operator->() { return &png_; }
-  png_image* get() { return &png_; }
-
- private:
-  png_image png_;
-};
-
 PixelImage pixels_of_png(std::string_view bytes) {
-  PngStruct png;
-  if (png_image_begin_read_from_memory(png.get(), bytes.data(), bytes.size()) == 0)
-    throw FileError(fmt::format("the PNG cannot be read: {}", png->message));
-  PixelImage image = blank_image(png->width, png->height);
-  png->format = PNG_FORMAT_RGBA;
-  if (png_image_finish_read(png.get(), nullptr, image.pixels.data(), 0, nullptr) == 0)
-    throw FileError(fmt::format("the PNG cannot be read: {}", png->message));
-  return image;
+  try {
+    const PngLayout layout = parse_png_layout(bytes);
+    PixelImage image = blank_image(layout.width, layout.height);
+    parse_png_colours(bytes, {image.pixels.front().data(), bytes_per_pixel * image.pixels.size()});
+    return image;
+  } catch (const MeshError& error) {
+    throw FileError(error.what());
+  }
 }
 
 PixelImage pixels_of_jpeg(std::string_view bytes) {
@@ -85,11 +64,11 @@ bool is_opaque(const PixelImage& image) {
                      [](const Pixel& pixel) { return pixel[3] == 255; });
 }
 
-std::string without_opacity(const PixelImage& image) {
-  std::string bytes;
-  bytes.reserve(3 * image.pixels.size());
-  for (const Pixel& pixel : image.pixels) bytes.append(reinterpret_cast<const char*>(pixel.data()), 3);
-  return bytes;
+std::vector<std::uint8_t> without_opacity(const PixelImage& image) {
+  std::vector<std::uint8_t> colours;
+  colours.reserve(3 * image.pixels.size());
+  for (const Pixel& pixel : image.pixels) colours.insert(colours.end(), pixel.begin(), pixel.begin() + 3);
+  return colours;
 }
 
 }  // namespace
@@ -113,19 +92,9 @@ std::string png_bytes(const PixelImage& image) {
   if (image.width < 1 || image.height < 1 ||
       image.pixels.size() != static_cast<std::size_t>(image.width) * image.height)
     throw ArgumentError("a picture has as many pixels as its width times its height, and at least one");
-  const bool opaque = is_opaque(image);
-  const std::string three = opaque ? without_opacity(image) : std::string();
-  const void* const pixels = opaque ? static_cast<const void*>(three.data()) : image.pixels.data();
-  PngStruct png;
-  png->width = image.width;
-  png->height = image.height;
-  png->format = opaque ? PNG_FORMAT_RGB : PNG_FORMAT_RGBA;
-  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(*png);
-  std::string bytes(size, '\0');
-  if (png_image_write_to_memory(png.get(), bytes.data(), &size, 0, pixels, 0, nullptr) == 0)
-    throw Error(fmt::format("the PNG cannot be made: {}", png->message));
-  bytes.resize(size);
-  return bytes;
+  if (is_opaque(image)) return serialize_png_colours({image.width, image.height, 3}, without_opacity(image));
+  return serialize_png_colours({image.width, image.height, bytes_per_pixel},
+                               {image.pixels.front().data(), bytes_per_pixel * image.pixels.size()});
 }
 
 }  // namespace orbitutte

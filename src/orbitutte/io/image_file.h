@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures as files: PNG (libpng) and JPEG (TurboJPEG) are read, PNG is written.
+// Pictures as files: PNG (io/png.h) and JPEG (TurboJPEG) are read, PNG is written.
 #pragma once
 
 #include <array>
