@@ -122,7 +122,7 @@ class GluingWalk {
   // Newton's method with one Jacobian in doubles: each step gains some ten digits.
   void turn_by_angle() {
     constexpr int most_steps = 400;
-    const Real finest = ldexp(Real(1), 60 - std::numeric_limits<Real>::digits);
+    const Real finest = ldexp(Real(1), 40 - std::numeric_limits<Real>::digits);
     Points marks(static_cast<Eigen::Index>(met_.size()), 3);
     std::vector<double> angles;
     for (std::size_t k = 0; k < met_.size(); ++k) {
