@@ -489,13 +489,13 @@ void require_nobody_at_work(const std::string& folder) {
 std::string page_in(const std::string& folder) { return (fs::path(folder) / "summary.html").string(); }
 
 int run_single(const std::vector<PreparedJob>& jobs, const BatchArguments& arguments) {
-  if (arguments.job >= static_cast<int>(jobs.size()))
-    throw ArgumentError(
-        fmt::format("--job is {}, but there are {} jobs, counted from 0", arguments.job, jobs.size()));
+  const int job = *arguments.job;
+  if (job < 0 || job >= static_cast<int>(jobs.size()))
+    throw ArgumentError(fmt::format("--job is {}, but there are {} jobs, counted from 0", job, jobs.size()));
   make_folder(arguments.output);
   const JobLimits limits = limits_of(arguments);
   std::vector<JobRecord> records;
-  JobPool(1, limits).run({{&jobs[static_cast<std::size_t>(arguments.job)]}}, [&](const JobRecord& record) {
+  JobPool(1, limits).run({{&jobs[static_cast<std::size_t>(job)]}}, [&](const JobRecord& record) {
     fmt::print("{}", record_line(record));
     records.push_back(record);
   });
@@ -565,7 +565,7 @@ int batch_command(const BatchArguments& arguments) {
     print_list(jobs, records_in(arguments.output), arguments.again);
     return succeeded;
   }
-  return arguments.job >= 0 ? run_single(jobs, arguments) : run_batch(jobs, arguments);
+  return arguments.job ? run_single(jobs, arguments) : run_batch(jobs, arguments);
 }
 
 }  // namespace orbitutte::cli

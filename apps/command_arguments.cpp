@@ -118,4 +118,12 @@ Surface read_source(const MeshInput& input, const Report& report, Embedding& emb
   return surface;
 }
 
+void write_as_asked(const std::string& path, const VertexData& data) {
+  try {
+    write_vertex_data(path, data);
+  } catch (const MeshError& error) {
+    throw ArgumentError(error.what());
+  }
+}
+
 }  // namespace orbitutte::cli

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "orbitutte/io/mesh_io.h"
+#include "orbitutte/io/vertex_data.h"
 #include "orbitutte/orbifold/embedding.h"
 #include "orbitutte/report/report.h"
 #include "orbitutte/weights/weights.h"
@@ -56,5 +57,9 @@ Surface read_embedded(const MeshInput& input, const Report& report);
 /// The same, and divides the embedding's faces into the same triangles. Does not check that the embedding is
 /// one of the mesh; functions that take both do.
 Surface read_source(const MeshInput& input, const Report& report, Embedding& embedding);
+
+/// write_vertex_data, where what the format of a path cannot hold is a fault of the command line: throws
+/// ArgumentError.
+void write_as_asked(const std::string& path, const VertexData& data);
 
 }  // namespace orbitutte::cli

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -67,7 +68,7 @@ struct BatchArguments : EmbedWishes {
   double time_limit = 0;
   int jobs = 0;
   /// Negative: all.
-  int job = -1;
+  std::optional<int> job = {};
   bool again = false, list = false, summary = false, quiet = false;
 };
 int batch_command(const BatchArguments& arguments);
@@ -111,8 +112,8 @@ int export_command(const ExportArguments& arguments);
 
 struct MeasureArguments {
   std::string embedding, report, mesh, format, output, measure = "all";
-  /// 0: that for which image and surface have the same area.
-  double radius = 0;
+  /// None: that for which image and surface have the same area.
+  std::optional<double> radius = {};
   bool faces = false, quiet = false, json = false;
 };
 int measure_command(const MeasureArguments& arguments);
@@ -140,7 +141,7 @@ struct RepairArguments {
   std::vector<std::string> without;
   double weld = 0;
   /// Negative: all holes but the longest.
-  int fill_holes = -1;
+  std::optional<int> fill_holes = {};
   bool drop_flat = false, json = false;
 };
 int repair_command(const RepairArguments& arguments);

@@ -42,7 +42,8 @@ std::optional<NumpyArray> read_array(const std::string& path) {
 }
 
 [[noreturn]] void refuse_count(const std::string& path, std::size_t count, int rows, const char* what) {
-  throw ArgumentError(fmt::format("{} has {} values, but there are {} {}", path, count, rows, what));
+  throw MeshError(
+      fmt::format("{} has {} values, but there are {} {}; it needs a row for each", path, count, rows, what));
 }
 
 // One row for each vertex or point, whatever the dimensions.
@@ -217,7 +218,7 @@ void write_grid_values(const std::string& path, const ResampledOutput& output) {
     if (ends_with(path, ".png")) return write_file(path, png_of(path, image));
     if (ends_with(path, ".npy"))
       return write_file(path, serialize_numpy_array(numpy(image.values, image.shape)));
-    return write_vertex_data(path, image.values);
+    return write_as_asked(path, image.values);
   }
   const Grid& grid = output.grid;
   NumpyArchive archive;
@@ -249,7 +250,7 @@ void write_surface_values(const std::string& path, const ResampledOutput& output
                     path));
   const std::vector<int> shape = {static_cast<int>(output.values.values.rows())};
   if (ends_with(path, ".npy")) return write_file(path, serialize_numpy_array(numpy(output.values, shape)));
-  if (!ends_with(path, ".npz")) return write_vertex_data(path, output.values);
+  if (!ends_with(path, ".npz")) return write_as_asked(path, output.values);
   NumpyArchive archive;
   archive.reserve(4);
   add_table(output.table, archive);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "command_arguments.h"
 #include "commands.h"
 #include "orbitutte/export/cut_triangles.h"
@@ -61,16 +63,16 @@ void print_rows(const std::vector<StrainStatistics>& strain, const std::vector<i
 int measure_command(const MeasureArguments& arguments) {
   const std::vector<int> columns = columns_of(arguments.measure);
   if (arguments.faces && !arguments.output.empty()) require_format_for_faces(arguments.output);
-  if (!(arguments.radius >= 0))
-    throw ArgumentError(fmt::format("--radius is {}; give a positive number", arguments.radius));
+  if (arguments.radius && !(*arguments.radius > 0 && std::isfinite(*arguments.radius)))
+    throw ArgumentError(fmt::format("--radius is {}; give a positive number", *arguments.radius));
   const Report report = read_report(arguments.report);
   Embedding embedding = read_embedding(arguments.embedding, report);
   warn(warnings_of_offsets(embedding));
   const Surface surface = read_source(mesh_input(arguments.mesh, arguments.format), report, embedding);
   require_cut_from(surface, embedding);
-  const SurfaceStrain strain = measure_strain(surface, embedding, arguments.radius);
+  const SurfaceStrain strain = measure_strain(surface, embedding, arguments.radius.value_or(0));
   const StrainMap& map = arguments.faces ? strain.on_faces : strain.at_vertices;
-  if (!arguments.output.empty()) write_vertex_data(arguments.output, data_of(map, columns));
+  if (!arguments.output.empty()) write_as_asked(arguments.output, data_of(map, columns));
   const std::vector<StrainStatistics> statistics = strain_statistics(map);
   if (arguments.json) {
     fmt::print("{}", strain_json(statistics));

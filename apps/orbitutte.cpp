@@ -381,7 +381,7 @@ void add_measure(CLI::App& app, int& code) {
       "Measure how an embedding deforms the surface, at every vertex, as programs for the cortex do");
   read_embedding_and_mesh_of(command);
   command.output("-o,--output", command->output,
-                 {"-o", "the measures", "", {".gii", ".curv", ".csv", ".txt", ".npy"}},
+                 {"-o", "the file of measures", "", {".gii", ".curv", ".csv", ".txt", ".npy"}},
                  "Write the measures here: .shape.gii, .func.gii, .curv (one measure), .csv, .txt or .npy");
   command
       .option("--measure", command->measure,
@@ -433,7 +433,7 @@ void add_report(CLI::App& app, int& code) {
               "Write the page (HTML) here")
       ->required();
   CLI::Option* const values = command.input(
-      "--values", command->values, "the values",
+      "--values", command->values, "the file of values",
       "Colour the surface by values at its vertices: .shape.gii, .func.gii, .label.gii, .annot, FreeSurfer's "
       ".curv, .thickness and the like, .csv, .txt or .npy");
   command.option("--map", command->map, "Which map of that file: its name, or its number from 0")
@@ -574,7 +574,7 @@ void add_resample(CLI::App& app, int& code) {
       app, "resample", "Take values from a surface to a regular grid of the sphere or the plane, or back");
   read_embedding_and_mesh_of(command);
   command.input(
-      "--values", command->values, "the values",
+      "--values", command->values, "the file of values",
       "The values at the vertices, or, with --back, at the points of the grid: .npy, .npz, .txt, .csv, "
       "GIfTI or FreeSurfer's, with --back also .png; without it, only the table is written");
   command
@@ -593,7 +593,10 @@ void add_resample(CLI::App& app, int& code) {
   command
       .output(
           "-o,--output", command->output,
-          {"-o", "the values", "", {".npy", ".npz", ".txt", ".csv", ".gii", ".png", ".curv", ".annot"}},
+          {"-o",
+           "the file of values",
+           "",
+           {".npy", ".npz", ".txt", ".csv", ".gii", ".png", ".curv", ".annot"}},
           "Write the values here: .npy, .npz (with the table of weights), .txt, .csv, .shape.gii, .func.gii, "
           ".label.gii or, of images, .png")
       ->required();

@@ -21,7 +21,10 @@ MeshRepairOptions options_of(const RepairArguments& arguments) {
   for (const std::string& step : arguments.without)
     options.without.push_back(parse_choice<RepairStep>(step, "--without"));
   options.weld_tolerance = arguments.weld;
-  if (arguments.fill_holes >= 0) options.largest_hole = arguments.fill_holes;
+  if (arguments.fill_holes && *arguments.fill_holes < 0)
+    throw ArgumentError(
+        fmt::format("--fill-holes is {}; give a number of edges, 0 for no hole", *arguments.fill_holes));
+  options.largest_hole = arguments.fill_holes.value_or(options.largest_hole);
   return options;
 }
 
@@ -48,6 +51,11 @@ int repair_command(const RepairArguments& arguments) {
   if (repaired.mesh.face_count() == 0)
     throw MeshError(fmt::format(
         "{}: no face is left after the repair; look at the mesh with `orbitutte info`", arguments.mesh));
+  if (2 * repaired.mesh.face_count() < mesh.face_count())
+    tell(
+        "orbitutte: warning: {} of {} faces are left; if vertices that belong together are apart, --weld "
+        "DISTANCE joins them\n",
+        repaired.mesh.face_count(), mesh.face_count());
   const Inspection inspection = inspect(repaired.mesh);
   write_mesh(arguments.output, repaired.mesh);
   const nlohmann::ordered_json json = to_json(repaired, inspection);

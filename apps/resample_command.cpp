@@ -85,7 +85,10 @@ void require_output(const ResampleArguments& arguments, const Grid& grid) {
     throw ArgumentError("without --values there is only the table to write: give -o the ending .npz");
   if (arguments.pad > 0 && arguments.back)
     throw ArgumentError("--pad is of images, and --back makes values of vertices; leave out one of both");
-  if (arguments.pad > 0 || arguments.output.ends_with(".png")) padded_shape(grid, arguments.pad);
+  if (arguments.output.ends_with(".png") && !grid.is_image())
+    throw ArgumentError(
+        fmt::format("-o is '{}', but the points of this grid are no image; write .npy", arguments.output));
+  if (arguments.pad > 0) padded_shape(grid, arguments.pad);
 }
 
 // Labels stay labels where they are not asked to be numbers.
@@ -111,6 +114,10 @@ int resample_command(const ResampleArguments& arguments) {
   if (!arguments.values.empty())
     values = arguments.back ? read_grid_values(arguments.values, grid)
                             : read_surface_values(arguments.values, surface.vertex_count());
+
+  if (const auto missing = values.values.array().isNaN().count(); missing > 0)
+    tell("orbitutte: warning: {} of {} values are NaN, and so is what they have a part in\n", missing,
+         values.values.size());
 
   const Stopwatch making_table;
   const ResampleKind kind = kind_of(arguments, arguments.values.empty() ? nullptr : &values);

@@ -107,6 +107,12 @@ Input read_and_repair(const MeshInput& input, RunRecord& run) {
   if (repaired.mesh.face_count() == 0)
     throw MeshError(fmt::format(
         "{}: no face is left after the repair; look at the mesh with `orbitutte info`", input.path));
+  if (2 * repaired.mesh.face_count() < mesh.face_count())
+    warnings.push_back(
+        fmt::format("the repair left {} of {} faces; if vertices that belong together are apart, 'orbitutte "
+                    "repair --weld "
+                    "DISTANCE' joins them",
+                    repaired.mesh.face_count(), mesh.face_count()));
   run.repair = std::move(repaired.summary);
   std::shared_ptr<const Surface> surface =
       judged(std::move(repaired.mesh), fmt::format("{}, repaired", input.path));

@@ -266,6 +266,9 @@ class Maps(CommandLine):
         self.assertEqual((self.folder / 'first/values_on_a.txt').read_bytes(), (self.folder / 'second/values_on_a.txt').read_bytes())
         self.assertEqual({path.name for path in (self.folder / 'second').iterdir()}, {'values_on_a.txt'})
         self.assertTrue(all((self.folder / f'frame_0{k}.ply').exists() for k in range(3)))
+        self.expect(0, 'sample', '--shape', 'figure', '--faces', 300, '-o', 'other.obj')
+        self.expect(IS_UNSUITABLE, 'map', 'other.obj', 'figure.obj', '--from', 'first', '--colours', 'no.ply',
+                    says='first holds the map of another surface than this A')
         printed = self.expect(0, *self.map('--from', 'first', '--values', 'values.txt', '--json'))
         self.assertEqual(printed.stdout, (self.folder / 'first/map.json').read_text(encoding='utf-8'))
         self.expect(IS_WRONG, *self.map('--from', 'first'), says='nothing is to be made of it')
@@ -345,12 +348,12 @@ class Resampling(CommandLine):
     def test_what_does_not_fit_is_told_and_nothing_is_written(self):
         (self.folder / 'short.txt').write_text('1\n2\n')
         for code, says, options, grid in (
-                (IS_WRONG, 'short.txt has 2 values, but there are [0-9]+ vertices', ['--values', 'short.txt', '-o', 'no.npy'], 'ico:3'),
-                (IS_WRONG, 'has 2 values, but there are 642 points', ['--values', 'short.txt', '--back', '-o', 'no.npy'], 'ico:3'),
+                (IS_UNSUITABLE, 'short.txt has 2 values, but there are [0-9]+ vertices', ['--values', 'short.txt', '-o', 'no.npy'], 'ico:3'),
+                (IS_UNSUITABLE, 'has 2 values, but there are 642 points', ['--values', 'short.txt', '--back', '-o', 'no.npy'], 'ico:3'),
                 (IS_WRONG, 'it may be ico, healpix', ['--values', 'height.txt', '-o', 'no.npy'], 'mercator:5'),
                 (IS_WRONG, 'power of two', ['--values', 'height.txt', '-o', 'no.npy'], 'healpix-nested:5'),
                 (IS_WRONG, 'only images can have a margin', ['--values', 'height.txt', '--pad', '1', '-o', 'no.npy'], 'ico:3'),
-                (IS_WRONG, 'only images', ['--values', 'height.txt', '-o', 'no.png'], 'ico:3'),
+                (IS_WRONG, 'are no image; write .npy', ['--values', 'height.txt', '-o', 'no.png'], 'ico:3'),
                 (IS_WRONG, 'without --values', ['-o', 'no.npy'], 'ico:3'),
                 (IS_WRONG, '--kind is .cubic.; it may be linear', ['--values', 'height.txt', '--kind', 'cubic', '-o', 'no.npy'], 'ico:3'),
                 (IS_A_FILE, 'cannot be read', ['--values', 'height.txt', '-o', 'no.npy'], 'none.ply')):
@@ -487,7 +490,9 @@ class BrainFiles(CommandLine):
 
     def test_measures_that_cannot_be_written_are_refused(self):
         self.expect(IS_WRONG, 'measure', *self.files, '--measure', 'K', says='area, J, R, edge or all')
-        self.expect(IS_WRONG, 'measure', *self.files, '--radius', -1, says='--radius is -1; give a positive number')
+        for radius in (-1, 0):
+            self.expect(IS_WRONG, 'measure', *self.files, '--radius', radius, says=f'--radius is {radius}; give a positive number')
+        self.expect(IS_WRONG, 'measure', *self.files, '-o', 'x.curv', says='x.curv')
         self.expect(IS_WRONG, 'measure', *self.files, '--faces', '-o', 'x.shape.gii', says='values of vertices; write those of faces as')
         self.expect(IS_UNSUITABLE, 'measure', *self.files, '-o', 'x.curv', says='hold one map, but there are 4')
         self.assertFalse((self.folder / 'x.curv').exists())
@@ -504,6 +509,7 @@ class BrainFiles(CommandLine):
             self.assertEqual((info['topology'], info['faces']), ('sphere', 500))
             self.assertLess(abs(info['area'] / (4 * math.pi * radius ** 2) - 1), 0.2)
         self.expect(IS_WRONG, 'export', *whole, '-o', 'x.sphere', '--radius', 0, says='--radius is 0; give a positive number')
+        self.expect(IS_WRONG, 'export', *whole, '-o', 'x.sphere', '--radius', 1e300, says='single precision')
         self.expect(0, *self.embed('figure.obj', '-o', 'flat.ply', '--report', 'flat.json', orbifold='442'))
         self.expect(IS_WRONG, 'export', 'flat.ply', 'flat.json', 'figure.obj', '-o', 'x.sphere', says='only spheres are written as surfaces')
 

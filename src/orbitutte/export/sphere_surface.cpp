@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 namespace orbitutte {
 
 PolygonMesh sphere_surface(const Embedding& embedding, double radius) {
@@ -13,8 +11,11 @@ PolygonMesh sphere_surface(const Embedding& embedding, double radius) {
         fmt::format("the map onto {} is not on the sphere, and only spheres are written as surfaces; embed "
                     "with --orbifold 1",
                     embedding.target.signature));
-  if (!(radius > 0) || !std::isfinite(radius))
-    throw ArgumentError(fmt::format("--radius is {}; give a positive number", radius));
+  constexpr double largest = 1e30;  // such files keep single precision
+  if (!(radius > 0)) throw ArgumentError(fmt::format("--radius is {}; give a positive number", radius));
+  if (!(radius <= largest))
+    throw ArgumentError(
+        fmt::format("--radius is {}, more than single precision holds; give at most {}", radius, largest));
   PolygonMesh mesh;
   mesh.V = radius * embedding.positions;
   const FaceView faces = embedding.faces();

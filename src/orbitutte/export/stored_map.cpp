@@ -20,6 +20,14 @@ EmbedResult read_side(const std::filesystem::path& folder, const std::string& na
   const Report report = read_report((folder / fmt::format("{}.json", name)).string());
   EmbedResult result;
   result.embedding = read_embedding((folder / fmt::format("{}.ply", name)).string(), report);
+  try {
+    require_cut_from(surface, result.embedding);
+  } catch (const MeshError&) {
+    throw MeshError(fmt::format(
+        "{} holds the map of another surface than this {}; give both surfaces as they were mapped, "
+        "in the same order",
+        folder.string(), name == "a" ? "A" : "B"));
+  }
   if (surface.has_polygons() && result.embedding.polygons.start == surface.polygons.start)
     result.embedding.triangles = cut_triangles(surface, result.embedding);
   result.certificate = certify(surface, result.embedding);

@@ -136,6 +136,8 @@ std::string place_of(const BatchJob& job, std::size_t number) {
 }
 
 std::vector<BatchJob> parse_manifest(std::string_view text, const std::vector<ManifestColumn>& columns) {
+  if (text.find('\0') != std::string_view::npos)
+    throw ArgumentError("this is no text, or one with two bytes a character; save it as UTF-8");
   const std::vector<CsvRow> rows = read_csv(text);
   if (rows.empty())
     throw ArgumentError("the manifest is empty; its first row names its columns, as in mesh,orbifold,cones");

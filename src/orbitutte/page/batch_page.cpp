@@ -84,6 +84,7 @@ std::string batch_page(const std::vector<JobRecord>& records, std::size_t missin
                        {{"style", page_style_sheet()},
                         {"version", this_program().version},
                         {"count", grouped_digits(static_cast<long long>(records.size() + missing))},
+                        {"jobs_word", records.size() + missing == 1 ? "job" : "jobs"},
                         {"certified", grouped_digits(certified)},
                         {"verdict", all_are_certified ? "good" : "bad"},
                         {"is_unfinished", missing > 0},

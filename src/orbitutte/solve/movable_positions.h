@@ -108,7 +108,7 @@ class PrecisePositions final : public MovablePositions {
   void refine_to(int v, const Vector3Of<Real>& point);
 
   /// Positions of all cut vertices (n_cut x 3), and the offsets of every copy of a refined vertex, down to a
-  /// small part of its shortest edge. shortest_edge: n.
+  /// small part of its shortest edge; none if doubles resolve that edge. shortest_edge: n.
   Points spread(const std::vector<double>& shortest_edge, std::vector<Offset>& offsets) const;
 
  private:
