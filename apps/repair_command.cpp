@@ -24,7 +24,7 @@ MeshRepairOptions options_of(const RepairArguments& arguments) {
   if (arguments.fill_holes && *arguments.fill_holes < 0)
     throw ArgumentError(
         fmt::format("--fill-holes is {}; give a number of edges, 0 for no hole", *arguments.fill_holes));
-  options.largest_hole = arguments.fill_holes.value_or(options.largest_hole);
+  if (arguments.fill_holes) options.largest_hole = *arguments.fill_holes;
   return options;
 }
 
