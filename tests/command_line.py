@@ -492,9 +492,8 @@ class BrainFiles(CommandLine):
         self.expect(IS_WRONG, 'measure', *self.files, '--measure', 'K', says='area, J, R, edge or all')
         for radius in (-1, 0):
             self.expect(IS_WRONG, 'measure', *self.files, '--radius', radius, says=f'--radius is {radius}; give a positive number')
-        self.expect(IS_WRONG, 'measure', *self.files, '-o', 'x.curv', says='x.curv')
         self.expect(IS_WRONG, 'measure', *self.files, '--faces', '-o', 'x.shape.gii', says='values of vertices; write those of faces as')
-        self.expect(IS_UNSUITABLE, 'measure', *self.files, '-o', 'x.curv', says='hold one map, but there are 4')
+        self.expect(IS_WRONG, 'measure', *self.files, '-o', 'x.curv', says='hold one map, but there are 4')
         self.assertFalse((self.folder / 'x.curv').exists())
         self.expect(0, 'sample', '--faces', 700, '-o', 'other.obj')
         self.expect(IS_UNSUITABLE, 'measure', 'map.ply', 'map.json', 'other.obj', says='does not belong to this mesh')
