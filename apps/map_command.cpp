@@ -75,7 +75,12 @@ void require_sound_source(const MapArguments& arguments) {
 
 std::vector<Landmark> landmarks_from(const std::string& text) {
   if (text.empty()) return {};
-  return is_landmark_list(text) ? parse_landmarks(text) : read_landmarks(text);
+  const bool is_list = is_landmark_list(text);
+  std::vector<Landmark> landmarks = is_list ? parse_landmarks(text) : read_landmarks(text);
+  if (landmarks.empty())
+    throw MeshError(fmt::format("{}: there is no landmark in it; leave out --landmarks for a guess",
+                                is_list ? "--landmarks" : text));
+  return landmarks;
 }
 
 MapOptions options_from(const MapArguments& arguments) {
@@ -219,10 +224,10 @@ void write_map(const std::string& folder, const Mapped& result, const std::array
   Contents contents;
   add_embedding(result.map.a, runs[0], {"a.ply", "a.json"}, contents);
   add_embedding(result.map.b, runs[1], {"b.ply", "b.json"}, contents);
-  contents.emplace_back("map.json", json);
   make_folder(folder);
   for (const auto& [name, bytes] : contents) write_file(in_folder(folder, name), bytes);
   if (result.composed) write_composed(folder, *result.composed);
+  write_file(in_folder(folder, "map.json"), json);  // last: a folder that has it is whole
 }
 
 void write_all_products(const MapArguments& arguments, const CarriedInputs& carried, const Mapped& result,

@@ -272,6 +272,8 @@ class Maps(CommandLine):
         printed = self.expect(0, *self.map('--from', 'first', '--values', 'values.txt', '--json'))
         self.assertEqual(printed.stdout, (self.folder / 'first/map.json').read_text(encoding='utf-8'))
         self.expect(IS_WRONG, *self.map('--from', 'first'), says='nothing is to be made of it')
+        (self.folder / 'empty.txt').write_text('a b\n')
+        self.expect(IS_UNSUITABLE, *self.map('--landmarks', 'empty.txt', '-o', 'none'), says='empty.txt: there is no landmark in it')
         self.expect(IS_WRONG, *self.map('--from', 'first', '--page', 'first/map.json'), says='.html')
         self.expect(IS_WRONG, *self.map('--from', 'first', '--landmarks', self.LANDMARKS, '--page', 'page.html'), says='give one of them')
 
