@@ -179,7 +179,7 @@ std::optional<ProcessEnd> JobProcess::advance() {
   return end_;
 }
 
-void wait_for_any(std::vector<JobProcess*> processes) {
+void wait_for_any(const std::vector<JobProcess*>& processes) {
   std::vector<pollfd> waiting;
   waiting.reserve(processes.size());
   std::optional<double> pause;

@@ -65,6 +65,6 @@ class JobProcess {
 };
 
 /// Waits until one of the processes has written something, has ended or is out of time, which ends it.
-void wait_for_any(std::vector<JobProcess*> processes);
+void wait_for_any(const std::vector<JobProcess*>& processes);
 
 }  // namespace orbitutte::cli

@@ -90,11 +90,12 @@ def run_on(scheduler: str, program: str, arguments: Sequence[str], jobs: Sequenc
     with client:
         futures: list[Any] = [client.submit(run_job, program, list(arguments), job, os.getcwd(), pure=False, retries=1) for job in jobs]
         for count, future in enumerate(as_completed(futures), 1):
-            if future.status == "finished":
+            trouble = future.exception()  # waits again if the result went with its worker, so that another one makes it
+            if trouble is None:
                 append(log, future.result())
             else:
                 failed += 1
-                print(f"orbitutte.batch: {future.exception()}", file=sys.stderr)
+                print(f"orbitutte.batch: {trouble}", file=sys.stderr)
             print(f"{count} of {len(futures)} jobs", end="\r" if sys.stderr.isatty() and count < len(futures) else "\n", file=sys.stderr)
             future.release()
     return failed

@@ -21,7 +21,7 @@ int source_corner(const Embedding& embedding, int triangle, int k) {
 
 Vector3 coordinates_in(const Embedding& embedding, const SurfacePoints& points, int point, int triangle) {
   const int own = points.triangle[point];
-  const Vector3 given = points.barycentric.row(point);
+  Vector3 given = points.barycentric.row(point);
   if (own == triangle) return given;
   Vector3 result = Vector3::Zero();
   for (int i = 0; i < 3; ++i)

@@ -162,7 +162,8 @@ BatchJob in_folder(BatchJob job, const std::vector<ManifestColumn>& columns, con
     if (column.kind != ColumnKind::file) continue;
     const std::string option = fmt::format("--{}=", column.name);
     for (std::string& given : job.options)
-      if (given.starts_with(option)) given = option + path_in(folder, given.substr(option.size()));
+      if (given.starts_with(option))
+        given.replace(option.size(), given.npos, path_in(folder, given.substr(option.size())));
   }
   return job;
 }

@@ -65,7 +65,7 @@ class TextureReader {
     const NumberError error = parse_number(word, index);
     if (error != NumberError::none) in_.refuse_number(error, true, word, face, "texture index");
     const long long row = index > 0 ? index - 1 : static_cast<long long>(rows()) + index;
-    if (index == 0 || row < 0 || row > largest_row_)
+    if (index == 0 || row < 0 || row > largest_row)
       in_.refuse(fmt::format("face {} has the texture index {}, which is none", faces_, index));
     return static_cast<int>(row);
   }
@@ -83,7 +83,7 @@ class TextureReader {
     return layout;
   }
 
-  static constexpr long long largest_row_ = 2147483646;
+  static constexpr long long largest_row = 2147483646;
 
   TextScanner in_;
   std::vector<double> coordinates_;

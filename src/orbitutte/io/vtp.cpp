@@ -211,7 +211,7 @@ class VtpReader {
 
   // Half of what an int holds, so that indices of pieces can be added up.
   static int index(const VtpArray& array, double value) {
-    constexpr double most = std::numeric_limits<int>::max() / 2;
+    constexpr double most = 0x1p30;
     if (value >= -most && value <= most) return static_cast<int>(value);
     refuse(array, fmt::format("{} is no index of a point", value));
   }

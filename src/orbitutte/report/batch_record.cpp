@@ -67,7 +67,7 @@ JobRecord record_from(const RecordJson& json) {
 
 std::string text_of(const std::optional<int>& value) { return value ? std::to_string(*value) : ""; }
 
-std::string number_text(double value) { return std::isfinite(value) ? fmt::format("{:.6g}", value) : ""; }
+std::string cell_of(double value) { return std::isfinite(value) ? fmt::format("{:.6g}", value) : ""; }
 
 std::vector<std::string> summary_cells(const JobRecord& record) {
   std::vector<std::string> cells = {std::to_string(record.job),
@@ -87,9 +87,9 @@ std::vector<std::string> summary_cells(const JobRecord& record) {
                                   fmt::format("{}", fmt::join(numbers.cones, ",")),
                                   std::to_string(numbers.vertices),
                                   std::to_string(numbers.faces),
-                                  number_text(numbers.sigma),
-                                  number_text(numbers.within_4),
-                                  number_text(numbers.below_64)};
+                                  cell_of(numbers.sigma),
+                                  cell_of(numbers.within_4),
+                                  cell_of(numbers.below_64)};
     std::copy(std::begin(values), std::end(values), cells.end() - 7);
   }
   cells.push_back(record.message);
