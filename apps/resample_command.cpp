@@ -56,7 +56,7 @@ Table make_table(const Surface& surface, const Embedding& embedding, const Grid&
   const bool back = direction == Direction::to_surface;
   if (kind != ResampleKind::conservative)
     return {back ? table_to_surface(embedding, grid, kind) : table_to_grid(embedding, grid, kind), {}};
-  ConservativeTables tables = conservative_tables(embedding, grid, vertex_areas(surface));
+  ConservativeTables tables = conservative_tables(embedding, grid, surface.vertex_areas());
   return {back ? std::move(tables.to_surface) : std::move(tables.to_grid), std::move(tables.cell_areas)};
 }
 
@@ -145,7 +145,7 @@ int resample_command(const ResampleArguments& arguments) {
        table.weights.rows(), arguments.back ? "vertices" : "points", name_of(kind), grid_seconds,
        table_seconds, apply_seconds);
   if (kind == ResampleKind::conservative && !result.is_label && result.values.size() > 0) {
-    const Eigen::VectorXd areas = vertex_areas(surface);
+    const Eigen::VectorXd areas = surface.vertex_areas();
     tell_integrals(arguments.back ? table.cell_areas : areas, values.values,
                    arguments.back ? areas : table.cell_areas, result.values);
   }

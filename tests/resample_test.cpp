@@ -217,7 +217,7 @@ TEST_P(ThroughTheSphere, TheIntegralIsKept) {
   Surface surface = surface_of(embedding);
   surface.V.col(0) *= 3;  // another surface than the sphere
   const Grid grid = make_grid(parse_grid(GetParam()));
-  const Eigen::VectorXd areas = vertex_areas(surface);
+  const Eigen::VectorXd areas = surface.vertex_areas();
   const ConservativeTables tables = conservative_tables(embedding, grid, areas);
   const Eigen::MatrixXd values = random_values(static_cast<int>(areas.size()), 2);
   const Eigen::MatrixXd on_grid = apply(tables.to_grid, values), back = apply(tables.to_surface, on_grid);
@@ -239,7 +239,8 @@ INSTANTIATE_TEST_SUITE_P(All, ThroughTheSphere, testing::ValuesIn(sphere_grids()
 TEST(Conservative, SmoothFunctionsStay) {
   const Embedding embedding = round_sphere();
   const Grid grid = make_grid(parse_grid("ico:4"));
-  const ConservativeTables tables = conservative_tables(embedding, grid, vertex_areas(surface_of(embedding)));
+  const ConservativeTables tables =
+      conservative_tables(embedding, grid, surface_of(embedding).vertex_areas());
   EXPECT_LT((apply(tables.to_grid, embedding.positions) - grid.points).cwiseAbs().maxCoeff(), 0.02);
 }
 
@@ -254,7 +255,7 @@ Eigen::VectorXd octants(const Points& points) {
 TEST(Labels, KeepTheirAreas) {
   const Embedding embedding = round_sphere();
   const Grid grid = make_grid(parse_grid("ico:6"));
-  const Eigen::VectorXd labels = octants(embedding.positions), areas = vertex_areas(surface_of(embedding));
+  const Eigen::VectorXd labels = octants(embedding.positions), areas = surface_of(embedding).vertex_areas();
   const ConservativeTables tables = conservative_tables(embedding, grid, areas);
   for (const SparseTable& table : {table_to_grid(embedding, grid, ResampleKind::nearest), tables.to_grid}) {
     const Eigen::VectorXd on_grid = apply_to_labels(table, labels);
@@ -299,7 +300,7 @@ TEST(Cortex, KeepsPositionsIntegralAndLabels) {
   EXPECT_GT((off.array() < 1e-3).cast<double>().mean(), 0.99);
   EXPECT_LT(off.maxCoeff(), 5e-3);  // in folds that the map shrinks below the grid
 
-  const Eigen::VectorXd areas = vertex_areas(surface);
+  const Eigen::VectorXd areas = surface.vertex_areas();
   const ConservativeTables tables = conservative_tables(embedding, grid, areas);
   const Eigen::MatrixXd on_grid = apply(tables.to_grid, surface.V);
   for (int c = 0; c < 3; ++c)
@@ -341,7 +342,7 @@ TEST_P(OverOrbifolds, TheIntegralIsKept) {
   Surface surface;
   surface.V = sample.mesh.V;
   surface.triangles = sample.mesh.F;
-  const Eigen::VectorXd areas = vertex_areas(surface);
+  const Eigen::VectorXd areas = surface.vertex_areas();
   const ConservativeTables tables =
       conservative_tables(sample.embedding(), make_grid(parse_grid("healpix:4")), areas);
   const Eigen::MatrixXd values = random_values(static_cast<int>(areas.size()), 1);
@@ -486,7 +487,7 @@ TEST_P(FlatImages, KeepTheIntegral) {
   Surface surface;
   surface.V = sample.mesh.V;
   surface.triangles = sample.mesh.F;
-  const Eigen::VectorXd areas = vertex_areas(surface);
+  const Eigen::VectorXd areas = surface.vertex_areas();
   const Grid grid = make_grid(parse_grid("periodic:16"), sample.embedding());
   const ConservativeTables tables = conservative_tables(sample.embedding(), grid, areas);
   const Eigen::MatrixXd values = random_values(static_cast<int>(areas.size()), 1);

@@ -51,7 +51,7 @@ py::tuple conservative(const HeldEmbedding& held, const Grid& grid) {
   Eigen::VectorXd areas;
   {
     const py::gil_scoped_release release;
-    areas = vertex_areas(surface);
+    areas = surface.vertex_areas();
     tables = conservative_tables(held.embedding, grid, areas);
   }
   return py::make_tuple(std::move(tables.to_grid), std::move(tables.to_surface), array_of(tables.cell_areas),

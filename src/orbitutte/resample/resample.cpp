@@ -139,13 +139,4 @@ ConservativeTables conservative_tables(const Embedding& embedding, const Grid& g
   return result;
 }
 
-Eigen::VectorXd vertex_areas(const Surface& surface) {
-  Eigen::VectorXd areas = Eigen::VectorXd::Zero(surface.vertex_count());
-  for (Eigen::Index t = 0; t < surface.triangles.rows(); ++t) {
-    const double area = surface.area(t);
-    for (int k = 0; k < 3; ++k) areas[surface.triangles(t, k)] += area / 3;
-  }
-  return areas;
-}
-
 }  // namespace orbitutte

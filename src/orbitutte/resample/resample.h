@@ -59,11 +59,9 @@ struct ConservativeTables {
   Eigen::VectorXd cell_areas;
 };
 
-/// vertex_areas: n, as vertex_areas() has them. Throws ArgumentError if there are not as many as vertices.
+/// vertex_areas: n, as Surface::vertex_areas has them. Throws ArgumentError if there are not as many as
+/// vertices.
 ConservativeTables conservative_tables(const Embedding& embedding, const Grid& grid,
                                        const Eigen::VectorXd& vertex_areas);
-
-/// A third of the areas of the triangles around each vertex: n.
-Eigen::VectorXd vertex_areas(const Surface& surface);
 
 }  // namespace orbitutte
