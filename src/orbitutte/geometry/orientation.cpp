@@ -28,9 +28,12 @@ int exact_sign(const Vector3& a, const Vector3& b, const Vector3& c) {
   return determinant.sign();
 }
 
-}  // namespace
+// det[a b c], and a bound of its rounding errors.
+struct RoundedDeterminant {
+  double value = 0, error = 0;
+};
 
-int orientation_sign(const Vector3& a, const Vector3& b, const Vector3& c) {
+RoundedDeterminant rounded_determinant(const Vector3& a, const Vector3& b, const Vector3& c) {
   double determinant = 0, permanent = 0;
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, k = (i + 2) % 3;
@@ -39,10 +42,24 @@ int orientation_sign(const Vector3& a, const Vector3& b, const Vector3& c) {
     permanent += std::abs(a[i]) * (std::abs(first) + std::abs(second));
   }
   // (7 + 56 eps) eps bounds the relative error of rounding, the constant that of underflow.
-  const double bound = 1e-15 * permanent + 1e-290;
-  if (determinant > bound) return 1;
-  if (determinant < -bound) return -1;
+  return {determinant, 1e-15 * permanent + 1e-290};
+}
+
+}  // namespace
+
+int orientation_sign(const Vector3& a, const Vector3& b, const Vector3& c) {
+  const auto [determinant, error] = rounded_determinant(a, b, c);
+  if (determinant > error) return 1;
+  if (determinant < -error) return -1;
   return exact_sign(a, b, c);
+}
+
+bool is_visibly_positive(const Vector3& a, const Vector3& b, const Vector3& c) {
+  const auto [determinant, error] = rounded_determinant(a, b, c);
+  if (determinant > error) return true;
+  if (determinant < -error) return false;
+  const auto [from_edges, error_of_edges] = rounded_determinant(a, b - a, c - a);
+  return from_edges > error_of_edges && exact_sign(a, b, c) > 0;
 }
 
 }  // namespace orbitutte

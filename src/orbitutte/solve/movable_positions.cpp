@@ -90,7 +90,7 @@ bool MovablePositions::is_positive(int face) const {
     const Vector3 p = positions_.row(source);
     return v == source ? p : gluing_.boundary.transform(v) * p;
   };
-  return orientation_sign(corner(0), corner(1), corner(2)) > 0;
+  return is_visibly_positive(corner(0), corner(1), corner(2));
 }
 
 void MovablePositions::take_back(std::size_t moves) {

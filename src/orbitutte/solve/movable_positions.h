@@ -58,7 +58,7 @@ class MovablePositions {
   /// Adds a step, and nothing else.
   virtual void shift(int v, const Vector3& step);
 
-  /// Is the face of the cut mesh positively oriented, exactly as its corners will be stored?
+  /// Is the face of the cut mesh positively oriented, exactly as its corners will be stored, and visibly so?
   virtual bool is_positive(int face) const;
 
   /// How many moves and shifts there were that have not been taken back.

@@ -296,8 +296,8 @@ bool turns_faces_over(const GluingProblem& problem, const SpreadMap& map) {
   std::atomic<bool> any = false;
   parallel_ranges(static_cast<int>(F.rows()), [&](int begin, int end) {
     for (int f = begin; f < end && !any; ++f)
-      if (orientation_sign(map.positions.row(F(f, 0)), map.positions.row(F(f, 1)),
-                           map.positions.row(F(f, 2))) <= 0)
+      if (!is_visibly_positive(map.positions.row(F(f, 0)), map.positions.row(F(f, 1)),
+                               map.positions.row(F(f, 2))))
         any = true;
   });
   return any;
