@@ -5,6 +5,7 @@
 #include <rapidcheck.h>
 
 #include <Eigen/Geometry>
+#include <array>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <cstdint>
@@ -134,6 +135,39 @@ TEST(Orientation, VectorsInOnePlaneWithTheOriginHaveSignZero) {
     const Vector3 p = whole(), q = whole();
     EXPECT_EQ(orientation_sign(p, q, 3 * p - 5 * q), 0);
   }
+}
+
+// The angle at p, as whoever reads stored positions measures it: from edges.
+double determinant_from_edges(const Vector3& p, const Vector3& q, const Vector3& r) {
+  return p.dot((q - p).cross(r - p));
+}
+
+TEST(Orientation, WhatIsVisiblyPositiveIsPositiveForWhoeverMeasuresIt) {
+  Vectors vectors(7);
+  int visible = 0, hidden = 0;
+  for (int k = 0; k < 3000; ++k) {
+    // Short edges along one great circle, and heights from far below to far above their rounding.
+    const Vector3 a = vectors.unit(), along = vectors.unit().cross(a).normalized(), up = a.cross(along);
+    const double length = std::pow(10.0, -vectors.below(9)),
+                 height = length * std::pow(10.0, -vectors.below(30));
+    const Vector3 b = (a + length * along).normalized(),
+                  c = (a + length * vectors.number() * along + height * up).normalized();
+    const int sign = exact_sign(a, b, c);
+    const bool is_visible = is_visibly_positive(a, b, c);
+    if (!is_visible) {
+      hidden += sign > 0;
+      continue;
+    }
+    ++visible;
+    EXPECT_GT(sign, 0);
+    EXPECT_FALSE(is_visibly_positive(a, c, b));
+    for (int turn = 0; turn < 3; ++turn) {
+      const std::array<Vector3, 3> at = {a, b, c};
+      EXPECT_GT(determinant_from_edges(at[turn], at[(turn + 1) % 3], at[(turn + 2) % 3]), 0);
+    }
+  }
+  EXPECT_GT(visible, 300);
+  EXPECT_GT(hidden, 0);
 }
 
 TEST(Orientation, ScalingByPowersOfTwoChangesNoSign) {
