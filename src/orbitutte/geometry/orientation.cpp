@@ -58,8 +58,12 @@ bool is_visibly_positive(const Vector3& a, const Vector3& b, const Vector3& c) {
   const auto [determinant, error] = rounded_determinant(a, b, c);
   if (determinant > error) return true;
   if (determinant < -error) return false;
-  const auto [from_edges, error_of_edges] = rounded_determinant(a, b - a, c - a);
-  return from_edges > error_of_edges && exact_sign(a, b, c) > 0;
+  const auto is_visible_at = [](const Vector3& p, const Vector3& q, const Vector3& r) {
+    const auto [from_edges, error_of_edges] = rounded_determinant(p, q - p, r - p);
+    return from_edges > error_of_edges;
+  };
+  return is_visible_at(a, b, c) && is_visible_at(b, c, a) && is_visible_at(c, a, b) &&
+         exact_sign(a, b, c) > 0;
 }
 
 }  // namespace orbitutte

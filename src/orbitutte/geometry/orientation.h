@@ -11,8 +11,9 @@ namespace orbitutte {
 /// from outside. The entries must be finite.
 int orientation_sign(const Vector3& a, const Vector3& b, const Vector3& c);
 
-/// Is the triangle positive as stored, and does whoever measures it in doubles see that? Its sign is exact, but a
-/// triangle that is flatter than the rounding of its edges' cross product has angles of any sign in doubles.
+/// Is the triangle positive as stored, and does whoever measures it in doubles see that? Its sign is exact,
+/// but a triangle that is flatter than the rounding of its edges' cross product has angles of any sign in
+/// doubles.
 bool is_visibly_positive(const Vector3& a, const Vector3& b, const Vector3& c);
 
 }  // namespace orbitutte
