@@ -70,7 +70,11 @@ std::vector<std::pair<int, double>> spread_over_area(const KnownMap& map, int co
   double total = 0;
   for (const FaceDistortion& face : faces)
     if (is_measured(face)) total += face.share;
-  const bool takes_all = static_cast<int>(faces.size()) <= count;
+  if (static_cast<int>(faces.size()) <= count) {
+    for (const int f : map.order)
+      if (is_measured(faces[f])) result.emplace_back(f, faces[f].share / total);
+    return result;
+  }
   double below = 0;
   int next = 0;
   for (const int f : map.order) {
@@ -78,8 +82,7 @@ std::vector<std::pair<int, double>> spread_over_area(const KnownMap& map, int co
     below += faces[f].share / total;
     int levels = 0;
     for (; next < count && (next + 0.5) / count < below; ++next) ++levels;
-    if (takes_all) result.emplace_back(f, faces[f].share / total);
-    if (!takes_all && levels > 0) result.emplace_back(f, static_cast<double>(levels) / count);
+    if (levels > 0) result.emplace_back(f, static_cast<double>(levels) / count);
   }
   return result;
 }

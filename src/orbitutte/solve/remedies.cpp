@@ -199,6 +199,14 @@ std::vector<int> united(const std::vector<int>& a, const std::vector<int>& b) {
   return result;
 }
 
+// The same where tips of limbs may have to be unrolled before.
+std::optional<std::vector<int>> unrolled_and_put_right(Site& site, MovablePositions& positions) {
+  const std::vector<int> unrolled =
+      unroll_tips({site.problem.surface, site.gluing, site.stars, site.may_move}, positions);
+  const std::optional<std::vector<int>> moved = put_right(site, turned_faces(site, positions), positions);
+  return moved ? std::optional(united(unrolled, *moved)) : std::nullopt;
+}
+
 Points positions_of_copies(const GluingProblem& problem, const Placement& placed) {
   const Points& positions = placed.minimum.positions;
   return problem.target.has_free_tile ? spread_on_free_tile(problem.target, problem.cut, positions)
@@ -267,11 +275,11 @@ std::optional<SpreadMap> refined(const GluingProblem& problem, const Placement& 
   for (const int v : limbs) least = std::min(least, shortest_edge(site, positions, v));
   resolution.is_too_coarse = least < resolution.finest;
   if (!are_refined || resolution.is_too_coarse) return std::nullopt;
-  const std::optional<std::vector<int>> moved = put_right(site, turned_faces(site, positions), positions);
+  std::optional<std::vector<int>> moved = unrolled_and_put_right(site, positions);
   if (!moved) return std::nullopt;
   for (const int v : limbs) shortest[v] = shortest_edge(site, positions, v);
   for (const int v : of_gluing) shortest[v] = least;
-  result.moved_vertices = *moved;
+  result.moved_vertices = std::move(*moved);
   result.positions = positions.spread(shortest, result.offsets);
   result.placed.minimum.positions = result.positions.topRows(placed.minimum.positions.rows());
   return result;
@@ -318,12 +326,9 @@ std::optional<SpreadMap> with_tips_unrolled(const GluingProblem& problem, const 
   Placement result = placed;
   Site site(problem, placed);
   MovablePositions positions(site.gluing, result.minimum.positions);
-  const std::vector<int> unrolled =
-      unroll_tips({problem.surface, site.gluing, site.stars, site.may_move}, positions);
-  if (unrolled.empty()) return std::nullopt;
-  const std::optional<std::vector<int>> repaired = put_right(site, turned_faces(site, positions), positions);
-  if (!repaired) return std::nullopt;
-  return spread_map(problem, std::move(result), united(unrolled, *repaired));
+  std::optional<std::vector<int>> moved_vertices = unrolled_and_put_right(site, positions);
+  if (!moved_vertices || moved_vertices->empty()) return std::nullopt;
+  return spread_map(problem, std::move(result), std::move(*moved_vertices));
 }
 
 std::optional<SpreadMap> with_limbs_resolved(const GluingProblem& problem, const Placement& placed) {
