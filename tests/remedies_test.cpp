@@ -287,20 +287,37 @@ TEST(Limbs, OfFreeTilesAreCertifiedWithMoreDigits) {
   }
 }
 
+Target with_cones(const std::vector<double>& shares_of_pi) {
+  std::vector<Mark> marks;
+  for (const double share : shares_of_pi) marks.push_back({share * M_PI, ConeKind::rotation});
+  return cone_target(Topology::sphere, marks);
+}
+
+// Spherical, flat and hyperbolic.
+const std::vector<std::vector<double>> with_a_great_cone = {
+    {1.6, 0.8, 0.8, 0.8}, {1.6, 1.5, 1.4, 1.5}, {1.6, 0.5, 0.5, 0.5}};
+
 // On the way to a tip with a cone of more than pi, what reverses orientations comes to prevail over what
 // keeps them.
 TEST(Limbs, WithGreatConesAtTheirTipsAreUnrolled) {
   const Mesh mesh = with_limb(test::icosphere(2), 6, 16);
-  const auto cones = [](const std::vector<double>& angles) {
-    std::vector<Mark> marks;
-    for (const double angle : angles) marks.push_back({angle * M_PI, ConeKind::rotation});
-    return cone_target(Topology::sphere, marks);
-  };
-  for (const Target& target :
-       {cones({1.6, 0.8, 0.8, 0.8}), cones({1.6, 1.5, 1.4, 1.5}), cones({1.6, 0.5, 0.5, 0.5})}) {
+  for (const std::vector<double>& shares : with_a_great_cone) {
+    const Target target = with_cones(shares);
     const EmbedResult result = embed(mesh, target, {6, 1, 3, 2});
     EXPECT_TRUE(result.certificate.bijective) << target.space.name() << failed_checks(result.certificate);
     EXPECT_FALSE(result.moved_vertices.empty()) << target.space.name();
+  }
+}
+
+TEST(Limbs, WithGreatConesAreUnrolledBesideLimbsWithMoreDigits) {
+  const Mesh mesh = with_limb(with_limb(test::icosphere(2), 6, 16), 9, 48);
+  for (const std::vector<double>& shares : with_a_great_cone) {
+    const Target target = with_cones(shares);
+    const EmbedResult result = embed(mesh, target, {6, 1, 3, 2});
+    EXPECT_TRUE(result.certificate.bijective) << target.space.name() << failed_checks(result.certificate);
+    EXPECT_EQ(result.requested_weights, std::nullopt) << "other weights were taken";
+    EXPECT_FALSE(result.moved_vertices.empty()) << target.space.name();
+    EXPECT_FALSE(result.embedding.offsets.empty()) << target.space.name();
   }
 }
 
