@@ -65,10 +65,6 @@ std::string known_endings() {
   return endings;
 }
 
-void write_bytes(const std::string& path, const std::string& bytes) {
-  write_file(path, is_compressed(path) ? compress_to_gzip(bytes) : bytes);
-}
-
 }  // namespace
 
 std::vector<std::string> mesh_endings() {
@@ -86,8 +82,6 @@ MeshFormat mesh_format(const std::string& path) {
       "{}: the ending names no known mesh format; use one of {}, each also with .gz", path, known_endings()));
 }
 
-bool is_compressed(const std::string& path) { return ending_of(path) == ".gz"; }
-
 PolygonMesh parse_mesh(std::string_view bytes, MeshFormat format) {
   if (bytes.empty()) throw MeshError("the file is empty; export it again");
   try {
@@ -100,11 +94,9 @@ PolygonMesh parse_mesh(std::string_view bytes, MeshFormat format) {
 
 PolygonMesh parse_mesh_file(const std::string& path, std::string_view bytes) {
   const MeshFormat format = mesh_format(path);
-  try {
+  return naming_file(path, [&] {
     return is_compressed(path) ? parse_mesh(decompress(bytes), format) : parse_mesh(bytes, format);
-  } catch (const MeshError& error) {
-    throw MeshError(fmt::format("{}: {}", path, error.what()));
-  }
+  });
 }
 
 PolygonMesh read_mesh(const std::string& path) {
@@ -127,12 +119,10 @@ std::string read_bytes(const MeshInput& input) {
 
 PolygonMesh parse_mesh_input(const MeshInput& input, std::string_view bytes) {
   if (!input.format) return parse_mesh_file(input.path, bytes);
-  try {
+  return naming_file(input.path, [&] {
     return bytes.starts_with(gzip_magic) ? parse_mesh(decompress(bytes), *input.format)
                                          : parse_mesh(bytes, *input.format);
-  } catch (const MeshError& error) {
-    throw MeshError(fmt::format("{}: {}", input.path, error.what()));
-  }
+  });
 }
 
 PolygonMesh read_mesh(const MeshInput& input) { return parse_mesh_input(input, read_bytes(input)); }
@@ -145,11 +135,11 @@ std::string serialize_mesh(const PolygonMesh& mesh, MeshFormat format) {
 }
 
 void write_mesh(const std::string& path, const Mesh& mesh) {
-  write_bytes(path, serialize_mesh(mesh, mesh_format(path)));
+  write_compressed_as_named(path, serialize_mesh(mesh, mesh_format(path)));
 }
 
 void write_mesh(const std::string& path, const PolygonMesh& mesh) {
-  write_bytes(path, serialize_mesh(mesh, mesh_format(path)));
+  write_compressed_as_named(path, serialize_mesh(mesh, mesh_format(path)));
 }
 
 }  // namespace orbitutte
