@@ -16,14 +16,20 @@ struct TwistedPlaces {
   int centre, moved;
 };
 
+// By what the second of them is moved: the rotation about the first, or back by it.
+Isometry motion_of(const Moduli& moduli, const Points& cones, const HalfTwist& twist) {
+  const int centre = TwistedPlaces(twist).centre;
+  const double angle = moduli.marks()[centre].angle;
+  const Isometry rotation = moduli.space().rotation(cones.row(centre), angle);
+  return twist.is_forth ? rotation.inverse() : rotation;
+}
+
 Points after_half_twist(const Moduli& moduli, const Points& cones, const HalfTwist& twist) {
   const auto [centre, moved] = TwistedPlaces(twist);
-  const Space space = moduli.space();
-  const Isometry rotation = space.rotation(cones.row(centre), moduli.marks()[centre].angle);
-  const Isometry motion = twist.is_forth ? rotation.inverse() : rotation;
+  const Isometry motion = motion_of(moduli, cones, twist);
   Points result = cones;
   result.row(moved) = cones.row(centre);
-  result.row(centre) = space.retract(motion * Vector3(cones.row(moved))).transpose();
+  result.row(centre) = moduli.space().retract(motion * Vector3(cones.row(moved))).transpose();
   return result;
 }
 
@@ -65,8 +71,7 @@ std::vector<Isometry> motions(const Moduli& moduli, Points cones, const Braid& b
   std::vector<Isometry> result(cones.rows());
   for (const HalfTwist& twist : braid) {
     const auto [centre, moved] = TwistedPlaces(twist);
-    const Isometry rotation = moduli.space().rotation(cones.row(centre), moduli.marks()[centre].angle);
-    const Isometry motion = twist.is_forth ? rotation.inverse() : rotation;
+    const Isometry motion = motion_of(moduli, cones, twist);
     cones = after_half_twist(moduli, cones, twist);
     std::swap(result[moved], result[centre]);
     result[centre] = motion * result[centre];
