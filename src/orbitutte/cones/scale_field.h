@@ -116,6 +116,7 @@ class ScaleField {
   void add_three_cones(const std::vector<Place>& cones, std::vector<double>& u);
   void add_two_cones(const MarkedTarget& choice, const std::vector<Place>& cones, std::vector<double>& u);
   void add_flat_cones(const std::vector<Place>& cones, std::vector<double>& u);
+  double area_over_samples(const std::vector<double>& u) const;
   double scale_along_axis(const std::vector<Place>& cones);
   double excess_at(const Place& cone, const Place& other);
 
