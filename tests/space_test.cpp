@@ -13,6 +13,8 @@
 #include <random>
 
 #include "hand_made.h"
+#include "orbitutte/geometry/fitted_rotation.h"
+#include "orbitutte/geometry/morton.h"
 #include "orbitutte/geometry/orientation.h"
 #include "orbitutte/geometry/precise_distance.h"
 #include "test_meshes.h"
@@ -364,6 +366,33 @@ TEST_P(EverySpace, ThereIsAnIsometryThatTakesAnyPointToTheOrigin) {
   if (k() > 0) {
     EXPECT_LE((space().to_origin(-Space::origin()) * -Space::origin() - Space::origin()).norm(), 1e-15);
   }
+}
+
+TEST(MortonsCurve, VisitsTheEightCellsOfEachCubeBeforeTheNext) {
+  EXPECT_EQ(place_on_curve(0, 0, 0), 0U);
+  EXPECT_EQ(place_on_curve(1, 0, 0), 1U);
+  EXPECT_EQ(place_on_curve(0, 1, 0), 2U);
+  EXPECT_EQ(place_on_curve(0, 0, 1), 4U);
+  constexpr std::uint64_t largest = (1U << 21) - 1;
+  EXPECT_EQ(place_on_curve(largest, largest, largest), (std::uint64_t{1} << 63) - 1);
+  std::mt19937 random(29);
+  for (int i = 0; i < 200; ++i) {
+    const std::uint64_t x = random() >> 12, y = random() >> 12, z = random() >> 12;
+    EXPECT_EQ(place_on_curve(x, y, z) >> 3, place_on_curve(x >> 1, y >> 1, z >> 1));
+  }
+}
+
+TEST(FittedRotation, IsTheOneThatTheOtherPointsWereTurnedBy) {
+  const Isometry turn = Space::sphere().rotation(Vector3(1, 2, 2) / 3, 1.1);
+  const Points from = Points::Random(20, 3), to = turn.on_rows(from);
+  const FittedRotation found = fitted_rotation(from, to);
+  EXPECT_LE((found.matrix - turn.matrix()).norm(), 1e-13);
+  EXPECT_GT(found.certainty, 0.1);
+  // Of mirror images it is still a rotation, the best one.
+  const Points mirrored = to * Vector3(1, 1, -1).asDiagonal();
+  EXPECT_NEAR(fitted_rotation(from, mirrored).matrix.determinant(), 1, 1e-13);
+  const Points on_line = from.col(0) * Eigen::RowVector3d(1, 2, 3);
+  EXPECT_LE(fitted_rotation(on_line, on_line).certainty, 1e-13) << "a line may be turned about itself";
 }
 
 // ------------------------------------------------------------------------------------------------- unknowns
