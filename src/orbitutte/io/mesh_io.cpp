@@ -22,21 +22,24 @@ struct FormatRow {
   std::string_view endings;
   PolygonMesh (*read)(std::string_view);
   std::string (*write)(const Mesh&);
+  // triangles_only: polygons are divided into triangles.
   std::string (*write_polygons)(const PolygonMesh&);
 };
+
+constexpr std::nullptr_t triangles_only = nullptr;
 
 constexpr FormatRow formats[] = {
     {MeshFormat::obj, ".obj", read_obj, write_obj, write_obj_polygons},
     {MeshFormat::off, ".off", read_off, write_off, write_off_polygons},
     {MeshFormat::ply, ".ply", read_ply, write_ply, write_ply_polygons},
-    {MeshFormat::stl, ".stl", read_stl, write_stl, write_stl_polygons},
-    {MeshFormat::gifti, ".gii", read_gifti, write_gifti, write_gifti_polygons},
+    {MeshFormat::stl, ".stl", read_stl, write_stl, triangles_only},
+    {MeshFormat::gifti, ".gii", read_gifti, write_gifti, triangles_only},
     {MeshFormat::vtk, ".vtk", read_vtk, write_vtk, write_vtk_polygons},
     {MeshFormat::vtp, ".vtp", read_vtp, write_vtp, write_vtp_polygons},
-    {MeshFormat::gltf, ".gltf", read_gltf, write_gltf, write_gltf_polygons},
-    {MeshFormat::glb, ".glb", read_gltf, write_glb, write_glb_polygons},
+    {MeshFormat::gltf, ".gltf", read_gltf, write_gltf, triangles_only},
+    {MeshFormat::glb, ".glb", read_gltf, write_glb, triangles_only},
     {MeshFormat::freesurfer, ".pial .white .inflated .sphere .orig .smoothwm .reg .nofix", read_freesurfer,
-     write_freesurfer, write_freesurfer_polygons}};
+     write_freesurfer, triangles_only}};
 
 constexpr std::string_view gzip_magic = "\x1F\x8B";
 constexpr const char* standard_input = "-";
@@ -130,8 +133,9 @@ PolygonMesh read_mesh(const MeshInput& input) { return parse_mesh_input(input, r
 std::string serialize_mesh(const Mesh& mesh, MeshFormat format) { return row(format).write(mesh); }
 
 std::string serialize_mesh(const PolygonMesh& mesh, MeshFormat format) {
-  if (is_triangle_mesh(mesh)) return serialize_mesh(to_triangle_mesh(mesh), format);
-  return row(format).write_polygons(mesh);
+  const FormatRow& known = row(format);
+  if (is_triangle_mesh(mesh) || !known.write_polygons) return known.write(to_triangle_mesh(mesh));
+  return known.write_polygons(mesh);
 }
 
 void write_mesh(const std::string& path, const Mesh& mesh) {
