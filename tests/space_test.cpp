@@ -181,7 +181,7 @@ TEST_P(EverySpace, VectorsAreMovedAlongGeodesics) {
     EXPECT_LE((space().tangent(q, moved) - moved).norm(), 1e-12 * q.norm());
     EXPECT_NEAR(space().norm(moved), 2, 1e-12);
     EXPECT_NEAR(space().dot(moved, direction / space().norm(direction)), 2 * std::cos(0.8), 1e-9);
-    EXPECT_EQ(space().moved_along(v, p, p), v) << "a step of no length changes nothing";
+    EXPECT_LE((space().moved_along(v, p, p) - v).norm(), 1e-13) << "a step of no length changes nothing";
   }
 }
 
