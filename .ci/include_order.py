@@ -50,10 +50,22 @@ def closure(headers):
     return known
 
 
-def installed_headers():
+def listed_headers():
+    """Those that cmake/install.cmake names; what they include is installed, too."""
     text = (ROOT / "cmake/install.cmake").read_text(encoding="utf-8")
     names = re.search(r"set\(ORBITUTTE_HEADERS ([^)]*)\)", text)[1].split() + ["render/map_sheet", "render/render"]
-    return closure(name + ".h" for name in names)
+    return {name + ".h" for name in names}
+
+
+def headers_of_programs():
+    """What programs, bindings, examples and documents include."""
+    files = tracked("apps/*", "python/*", "examples/*", "docs/*.md", "tests/consumer/*", "README.md")
+    return {included for path in files if path.endswith((".h", ".cpp", ".md")) for _, included in includes(path)}
+
+
+def other_includes(header):
+    """The headers of libraries: their names have a folder or an ending."""
+    return re.findall(r"#include *<([^>]*[/.][^>]*)>", (SOURCE / header).read_text(encoding="utf-8"))
 
 
 def complaints():
@@ -66,7 +78,10 @@ def complaints():
             other = layer_of(included)
             if other not in LAYERS or LAYERS.index(other) > LAYERS.index(layer) or (layer, other) in NEVER:
                 yield f"{path}:{number}: {layer} must not include {included}"
-    installed = installed_headers()
+    listed = listed_headers()
+    installed = closure(listed)
+    for header in sorted(listed - headers_of_programs()):
+        yield f"cmake/install.cmake: no program, binding, example or document includes {header}"
     for path in tracked("apps/*.h", "apps/*.cpp"):
         for number, included in includes(path):
             if included not in installed and included != "version.h":
@@ -74,6 +89,9 @@ def complaints():
     for header in sorted(installed):
         if "private to" in (SOURCE / header).read_text(encoding="utf-8").lower():
             yield f"src/orbitutte/{header}: is installed, and says that it is private"
+        for included in other_includes(header):
+            if not included.startswith("Eigen/"):
+                yield f"src/orbitutte/{header}: is installed, and asks programs for {included}"
     if (ROOT / "src" / SMALL).exists():
         for header in sorted(closure([SMALL.removeprefix("orbitutte/")])):
             if layer_of(header) in NOT_IN_SMALL:

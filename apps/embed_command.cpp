@@ -52,7 +52,7 @@ void require_fitted_alone(const EmbedArguments& arguments) {
 std::vector<int> kept_vertices(const EmbedArguments& arguments, const Surface& surface) {
   const ConesWord word = cones_word(arguments.cones);
   if (word == ConesWord::extremities) {
-    const bool is_disk = arguments.orbifold == mirrored_cones_signature;
+    const bool is_disk = topology_of_cones(arguments.orbifold) == Topology::disk;
     return choose_extremities(surface, {is_disk ? 0 : arguments.count, is_disk ? arguments.count : 0});
   }
   return word == ConesWord::none ? parse_cones(arguments.cones) : std::vector<int>();
@@ -253,9 +253,9 @@ std::string remedy(const EmbedArguments& arguments, const EmbedResult& result) {
   if (termination == Termination::max_iterations) ways.push_back("allow more iterations (--max-iterations)");
   if (termination == Termination::line_search_failed)
     ways.push_back("ask for less accuracy (--tolerance 1e-8)");
-  if (termination == Termination::converged && result.embedding.target.corners.empty())
+  if (termination == Termination::converged && !result.embedding.target.is_polygon())
     ways.push_back("mark the tips of the longest limbs (--cones)");
-  if (!result.embedding.target.corners.empty())
+  if (result.embedding.target.is_polygon())
     ways.push_back("take an orbifold such as *432, along whose mirrors the boundary may slide");
   const bool were_tried = arguments.weights == name_of(WeightKind::standard);
   if (const std::string way = other_weights(result.weights.kind); !way.empty() && !were_tried)

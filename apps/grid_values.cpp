@@ -20,25 +20,18 @@ namespace {
 
 using ByRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-bool ends_with(const std::string& path, std::string_view ending) {
-  std::string name = path;
-  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
-  return name.ends_with(ending);
+NumpyArray values_in(std::string_view archive) {
+  for (auto& [name, array] : parse_numpy_archive(archive))
+    if (name == "values") return std::move(array);
+  throw MeshError("there is no array 'values' in it");
 }
 
 // The array of an .npy, or `values` of an .npz; nothing for other files.
 std::optional<NumpyArray> read_array(const std::string& path) {
-  const bool is_archive = ends_with(path, ".npz");
-  if (!is_archive && !ends_with(path, ".npy")) return std::nullopt;
-  const std::string bytes = read_file(path);
-  try {
-    if (!is_archive) return parse_numpy_array(bytes);
-    for (auto& [name, array] : parse_numpy_archive(bytes))
-      if (name == "values") return std::move(array);
-  } catch (const MeshError& error) {
-    throw MeshError(fmt::format("{}: {}", path, error.what()));
-  }
-  throw MeshError(fmt::format("{}: there is no array 'values' in it", path));
+  const std::string ending = ending_of(path);
+  if (ending == ".npy") return parse_file(path, parse_numpy_array);
+  if (ending == ".npz") return parse_file(path, values_in);
+  return std::nullopt;
 }
 
 [[noreturn]] void refuse_count(const std::string& path, std::size_t count, int rows, const char* what) {
@@ -179,12 +172,7 @@ void write_archive(const std::string& path, const NumpyArchive& archive) {
 }
 
 GridValues read_png(const std::string& path, const Grid& grid) {
-  PngPixels pixels;
-  try {
-    pixels = parse_png(read_file(path));
-  } catch (const MeshError& error) {
-    throw MeshError(fmt::format("{}: {}", path, error.what()));
-  }
+  const PngPixels pixels = parse_file(path, parse_png);
   if (!grid.is_image() || pixels.width != grid.shape.back() ||
       static_cast<long long>(pixels.width) * pixels.height != grid.count())
     throw ArgumentError(fmt::format("{} has {} x {} pixels, which is not the shape of the grid", path,
@@ -208,15 +196,15 @@ GridValues read_grid_values(const std::string& path, const Grid& grid) {
   constexpr const char* what = "points of the grid";
   if (const std::optional<NumpyArray> array = read_array(path))
     return values_of(*array, grid.count(), path, what);
-  return ends_with(path, ".png") ? read_png(path, grid) : read_data(path, grid.count(), what);
+  return ending_of(path) == ".png" ? read_png(path, grid) : read_data(path, grid.count(), what);
 }
 
 void write_grid_values(const std::string& path, const ResampledOutput& output) {
-  const bool is_archive = ends_with(path, ".npz"), has_values = output.values.values.size() > 0;
+  const bool is_archive = ending_of(path) == ".npz", has_values = output.values.values.size() > 0;
   const Padded image = has_values ? padded(output) : Padded();
   if (!is_archive) {
-    if (ends_with(path, ".png")) return write_file(path, png_of(path, image));
-    if (ends_with(path, ".npy"))
+    if (ending_of(path) == ".png") return write_file(path, png_of(path, image));
+    if (ending_of(path) == ".npy")
       return write_file(path, serialize_numpy_array(numpy(image.values, image.shape)));
     return write_as_asked(path, image.values);
   }
@@ -243,14 +231,14 @@ void write_grid_values(const std::string& path, const ResampledOutput& output) {
 }
 
 void write_surface_values(const std::string& path, const ResampledOutput& output) {
-  if (ends_with(path, ".png"))
+  if (ending_of(path) == ".png")
     throw ArgumentError(
         fmt::format("'{}' would be an image, but --back makes values of vertices; write .npy, .txt "
                     "or .shape.gii",
                     path));
   const std::vector<int> shape = {static_cast<int>(output.values.values.rows())};
-  if (ends_with(path, ".npy")) return write_file(path, serialize_numpy_array(numpy(output.values, shape)));
-  if (!ends_with(path, ".npz")) return write_as_asked(path, output.values);
+  if (ending_of(path) == ".npy") return write_file(path, serialize_numpy_array(numpy(output.values, shape)));
+  if (ending_of(path) != ".npz") return write_as_asked(path, output.values);
   NumpyArchive archive;
   archive.reserve(4);
   add_table(output.table, archive);

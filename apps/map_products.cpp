@@ -54,12 +54,7 @@ std::vector<CarryingOption> carrying_options(const MapArguments& arguments) {
   return given;
 }
 
-bool is_glb(const std::string& path) {
-  std::string ending = fs::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  return ending == ".glb";
-}
+bool is_glb(const std::string& path) { return ending_of(path) == ".glb"; }
 
 // The values at the vertices of B that an option names; none if there is no file.
 VertexData values_of_b(const std::string& option, const std::string& path, const Surface& b) {

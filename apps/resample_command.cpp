@@ -10,6 +10,7 @@
 #include "commands.h"
 #include "grid_values.h"
 #include "orbitutte/inspect/recognition.h"
+#include "orbitutte/io/file.h"
 #include "orbitutte/io/mesh_io.h"
 #include "orbitutte/report/embedding_file.h"
 #include "orbitutte/report/report.h"
@@ -34,11 +35,7 @@ Grid grid_from(const std::string& text, const Embedding& embedding) {
   if (embedding.space() != Space::sphere())
     throw ArgumentError(fmt::format("the grid '{}' is a sphere, but the map is onto {}, which is {}", text,
                                     embedding.target.signature, embedding.space().name()));
-  try {
-    return sphere_grid(sphere.V, sphere.triangles);
-  } catch (const MeshError& error) {
-    throw MeshError(fmt::format("{}: {}", text, error.what()));
-  }
+  return naming_file(text, [&] { return sphere_grid(sphere.V, sphere.triangles); });
 }
 
 // The table in the direction that is asked for.
@@ -80,12 +77,12 @@ void tell_integrals(const Eigen::VectorXd& from_areas, const Eigen::MatrixXd& fr
 }
 
 void require_output(const ResampleArguments& arguments, const Grid& grid) {
-  const bool is_archive = arguments.output.ends_with(".npz");
+  const bool is_archive = ending_of(arguments.output) == ".npz";
   if (arguments.values.empty() && !is_archive)
     throw ArgumentError("without --values there is only the table to write: give -o the ending .npz");
   if (arguments.pad > 0 && arguments.back)
     throw ArgumentError("--pad is of images, and --back makes values of vertices; leave out one of both");
-  if (arguments.output.ends_with(".png") && !grid.is_image())
+  if (ending_of(arguments.output) == ".png" && !grid.is_image())
     throw ArgumentError(
         fmt::format("-o is '{}', but the points of this grid are no image; write .npy", arguments.output));
   if (arguments.pad > 0) padded_shape(grid, arguments.pad);

@@ -81,11 +81,7 @@ PolygonMesh read_recorded(const MeshInput& input, RunRecord& run) {
 
 // Messages begin with `name`.
 std::shared_ptr<const Surface> judged(PolygonMesh mesh, const std::string& name) {
-  try {
-    return std::make_shared<const Surface>(make_surface(std::move(mesh)));
-  } catch (const MeshError& error) {
-    throw MeshError(fmt::format("{}: {}", name, error.what()));
-  }
+  return naming_file(name, [&] { return std::make_shared<const Surface>(make_surface(std::move(mesh))); });
 }
 
 }  // namespace

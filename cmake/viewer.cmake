@@ -32,6 +32,8 @@ else()
 endif()
 
 orbitutte_embed_text(page_template ${ORBITUTTE_VIEWER_DIR}/page.html)
+orbitutte_embed_text(page_head ${ORBITUTTE_VIEWER_DIR}/page_head.html)
+orbitutte_embed_text(page_foot ${ORBITUTTE_VIEWER_DIR}/page_foot.html)
 orbitutte_embed_text(page_view ${ORBITUTTE_VIEWER_DIR}/view.html)
 orbitutte_embed_text(map_page_template ${ORBITUTTE_VIEWER_DIR}/map_page.html)
 orbitutte_embed_text(map_page_view ${ORBITUTTE_VIEWER_DIR}/map_view.html)

@@ -8,6 +8,7 @@
 
 #include "orbitutte/cones/extremities.h"
 #include "orbitutte/inspect/recognition.h"
+#include "orbitutte/mesh/intrinsic_triangulation.h"
 #include "orbitutte/solve/development.h"
 #include "orbitutte/weights/weights.h"
 #include "test_meshes.h"

@@ -9,6 +9,7 @@
 
 #include "orbitutte/embed.h"
 #include "orbitutte/inspect/recognition.h"
+#include "orbitutte/mesh/intrinsic_triangulation.h"
 #include "orbitutte/orbifold/cone_target.h"
 #include "orbitutte/orbifold/free_tile.h"
 #include "orbitutte/orbifold/signature.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "orbitutte/render/drawn_space.h"
+#include "orbitutte/geometry/drawn_space.h"
 
 #include <gtest/gtest.h>
 
@@ -37,6 +37,19 @@ TEST(DrawnSpace, HasItsMiddleInTheMiddleOfTheDiskAndNothingBeyond) {
   EXPECT_LT((drawn.at(middle) - Space::origin()).norm(), 1e-12);
   for (const Vector3& p : points_around(space)) EXPECT_LT(drawn.at(p).head<2>().norm(), disk_edge);
   EXPECT_FALSE(drawn.point_at({disk_edge, 0, 1}).has_value());
+}
+
+TEST(DrawnSpace, LiesWithinTheBallThatHoldsItUnlessItHasNoEnd) {
+  for (const Space space : spaces) {
+    const DrawnSpace drawn(space, space.polar(0.8, 2));
+    const auto whole = drawn.whole();
+    EXPECT_EQ(whole.has_value(), space != Space::plane());
+    for (const Vector3& p : points_around(space)) {
+      if (whole) {
+        EXPECT_LE((drawn.at(p) - whole->centre).norm(), whole->radius + 1e-15);
+      }
+    }
+  }
 }
 
 // It is conformal: a short step is drawn with the same scale in all directions.

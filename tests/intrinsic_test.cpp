@@ -8,6 +8,7 @@
 #include <random>
 #include <set>
 
+#include "orbitutte/mesh/intrinsic_triangulation.h"
 #include "orbitutte/report/verification.h"
 #include "orbitutte/solve/flipped_edges.h"
 #include "orbitutte/verify/energy.h"

@@ -508,9 +508,9 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"Blank", "\n \n", "line 3: the header lacks the number of vertices" + mend},
         Refusal{"Text", "hello\n",
                 "line 1: the header has 'hello' where the number of vertices belongs" + mend},
-        Refusal{
-            "Binary", std::string("OFF BINARY\n\0\0\0\4", 15),
-            "byte 4 behind the first line: the file ends before the number of faces; export the file again"},
+        Refusal{"Binary", std::string("OFF BINARY\n\0\0\0\4", 15),
+                "byte 4 behind the first line: the file ends before the number of faces; copy or export the "
+                "file again"},
         Refusal{"FourDimensions", "4OFF\n1 0 0\n0 0 0 1\n",
                 "line 1: '4OFF' announces points of a dimension other than three" + mend},
         Refusal{"AnyDimension", "# two\nnOFF 2\n1 0 0\n0 0\n",

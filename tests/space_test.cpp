@@ -13,7 +13,10 @@
 #include <random>
 
 #include "hand_made.h"
+#include "orbitutte/geometry/fitted_rotation.h"
+#include "orbitutte/geometry/morton.h"
 #include "orbitutte/geometry/orientation.h"
+#include "orbitutte/geometry/precise_distance.h"
 #include "test_meshes.h"
 
 namespace orbitutte::space_test {
@@ -64,6 +67,8 @@ std::vector<Isometry> some_isometries(Space space) {
 
 double sn(int k, double d) { return k > 0 ? std::sin(d) : k == 0 ? d : std::sinh(d); }
 double cs(int k, double d) { return k > 0 ? std::cos(d) : k == 0 ? 1 : std::cosh(d); }
+
+Precise sn_of(int k, const Precise& d) { return k > 0 ? Precise(sin(d)) : k == 0 ? d : Precise(sinh(d)); }
 
 // --------------------------------------------------------------------------------------------------- points
 
@@ -118,6 +123,97 @@ TEST_P(EverySpace, GeodesicsAreRunAtUnitSpeed) {
       EXPECT_NEAR(space().distance(p, q), d, 1e-15 * p.squaredNorm() * q.norm()) << d;
     }
   }
+}
+
+TEST_P(EverySpace, TheMetricMakesCovectorsOfTangentVectors) {
+  const std::vector<Vector3> p = random_points(space(), 30, 22), v = random_points(space(), 30, 23);
+  Points rows(30, 3);
+  for (int i = 0; i < 30; ++i) rows.row(i) = space().tangent(p[i], v[i]);
+  Points lowered = rows;
+  lower_rows(space(), lowered);
+  for (int i = 0; i < 30; ++i) {
+    const Vector3 u = unit_tangent(space(), p[i], 1), t = rows.row(i);
+    EXPECT_NEAR(u.dot(space().metric().cwiseProduct(t)), space().dot(u, t), 1e-13);
+    EXPECT_NEAR(lowered.row(i).dot(u), space().dot(u, t), 1e-13);
+    EXPECT_NEAR(space().squared_norm(t), space().dot(t, t), 1e-13);
+  }
+}
+
+TEST_P(EverySpace, TheFormIsTheEquationOfTheSpaceAndTheCosineOfDistances) {
+  const std::vector<Vector3> p = random_points(space(), 60, 24);
+  for (std::size_t i = 0; i + 1 < p.size(); i += 2) {
+    EXPECT_NEAR(space().form(p[i], p[i]), 1, 1e-14);
+    EXPECT_NEAR(space().form(p[i], p[i + 1]), cs(k(), space().distance(p[i], p[i + 1])), 1e-13);
+    EXPECT_NEAR(space().form(p[i], unit_tangent(space(), p[i], 0.4)), 0, 1e-13);
+  }
+}
+
+TEST_P(EverySpace, TheSideTellsAPointFromItsOpposite) {
+  const std::vector<Vector3> p = random_points(space(), 60, 25);
+  for (std::size_t i = 0; i + 1 < p.size(); i += 2) {
+    if (space().distance(p[i], p[i + 1]) > 1.5) continue;
+    const Vector3 there = p[i] + p[i + 1];
+    EXPECT_GT(space().side(p[i], there), 0);
+    EXPECT_LT(space().side(Vector3(-p[i]), there), 0);
+  }
+  // Far from the edge's middle, as no point of the sphere can be, it is still the point and not its opposite.
+  const Vector3 far = space().lift(-8, 0), near = space().lift(0.1, 0);
+  if (k() <= 0) {
+    EXPECT_GT(space().side(near, Vector3(near + far)), 0);
+  }
+}
+
+TEST_P(EverySpace, TurningLeftIsTheRotationByARightAngle) {
+  for (const Vector3& p : random_points(space(), 40, 26)) {
+    const Vector3 u = unit_tangent(space(), p, p.y()), left = space().turned_left(p, u);
+    EXPECT_LE((left - space().rotation(p, pi / 2) * u).norm(), 1e-13);
+    EXPECT_NEAR(space().dot(u, left), 0, 1e-13);
+  }
+}
+
+// A vector that moves along a geodesic keeps its length and its angle with the geodesic.
+TEST_P(EverySpace, VectorsAreMovedAlongGeodesics) {
+  for (const Vector3& p : random_points(space(), 30, 27)) {
+    const Vector3 u = unit_tangent(space(), p, 0.3), v = 2 * unit_tangent(space(), p, 1.1);
+    const double d = 1.2;
+    const Vector3 q = space().at(p, u, d), ahead = space().at(p, u, d + 1e-3) - q;
+    const Vector3 moved = space().moved_along(v, p, q), direction = space().tangent(q, ahead).normalized();
+    EXPECT_LE((space().tangent(q, moved) - moved).norm(), 1e-12 * q.norm());
+    EXPECT_NEAR(space().norm(moved), 2, 1e-12);
+    EXPECT_NEAR(space().dot(moved, direction / space().norm(direction)), 2 * std::cos(0.8), 1e-9);
+    EXPECT_LE((space().moved_along(v, p, p) - v).norm(), 1e-13) << "a step of no length changes nothing";
+  }
+}
+
+TEST_P(EverySpace, LengthsFollowFromSnOfTheirHalf) {
+  for (const double d : {1e-9, 0.1, 1.0, 3.0})
+    EXPECT_NEAR(space().length_of_half_sn(sn(k(), d / 2)) / d, 1, 1e-14);
+  if (k() > 0) {
+    EXPECT_EQ(space().length_of_half_sn(1.5), pi);
+  }
+}
+
+// What is said of a space by its name is what its formulas do.
+TEST_P(EverySpace, SimilaritiesAreThereWhereSidesDoNotFollowFromAngles) {
+  // With the angles of a triangle whose sides are not small, twice its sides make other angles unless there
+  // are similarities.
+  const Vector3 a = Space::origin(), b = space().polar(0.6, 0), c = space().polar(0.6, 1);
+  const Vector3 b2 = space().polar(1.2, 0), c2 = space().polar(1.2, 1);
+  const double change = std::abs(space().angle(b, c, a) - space().angle(b2, c2, a));
+  EXPECT_EQ(space().has_similarities(), change < 1e-9);
+}
+
+TEST_P(EverySpace, DistancesAreConvexWhereTheCurvatureIsNotPositive) {
+  const std::vector<Vector3> p = random_points(space(), 200, 28, 1.5);
+  bool is_convex = true;
+  for (std::size_t i = 0; i + 1 < p.size(); i += 2) {
+    const Vector3 u = unit_tangent(space(), p[i], 0.3), v = unit_tangent(space(), p[i + 1], 2.1);
+    const auto distance = [&](double t) {
+      return space().distance(space().at(p[i], u, t), space().at(p[i + 1], v, t));
+    };
+    is_convex = is_convex && distance(0.4) <= (distance(0) + distance(0.8)) / 2 + 1e-12;
+  }
+  EXPECT_EQ(is_convex, space().has_convex_distances());
 }
 
 // ---------------------------------------------------------------------------------------------- orientation
@@ -272,6 +368,33 @@ TEST_P(EverySpace, ThereIsAnIsometryThatTakesAnyPointToTheOrigin) {
   }
 }
 
+TEST(MortonsCurve, VisitsTheEightCellsOfEachCubeBeforeTheNext) {
+  EXPECT_EQ(place_on_curve(0, 0, 0), 0U);
+  EXPECT_EQ(place_on_curve(1, 0, 0), 1U);
+  EXPECT_EQ(place_on_curve(0, 1, 0), 2U);
+  EXPECT_EQ(place_on_curve(0, 0, 1), 4U);
+  constexpr std::uint64_t largest = (1U << 21) - 1;
+  EXPECT_EQ(place_on_curve(largest, largest, largest), (std::uint64_t{1} << 63) - 1);
+  std::mt19937 random(29);
+  for (int i = 0; i < 200; ++i) {
+    const std::uint64_t x = random() >> 12, y = random() >> 12, z = random() >> 12;
+    EXPECT_EQ(place_on_curve(x, y, z) >> 3, place_on_curve(x >> 1, y >> 1, z >> 1));
+  }
+}
+
+TEST(FittedRotation, IsTheOneThatTheOtherPointsWereTurnedBy) {
+  const Isometry turn = Space::sphere().rotation(Vector3(1, 2, 2) / 3, 1.1);
+  const Points from = Points::Random(20, 3), to = turn.on_rows(from);
+  const FittedRotation found = fitted_rotation(from, to);
+  EXPECT_LE((found.matrix - turn.matrix()).norm(), 1e-13);
+  EXPECT_GT(found.certainty, 0.1);
+  // Of mirror images it is still a rotation, the best one.
+  const Points mirrored = to * Vector3(1, 1, -1).asDiagonal();
+  EXPECT_NEAR(fitted_rotation(from, mirrored).matrix.determinant(), 1, 1e-13);
+  const Points on_line = from.col(0) * Eigen::RowVector3d(1, 2, 3);
+  EXPECT_LE(fitted_rotation(on_line, on_line).certainty, 1e-13) << "a line may be turned about itself";
+}
+
 // ------------------------------------------------------------------------------------------------- unknowns
 
 TEST_P(EverySpace, TheRoomIsTheDirectionsInWhichPointsDiffer) {
@@ -404,6 +527,44 @@ TEST(DistanceSeries, GivesTheGradientOfTheSquaredDistance) {
   expect_gradient_of_squared_distance<1>();
   expect_gradient_of_squared_distance<0>();
   expect_gradient_of_squared_distance<-1>();
+}
+
+template <int k>
+void expect_slope_of_over_sn() {
+  const Space space = k > 0 ? Space::sphere() : k == 0 ? Space::plane() : Space::hyperbolic_plane();
+  for (const double d : {1e-3, 0.05, 0.099, 0.101, 0.5, 1.5}) {
+    const auto chord = [](double x) { return 4 * std::pow(sn(k, x / 2), 2); };
+    const double h = 1e-3 * d;
+    const auto at = [&](double x) {
+      return static_cast<double>(reference(k, Space::origin(), space.polar(x, 0.4)).over_sn);
+    };
+    const double expected = (at(d + h) - at(d - h)) / (chord(d + h) - chord(d - h));
+    EXPECT_NEAR(Curvature<k>::slope_of_over_sn(chord(d), at(d)), expected, 1e-5 + 1e-9 / (d * d)) << d;
+  }
+}
+
+TEST(DistanceSeries, HasTheSlopeOfItsSecondPart) {
+  expect_slope_of_over_sn<1>();
+  expect_slope_of_over_sn<0>();
+  expect_slope_of_over_sn<-1>();
+}
+
+// As many digits as are asked for: the sum of the series against the formula in the same numbers.
+template <int k>
+void expect_precise_over_sn() {
+  const Space space = k > 0 ? Space::sphere() : k == 0 ? Space::plane() : Space::hyperbolic_plane();
+  for (const double d : {1e-30, 1e-3, 0.3, 1.0}) {
+    const Precise half = sn_of(k, Precise(d) / 2), s = 4 * half * half;
+    const Precise expected = k == 0 ? Precise(1) : Precise(Precise(d) / sn_of(k, Precise(d)));
+    const Precise found = precise_over_sn<Precise>(space, s, 1e-60);
+    EXPECT_LE(static_cast<double>(abs(found - expected)), 1e-58) << d;
+  }
+}
+
+TEST(DistanceSeries, HasAsManyDigitsAsAreAskedFor) {
+  expect_precise_over_sn<1>();
+  expect_precise_over_sn<0>();
+  expect_precise_over_sn<-1>();
 }
 
 TEST_P(EverySpace, DistanceIsAMetric) {

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "orbitutte/orbifold/families.h"
 #include "orbitutte/orbifold/signature.h"
 #include "orbitutte/orbifold/symmetry_group.h"
 #include "planar_families.h"
@@ -463,6 +464,34 @@ TEST(CanonicalTile, MarkZeroIsAtTheOriginAndMarkOneInTheDirectionOfX) {
       }
     }
   });
+}
+
+// ------------------------------------------------------------------------------------- columns of the table
+
+// z -> z^N is their quotient: N of the elements that keep orientations are there, all about (0, 0, 1).
+TEST(Families, ThoseOfOneAxisHaveNoRotationAboutAnother) {
+  int count = 0;
+  for (const test::SphericalOrbifold& orbifold : test::spherical_orbifolds()) {
+    const Target target = parse_orbifold(symbol(orbifold));
+    if (!find_family(target.symbol)->has_one_axis) continue;
+    ++count;
+    int rotations = 0;
+    const SymmetryGroup group = group_of(target);
+    for (const Isometry& g : group.elements()) {
+      if (g.reverses_orientation()) continue;
+      ++rotations;
+      EXPECT_LE((g * Space::origin() - Space::origin()).norm(), 1e-12) << target.signature;
+    }
+    EXPECT_EQ(rotations, target.marks[0].order()) << target.signature;
+  }
+  EXPECT_EQ(count, 18) << "NN, *NN and N*, for six orders each";
+}
+
+TEST(Families, ThreeHalfTurnsAreThoseOfTheStandardTargets) {
+  for (const Topology topology : {Topology::sphere, Topology::disk})
+    EXPECT_TRUE(is_of_three_half_turns(standard_target(topology).symbol));
+  for (const char* signature : {"1", "*", "1x", "22", "*22", "223", "*223", "2*2", "2*", "332", "2222"})
+    EXPECT_FALSE(is_of_three_half_turns(parse_orbifold(signature).symbol)) << signature;
 }
 
 // ------------------------------------------------------------------------------------------------- refusals

@@ -7,6 +7,7 @@
 #include "orbitutte/export/tiling.h"
 #include "orbitutte/io/file.h"
 #include "orbitutte/map/point_map.h"
+#include "orbitutte/mesh/intrinsic_triangulation.h"
 #include "orbitutte/orbifold/symmetry_group.h"
 #include "orbitutte/report/embedding_file.h"
 #include "orbitutte/report/verification.h"

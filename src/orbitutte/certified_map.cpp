@@ -5,7 +5,9 @@
 #include <utility>
 
 #include "orbitutte/inspect/weak_places.h"
+#include "orbitutte/mesh/intrinsic_triangulation.h"
 #include "orbitutte/orbifold/free_tile.h"
+#include "orbitutte/orbifold/tile.h"
 #include "orbitutte/warnings.h"
 
 namespace orbitutte {

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "orbitutte/cones/extremities.h"
+#include "orbitutte/cones/search.h"
 #include "orbitutte/orbifold/families.h"
 #include "orbitutte/orbifold/target_words.h"
 #include "orbitutte/parallel.h"

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "orbitutte/cones/search.h"
+#include "orbitutte/cones/objective.h"
 #include "orbitutte/embed.h"
 
 namespace orbitutte {

@@ -8,6 +8,7 @@
 
 #include "orbitutte/inspect/coincidence.h"
 #include "orbitutte/inspect/weak_places.h"
+#include "orbitutte/mesh/intrinsic_triangulation.h"
 #include "orbitutte/orbifold/free_tile.h"
 #include "orbitutte/orbifold/target_words.h"
 #include "orbitutte/parallel.h"
@@ -49,11 +50,6 @@ void require_no_edge(const Connectivity& connectivity, const Pairs& opposite, co
                     "points of the sphere; mark vertices that are further apart, or split the edge",
                     v, w, target.signature));
   }
-}
-
-// Curved tiles whose shape is free are found for angles that have any.
-void require_tile(const Target& target) {
-  if (target.has_curved_free_tile()) require_shapes(target);
 }
 
 // The boundary of a disk, edge by edge.
@@ -101,7 +97,7 @@ void require_fit(const EmbedRequest& request) {
     throw MeshError(fmt::format("{} needs {} marked vertices, not {}", target.signature, target.marks.size(),
                                 request.cones.size()));
   require_topology(request.prepared.surface, target);
-  require_tile(target);
+  require_shapes(target);
   require_no_edge(request.prepared.surface.connectivity, opposite_vertices(request), target);
 }
 

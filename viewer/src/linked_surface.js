@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The material of linked surfaces: B's colours and a checkerboard of cubes around B, on both, and the distortion.
 import {BufferAttribute, BufferGeometry, Color, DoubleSide, ShaderMaterial, Vector2} from 'three';
+import {LIGHT_ON, ON_SCALE, RAMPS} from './shader_parts.js';
 
 export const LINKED_COLOURINGS = {colours: 0, checkerboard: 1, area: 2, energy: 3, plain: 4};
 
@@ -32,21 +33,14 @@ uniform float squares;
 uniform vec2 areaEnds, energyEnds;
 uniform sampler2D areaMap, energyMap;
 uniform vec3 plain;
+${ON_SCALE}${RAMPS}${LIGHT_ON}
 
 // The parity of the cube that a place of B lies in; cubes of the size of pixels become grey.
 float cubes(vec3 at) {
   vec3 place = at * squares * 0.5 + 0.37;
   vec3 width = max(fwidth(place), 1e-6);
-  vec3 ramp = clamp((abs(fract(place * 0.5) - 0.5) - 0.25) / width, -0.5, 0.5) * 2.0;
-  float fade = clamp(1.5 - max(width.x, max(width.y, width.z)), 0.0, 1.0);
-  return 0.5 + 0.5 * ramp.x * ramp.y * ramp.z * fade;
-}
-
-// The middles of the outermost texels are the ends of the scale.
-vec3 onScale(sampler2D map, vec2 ends, float value) {
-  float texels = float(textureSize(map, 0).x);
-  float share = clamp((value - ends.x) / (ends.y - ends.x), 0.0, 1.0);
-  return texture2D(map, vec2((0.5 + share * (texels - 1.0)) / texels, 0.5)).rgb;
+  vec3 ramp = ramps(place, width);
+  return 0.5 + 0.5 * ramp.x * ramp.y * ramp.z * fade(max(width.x, max(width.y, width.z)));
 }
 
 vec3 colour() {
@@ -61,8 +55,7 @@ void main() {
   vec3 toEye = normalize(-vView);
   vec3 n = normalize(vNormal);
   if (dot(n, toEye) < 0.0) n = -n;
-  float light = 0.52 + 0.48 * max(dot(n, normalize(vec3(-0.35, 0.55, 0.8))), 0.0) + 0.08 * n.z;
-  gl_FragColor = vec4(min(colour() * light * 1.04, 1.0), 1.0);
+  gl_FragColor = vec4(min(colour() * lightOn(n) * 1.04, 1.0), 1.0);
 }`;
 
 /** The uniforms that both surfaces share, so that one assignment changes both. */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The material of all surfaces: one shader with a colouring that the user chooses.
 import {DoubleSide, ShaderMaterial, Vector2} from 'three';
+import {LIGHT_ON, ON_SCALE, RAMPS} from './shader_parts.js';
 
 export const COLOURINGS = {tile: 0, checkerboard: 1, area: 2, angle: 3, normal: 4, vertex: 5};
 
@@ -47,21 +48,14 @@ uniform vec2 areaEnds, angleEnds;    // the values at both ends of the scales
 uniform sampler2D areaMap, angleMap;
 uniform vec3 centre, east, north;   // the tile's frame: its middle, and two directions across
 uniform vec3 sourceLight;
+${ON_SCALE}${RAMPS}${LIGHT_ON}
 
 // Stereographic from the antipode of the tile's middle, so that a conformal map shows squares.
 float checker(vec3 p) {
   vec2 plane = vec2(dot(p, east), dot(p, north)) / (1.0 + dot(p, centre)) * squares;
   vec2 width = max(fwidth(plane), 1e-6);
-  vec2 ramp = clamp((abs(fract(plane * 0.5) - 0.5) - 0.25) / width, -0.5, 0.5) * 2.0;
-  float fade = clamp(1.5 - max(width.x, width.y), 0.0, 1.0);
-  return 0.5 + 0.5 * ramp.x * ramp.y * fade;
-}
-
-// The middles of the outermost texels are the ends of the scale.
-vec3 onScale(sampler2D map, vec2 ends, float value) {
-  float texels = float(textureSize(map, 0).x);
-  float share = clamp((value - ends.x) / (ends.y - ends.x), 0.0, 1.0);
-  return texture2D(map, vec2((0.5 + share * (texels - 1.0)) / texels, 0.5)).rgb;
+  vec3 ramp = ramps(vec3(plane, 0.0), vec3(width, 1.0));
+  return 0.5 + 0.5 * ramp.x * ramp.y * fade(max(width.x, width.y));
 }
 
 vec3 colour() {
@@ -78,7 +72,7 @@ void main() {
   vec3 n = normalize(vNormal);
   if (onSphere && opacity < 1.0 && dot(n, toEye) < 0.0) discard;   // translucent copies hide nothing behind
   if (dot(n, toEye) < 0.0) n = -n;                                 // both sides of a disk are lit
-  float light = 0.52 + 0.48 * max(dot(n, normalize(vec3(-0.35, 0.55, 0.8))), 0.0) + 0.08 * n.z;
+  float light = lightOn(n);
   if (onSphere) {
     float bumps = 0.8 + 0.28 * dot(normalize(vSourceNormal), sourceLight);
     bool measured = colouring == 2 || colouring == 3;   // colours that are read off a legend are shaded less

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "orbitutte/orbifold/families.h"
+
 namespace orbitutte {
 namespace {
 
@@ -76,12 +78,7 @@ Vector3 sphere_point(const ChartPoint& point) {
   return {xy.real(), xy.imag(), (d - n) / (n + d)};
 }
 
-bool has_orbifold_chart(const Target& target) {
-  const ConwaySymbol& symbol = target.symbol;
-  const std::vector<int> half_turns = {2, 2, 2};
-  return !symbol.cross && (symbol.star ? symbol.rotations.empty() && symbol.corners == half_turns
-                                       : symbol.rotations == half_turns);
-}
+bool has_orbifold_chart(const Target& target) { return is_of_three_half_turns(target.symbol); }
 
 OrbifoldChart::OrbifoldChart(const Embedding& embedding)
     : embedding_(embedding), positions_(embedding), to_canonical_(embedding.placement.inverse().matrix()) {

@@ -6,22 +6,9 @@
 #include <algorithm>
 
 #include "orbitutte/cones/extremities.h"
-#include "orbitutte/orbifold/cone_target.h"
 #include "orbitutte/orbifold/target_words.h"
 
 namespace orbitutte {
-namespace {
-
-Topology topology_of(const std::string& signature) {
-  return signature == cones_signature ? Topology::sphere : Topology::disk;
-}
-
-}  // namespace
-
-bool takes_angles(const std::string& signature) {
-  return signature == cones_signature || signature == mirrored_cones_signature;
-}
-
 MarkedCones marked_cones(const Surface& surface, const std::string& signature,
                          const std::vector<int>& vertices, const std::vector<double>& angles) {
   if (vertices.size() != angles.size())
@@ -29,7 +16,7 @@ MarkedCones marked_cones(const Surface& surface, const std::string& signature,
         fmt::format("there are {} marked vertices, but {} angles; give one angle for each vertex",
                     vertices.size(), angles.size()));
   const std::vector<char> on_boundary = surface.boundary_vertices();
-  const Topology topology = topology_of(signature);
+  const Topology topology = topology_of_cones(signature);
   const auto is_corner = [&](int v) {
     return topology == Topology::disk && v >= 0 && v < surface.vertex_count() && on_boundary[v] != 0;
   };
@@ -48,10 +35,10 @@ MarkedCones marked_cones(const Surface& surface, const std::string& signature,
 
 MarkedCones cones_at_extremities(const Surface& surface, const std::string& signature,
                                  const std::vector<double>& angles) {
-  const bool is_disk = topology_of(signature) == Topology::disk;
-  if (surface.topology != topology_of(signature))
+  const bool is_disk = topology_of_cones(signature) == Topology::disk;
+  if (surface.topology != topology_of_cones(signature))
     throw MeshError(fmt::format("the mesh is a {}, but {} needs a {}", text_of(surface.topology), signature,
-                                text_of(topology_of(signature))));
+                                text_of(topology_of_cones(signature))));
   const int count = static_cast<int>(angles.size());
   const WantedExtremities wanted = {is_disk ? 0 : count, is_disk ? count : 0};
   return marked_cones(surface, signature, choose_extremities(surface, wanted), angles);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "orbitutte/mesh/surface.h"
-#include "orbitutte/orbifold/target.h"
+#include "orbitutte/orbifold/cone_target.h"
 
 namespace orbitutte {
 
@@ -15,9 +15,6 @@ struct MarkedCones {
   Target target;
   std::vector<int> vertices;
 };
-
-/// Do the signature's angles stand apart from it: is it `cones` or `*cones`?
-bool takes_angles(const std::string& signature);
 
 /// The target with these angles at these vertices: all cones for `cones`. For `*cones`, vertices inside are
 /// cones, and those on the boundary corners; the cones come first, both in the given order. Vertices that the

@@ -9,6 +9,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "orbitutte/geometry/morton.h"
+
 namespace orbitutte {
 namespace {
 
@@ -46,20 +48,10 @@ ScaleSample sample_of(const KnownMap& map, const OrbifoldChart& chart, int f, do
 
 bool is_measured(const FaceDistortion& face) { return face.area > 0 && face.share > 0; }
 
-// The ten lowest bits, two zeros behind each.
-std::uint32_t spread_bits(std::uint32_t x) {
-  x = (x | (x << 16)) & 0x030000FF;
-  x = (x | (x << 8)) & 0x0300F00F;
-  x = (x | (x << 4)) & 0x030C30C3;
-  return (x | (x << 2)) & 0x09249249;
-}
-
 // The place of a point of the unit cube on Morton's curve.
-std::uint32_t morton_code(const Vector3& p) {
-  std::uint32_t code = 0;
-  for (int i = 0; i < 3; ++i)
-    code |= spread_bits(static_cast<std::uint32_t>(std::clamp(p[i] * 1024, 0.0, 1023.0))) << i;
-  return code;
+std::uint64_t morton_code(const Vector3& p) {
+  const auto cell = [&](int i) { return static_cast<std::uint64_t>(std::clamp(p[i] * 1024, 0.0, 1023.0)); };
+  return place_on_curve(cell(0), cell(1), cell(2));
 }
 
 // The weight of every triangle that is taken: of `count` levels spread evenly over the area, the share of
@@ -136,7 +128,7 @@ std::vector<int> order_in_space(const Surface& surface) {
   const Triangles& F = surface.triangles;
   const Vector3 low = surface.V.colwise().minCoeff();
   const double size = std::max((surface.V.colwise().maxCoeff() - low.transpose()).maxCoeff(), 1e-300);
-  std::vector<std::pair<std::uint32_t, int>> codes;
+  std::vector<std::pair<std::uint64_t, int>> codes;
   codes.reserve(F.rows());
   for (int f = 0; f < F.rows(); ++f) {
     const Vector3 sum = surface.V.row(F(f, 0)) + surface.V.row(F(f, 1)) + surface.V.row(F(f, 2));
@@ -159,7 +151,8 @@ std::vector<ScaleSample> scale_samples(const KnownMap& map, int count, const std
 }
 
 bool has_closed_form(const Target& target) {
-  if (!target.corners.empty() || target.has_free_tile || target.symbol.cross) return false;
+  if (target.is_polygon() || target.has_free_tile || target.topology == Topology::projective_plane)
+    return false;
   const std::size_t cones = angles_of_double(target).size();
   return cones == 2 || cones == 3;
 }
@@ -271,6 +264,12 @@ double ScaleField::scale_along_axis(const std::vector<Place>& cones) {
   return first > 0 && second > 0 ? 0.25 * std::log(second / first) : 0;
 }
 
+double ScaleField::area_over_samples(const std::vector<double>& u) const {
+  double area = 0;
+  for (std::size_t s = 0; s < u.size(); ++s) area += samples_[s].weight * std::exp(2 * u[s]);
+  return area;
+}
+
 std::vector<double> ScaleField::log_scale(const MarkedTarget& choice) {
   if (!has_closed_form(choice.target))
     throw ArgumentError("the scale of maps to " + choice.target.signature + " has no closed form");
@@ -278,15 +277,15 @@ std::vector<double> ScaleField::log_scale(const MarkedTarget& choice) {
   std::vector<double> u;
   u.reserve(samples_.size());
   for (const ScaleSample& sample : samples_) u.push_back(sample.log_scale);
-  if (choice.target.space.curvature() == 0) {
+  if (choice.target.space.has_similarities())
     add_flat_cones(cones, u);
-    double area = 0;
-    for (std::size_t s = 0; s < u.size(); ++s) area += samples_[s].weight * std::exp(2 * u[s]);
-    for (double& value : u) value -= 0.5 * std::log(area);
-    return u;
-  }
-  cones.size() == 2 ? add_two_cones(choice, cones, u) : add_three_cones(cones, u);
-  for (double& value : u) value -= 0.5 * std::log(area_of_target(choice.target));
+  else if (cones.size() == 2)
+    add_two_cones(choice, cones, u);
+  else
+    add_three_cones(cones, u);
+  const double area =
+      choice.target.space.has_similarities() ? area_over_samples(u) : area_of_target(choice.target);
+  for (double& value : u) value -= 0.5 * std::log(area);
   return u;
 }
 

@@ -9,6 +9,7 @@
 
 #include "orbitutte/cones/chart.h"
 #include "orbitutte/cones/cone_metric.h"
+#include "orbitutte/cones/objective.h"
 #include "orbitutte/mesh/groups.h"
 #include "orbitutte/mesh/surface.h"
 #include "orbitutte/verify/distortion.h"
@@ -45,24 +46,6 @@ struct ScaleSample {
 /// About `count` samples spread evenly over the area, or all triangles if there are not more, and then one
 /// beside each of these vertices. Triangles that could not be measured are left out.
 std::vector<ScaleSample> scale_samples(const KnownMap& map, int count, const std::vector<int>& vertices);
-
-/// What the choices are compared by. u is the logarithm of the scale of lengths, both areas being one.
-struct ScaleSummary {
-  /// The standard deviation of u over the surface.
-  double sigma = 0;
-
-  /// (1 + the mean of exp(-2 u))/2, the mean of the symmetric Dirichlet energy of a conformal map.
-  double symmetric_dirichlet = 0;
-
-  /// The greatest u less the least, in bits: log2 of how far scales differ.
-  double range = 0;
-
-  /// The shares of the surface with 1/4 <= exp(2 u) <= 4 and with exp(2 u) < 1/64.
-  double within_4 = 0, below_64 = 0;
-
-  /// log of the shortest length of a triangle's image.
-  double log_least_length = 0;
-};
 
 /// A choice: the target's marks at vertices of the surface.
 struct MarkedTarget {
@@ -116,6 +99,7 @@ class ScaleField {
   void add_three_cones(const std::vector<Place>& cones, std::vector<double>& u);
   void add_two_cones(const MarkedTarget& choice, const std::vector<Place>& cones, std::vector<double>& u);
   void add_flat_cones(const std::vector<Place>& cones, std::vector<double>& u);
+  double area_over_samples(const std::vector<double>& u) const;
   double scale_along_axis(const std::vector<Place>& cones);
   double excess_at(const Place& cone, const Place& other);
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "orbitutte/linear/dissection.h"
+#include "orbitutte/mesh/intrinsic_triangulation.h"
 
 namespace orbitutte {
 namespace {

@@ -5,27 +5,10 @@
 #include <functional>
 #include <vector>
 
+#include "orbitutte/cones/objective.h"
 #include "orbitutte/cones/scale_field.h"
 
 namespace orbitutte {
-
-/// What makes a choice better than another.
-enum class Objective {
-  /// The standard deviation of the logarithm of the scale.
-  sigma,
-  /// The mean of the symmetric Dirichlet energy: extreme shrinking counts most.
-  symmetric_dirichlet,
-  /// The ratio of the largest scale to the smallest.
-  range
-};
-
-/// Its names.
-template <>
-struct NameTable<Objective> {
-  static constexpr NamedValue<Objective> rows[] = {{Objective::sigma, "sigma"},
-                                                   {Objective::symmetric_dirichlet, "symmetric-dirichlet"},
-                                                   {Objective::range, "range"}};
-};
 
 /// The lower, the better.
 struct Score {
@@ -42,15 +25,6 @@ struct Score {
 };
 
 Score score_of(const ScaleSummary& summary, Objective objective);
-
-/// Vertices of a surface that may be marked, by where they lie.
-struct Candidates {
-  std::vector<int> inside, on_boundary;
-
-  const std::vector<int>& of(const Target& target, int mark) const {
-    return mark < target.inner_marks ? inside : on_boundary;
-  }
-};
 
 /// The vertices that faces use.
 Candidates all_places(const Surface& surface);

@@ -12,6 +12,7 @@
 #include "orbitutte/errors.h"
 #include "orbitutte/io/file.h"
 #include "orbitutte/io/mesh_io.h"
+#include "orbitutte/io/obj_lines.h"
 
 namespace orbitutte {
 namespace {
@@ -57,12 +58,8 @@ std::string coloured_ply(const Surface& surface, const Points& colours) {
 }  // namespace
 
 SurfacePoints points_at_vertices(const Embedding& embedding, const std::vector<int>& vertices) {
-  const int count = embedding.source_vertex.empty() ? 0
-                                                    : 1 + *std::max_element(embedding.source_vertex.begin(),
-                                                                            embedding.source_vertex.end());
-  std::vector<int> corner_of(static_cast<std::size_t>(count), -1);  // 3 t + k
-  for (int t = 0; t < static_cast<int>(embedding.triangles.rows()); ++t)
-    for (int k = 0; k < 3; ++k) corner_of[embedding.source_vertex[embedding.triangles(t, k)]] = 3 * t + k;
+  const std::vector<int> corner_of = embedding.corner_at_input_vertex();
+  const int count = static_cast<int>(corner_of.size());
   SurfacePoints points;
   points.triangle.reserve(vertices.size());
   points.barycentric = Points::Zero(static_cast<Eigen::Index>(vertices.size()), 3);
@@ -79,9 +76,7 @@ SurfacePoints points_at_vertices(const Embedding& embedding, const std::vector<i
 std::string curves_obj(const std::vector<Points>& curves) {
   std::string text;
   const auto out = std::back_inserter(text);
-  for (const Points& curve : curves)
-    for (Eigen::Index k = 0; k < curve.rows(); ++k)
-      fmt::format_to(out, FMT_COMPILE("v {} {} {}\n"), curve(k, 0), curve(k, 1), curve(k, 2));
+  for (const Points& curve : curves) append_obj_vertices(curve, text);
   long long next = 1;
   for (const Points& curve : curves) {
     text += 'l';

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "orbitutte/export/export.h"
 
-#include <fmt/compile.h>
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <span>
 #include <utility>
 
@@ -15,6 +13,7 @@
 #include "orbitutte/export/export_files.h"
 #include "orbitutte/export/gltf_model.h"
 #include "orbitutte/io/file.h"
+#include "orbitutte/io/obj_lines.h"
 #include "orbitutte/io/ply.h"
 #include "orbitutte/io/ply_triangles.h"
 #include "orbitutte/names.h"
@@ -132,19 +131,7 @@ std::vector<double> vertex_quality(const ExportedModel& model) {
 
 std::string obj_text(const ExportedModel& model) {
   std::string text = "# texture coordinates: orbitutte embedding " + model.embedding.target.signature + "\n";
-  const auto out = std::back_inserter(text);
-  const Points& V = model.surface.V;
-  const FaceView faces = model.surface.faces();
-  const std::vector<int> rows = texture_rows(model);
-  // The shortest decimals that read back as the same doubles.
-  for (const auto& p : V.rowwise()) fmt::format_to(out, FMT_COMPILE("v {} {} {}\n"), p[0], p[1], p[2]);
-  for (const auto& p : model.texture.uv.rowwise()) fmt::format_to(out, FMT_COMPILE("vt {} {}\n"), p[0], p[1]);
-  for (int f = 0; f < faces.count(); ++f) {
-    text += "f";
-    for (int k = 0; k < faces.degree(f); ++k)
-      fmt::format_to(out, FMT_COMPILE(" {}/{}"), faces[f][k] + 1LL, rows[faces.start(f) + k] + 1LL);
-    text += "\n";
-  }
+  append_textured_obj(model.surface, {model.texture.uv, texture_rows(model)}, text);
   return text;
 }
 

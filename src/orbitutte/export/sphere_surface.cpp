@@ -6,7 +6,7 @@
 namespace orbitutte {
 
 PolygonMesh sphere_surface(const Embedding& embedding, double radius) {
-  if (embedding.space().curvature() <= 0)
+  if (embedding.space() != Space::sphere())
     throw ArgumentError(
         fmt::format("the map onto {} is not on the sphere, and only spheres are written as surfaces; embed "
                     "with --orbifold 1",

@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "orbitutte/export/texture_bake.h"
 
-#include <fmt/compile.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <iterator>
 
 #include "orbitutte/errors.h"
 #include "orbitutte/export/colour.h"
 #include "orbitutte/export/overlay_pieces.h"
 #include "orbitutte/export/texture_chart.h"
+#include "orbitutte/io/obj_lines.h"
 
 namespace orbitutte {
 namespace {
@@ -262,19 +261,7 @@ TextureLayout new_texture_layout(const Embedding& embedding) {
 std::string textured_obj(const Surface& surface, const TextureLayout& layout, const std::string& material) {
   texture_triangles(surface, layout);  // throws if the layout is another surface's
   std::string text = fmt::format("mtllib {}\nusemtl surface\n", material);
-  const auto out = std::back_inserter(text);
-  for (Eigen::Index v = 0; v < surface.V.rows(); ++v)
-    fmt::format_to(out, FMT_COMPILE("v {} {} {}\n"), surface.V(v, 0), surface.V(v, 1), surface.V(v, 2));
-  for (Eigen::Index k = 0; k < layout.uv.rows(); ++k)
-    fmt::format_to(out, FMT_COMPILE("vt {} {}\n"), layout.uv(k, 0), layout.uv(k, 1));
-  const FaceView faces = surface.faces();
-  for (int f = 0; f < faces.count(); ++f) {
-    text += 'f';
-    for (int k = 0; k < faces.degree(f); ++k)
-      fmt::format_to(out, FMT_COMPILE(" {}/{}"), faces[f][k] + 1LL,
-                     layout.of_corner[faces.start(f) + k] + 1LL);
-    text += '\n';
-  }
+  append_textured_obj(surface, layout, text);
   return text;
 }
 

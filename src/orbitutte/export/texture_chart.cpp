@@ -164,7 +164,7 @@ std::vector<int> corner_vertices(const FaceView& faces) {
 namespace {
 
 // Has no chart in one piece.
-bool is_whole_sphere(const Target& target) { return target.group_order == 1 && target.corners.empty(); }
+bool is_whole_sphere(const Target& target) { return target.group_order == 1 && !target.is_polygon(); }
 
 void require_chart(const Target& target, TextureChart chart) {
   if (chart != TextureChart::stereographic && !target.space.is_closed())

@@ -38,7 +38,7 @@ void check_embedding(const Embedding& embedding, int copies) {
     check_vertices(seam.left, vertices);
     check_vertices(seam.right, vertices);
   }
-  if (!embedding.target.corners.empty())
+  if (embedding.target.is_polygon())
     throw ArgumentError(
         "the embedding has no seams, so that no symmetric copies of it tile the sphere; embed the mesh into "
         "an orbifold, not into a fixed polygon");

@@ -16,6 +16,7 @@
 #include "orbitutte/io/bytes.h"
 #include "orbitutte/io/file.h"
 #include "orbitutte/io/mesh_formats.h"
+#include "orbitutte/io/obj_lines.h"
 #include "orbitutte/io/ply_triangles.h"
 #include "orbitutte/mesh/surface.h"
 #include "orbitutte/names.h"
@@ -161,9 +162,7 @@ std::string obj_text(const Tiling& tiling, const std::string& library) {
   const Mesh& mesh = tiling.mesh;
   std::string text = fmt::format("mtllib {}\n", library);
   const auto out = std::back_inserter(text);
-  // The shortest decimals that read back as the same doubles.
-  for (Eigen::Index v = 0; v < mesh.V.rows(); ++v)
-    fmt::format_to(out, FMT_COMPILE("v {} {} {}\n"), mesh.V(v, 0), mesh.V(v, 1), mesh.V(v, 2));
+  append_obj_vertices(mesh.V, text);
   const FaceView faces = tiling.faces();
   const int faces_per_copy = faces_in_copy(tiling);
   int copy = -1;

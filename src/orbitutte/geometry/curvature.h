@@ -67,6 +67,21 @@ struct Curvature {
     }
   }
 
+  /// d(d/sn d)/ds, with s = 4 sn^2(d/2) the squared chord: (1 - cs d d/sn d)/(2 sn^2 d). Nearby by the series
+  /// of d/sn d, the sum of G_j (k s/4)^j.
+  static double slope_of_over_sn(double squared_chord, double over_sn) {
+    constexpr double nearby = 0.01;
+    const double s = squared_chord;
+    if (s > nearby) return (1 - (1 - k * s / 2) * over_sn) / (2 * s * (1 - k * s / 4));
+    double sum = 0, power = k / 4.0, G = 2.0 / 3;
+    for (int j = 1; j <= 6; ++j) {
+      sum += j * G * power;
+      power *= k * s / 4;
+      G *= 2.0 * (j + 1) / (2 * j + 3);
+    }
+    return sum;
+  }
+
   /// d/sn d of two neighbours, from their squared chord alone.
   static double over_sn(double squared_chord) {
     const double s = squared_chord / 4;

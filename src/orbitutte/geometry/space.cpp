@@ -13,9 +13,6 @@
 namespace orbitutte {
 namespace {
 
-// J = diag(1, 1, k). J^-1 is J where k is not 0.
-Vector3 with_metric(int k, const Vector3& v) { return {v.x(), v.y(), k * v.z()}; }
-
 Matrix3 inverse_of_affine(const Matrix3& M) {
   Matrix3 inverse = Matrix3::Identity();
   inverse.topLeftCorner<2, 2>() = M.topLeftCorner<2, 2>().transpose();
@@ -80,6 +77,19 @@ Vector3 Space::at(const Vector3& p, const Vector3& u, double d) const {
   return std::cosh(d) * p + std::sinh(d) * u;
 }
 
+Vector3 Space::turned_left(const Vector3& p, const Vector3& u) const {
+  return metric().cwiseProduct(p.cross(u));
+}
+
+Vector3 Space::moved_along(const Vector3& v, const Vector3& p, const Vector3& q) const {
+  return v - k_ * dot(v, q) / (1 + form(p, q)) * (p + q);
+}
+
+double Space::length_of_half_sn(double half_sn) const {
+  if (k_ > 0) return 2 * std::asin(std::min(half_sn, 1.0));
+  return 2 * (k_ == 0 ? half_sn : std::asinh(half_sn));
+}
+
 Vector3 Space::polar(double distance, double angle) const {
   return at(origin(), {std::cos(angle), std::sin(angle), 0}, distance);
 }
@@ -133,7 +143,7 @@ double Space::side_opposite(double a, double b, double c) const {
 }
 
 Vector3 Space::normal(const Vector3& line) const {
-  const Vector3 raised = with_metric(k_, line);
+  const Vector3 raised = metric().cwiseProduct(line);
   return raised / std::sqrt(line.dot(raised));
 }
 
@@ -165,7 +175,7 @@ Isometry Space::rotation(const Vector3& point, double angle) const {
 
 // x - 2 (m . x)/(m . m#) m#, with m# = J m.
 Isometry Space::reflection(const Vector3& line) const {
-  const Vector3 raised = with_metric(k_, line);
+  const Vector3 raised = metric().cwiseProduct(line);
   const Matrix3 matrix = Matrix3::Identity() - 2 / line.dot(raised) * raised * line.transpose();
   return {matrix, matrix};
 }
@@ -201,6 +211,8 @@ void move_points(Space space, const Points& positions, const Points& directions,
     });
   });
 }
+
+void lower_rows(Space space, Points& vectors) { vectors.col(2) *= space.metric().z(); }
 
 void retract_points(Space space, Points& positions) {
   visit_curvature(space, [&](auto curvature) {

@@ -40,6 +40,30 @@ class Space {
 
   // -- Points and tangent vectors --
 
+  /// The diagonal of J = diag(1, 1, k). J v is the covector of a tangent vector v: u . J v = <u, v>.
+  Vector3 metric() const { return {1, 1, static_cast<double>(k_)}; }
+
+  /// k (p_x q_x + p_y q_y) + p_z q_z in numbers of any precision: 1 for p = q in the space, cs d for two
+  /// points, and 0 for a point and a vector that is tangent there.
+  template <typename Vector>
+  typename Vector::Scalar form(const Vector& p, const Vector& q) const {
+    return p.z() * q.z() + k_ * (p.x() * q.x() + p.y() * q.y());
+  }
+
+  /// <v, v> in numbers of any precision.
+  template <typename Vector>
+  typename Vector::Scalar squared_norm(const Vector& v) const {
+    return v.x() * v.x() + v.y() * v.y() + k_ * (v.z() * v.z());
+  }
+
+  /// Positive if the line from the origin of R^3 through p meets the space at p/c with c > 0 rather than
+  /// c < 0, near `there`: a line meets the sphere twice, p . there tells where; the other spaces once, p_z
+  /// tells.
+  template <typename Vector>
+  typename Vector::Scalar side(const Vector& p, const Vector& there) const {
+    return k_ > 0 ? typename Vector::Scalar(p.dot(there)) : p.z();
+  }
+
   /// <u, v> = u_x v_x + u_y v_y + k u_z v_z: the metric on tangent vectors.
   double dot(const Vector3& u, const Vector3& v) const;
 
@@ -66,6 +90,15 @@ class Space {
   /// The point at a distance from (0, 0, 1) in the direction of an angle: (sn d cos a, sn d sin a, cs d).
   Vector3 polar(double distance, double angle) const;
 
+  /// The tangent vector u at p turned counterclockwise by a right angle: J (p x u).
+  Vector3 turned_left(const Vector3& p, const Vector3& u) const;
+
+  /// The tangent vector v at p, moved along the geodesic to q: v - k <v, q>/(1 + cs d) (p + q).
+  Vector3 moved_along(const Vector3& v, const Vector3& p, const Vector3& q) const;
+
+  /// d from sn(d/2); on the sphere pi where that exceeds 1.
+  double length_of_half_sn(double half_sn) const;
+
   /// The point over (x, y): z = sqrt(1 - k (x^2 + y^2)); on the sphere the upper one, on the equator where
   /// (x, y) lies outside.
   Vector3 lift(double x, double y) const;
@@ -79,6 +112,14 @@ class Space {
 
   /// Is the area of the space finite, and does it have no end?
   constexpr bool is_closed() const { return k_ > 0; }
+
+  /// Are there maps of the space that change all distances by one factor? Then angles do not say how large a
+  /// surface is.
+  constexpr bool has_similarities() const { return k_ == 0; }
+
+  /// Is the distance of two points convex along geodesics, so that the energy of maps onto one tile has one
+  /// minimum (P. Hartman, "On homotopic harmonic maps", 1967)? It is where the curvature is not positive.
+  constexpr bool has_convex_distances() const { return k_ <= 0; }
 
   /// How far along a line of sight, from a point outside on the side z > 0 in direction of a unit vector, the
   /// space is met first; nothing if it is missed.
@@ -163,6 +204,9 @@ auto visit_curvature(Space space, const Visit& visit);
 
 /// positions + step * directions, retracted to the space (all n x 3), into memory that is used again.
 void move_points(Space space, const Points& positions, const Points& directions, double step, Points& moved);
+
+/// Of tangent vectors, one a row, the covectors J v (Space::metric).
+void lower_rows(Space space, Points& vectors);
 
 /// Every row retracted.
 void retract_points(Space space, Points& positions);

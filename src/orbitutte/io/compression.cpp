@@ -8,6 +8,8 @@
 #include <limits>
 #include <memory>
 
+#include "orbitutte/io/file.h"
+#include "orbitutte/io/file_ending.h"
 #include "orbitutte/types.h"
 
 namespace orbitutte {
@@ -130,5 +132,9 @@ std::string decompress(std::string_view bytes, std::size_t size) {
 std::string compress_to_gzip(std::string_view bytes) { return deflated(bytes, window + gzip_header); }
 
 std::string compress(std::string_view bytes) { return deflated(bytes, window); }
+
+void write_compressed_as_named(const std::string& path, const std::string& bytes) {
+  write_file(path, is_compressed(path) ? compress_to_gzip(bytes) : bytes);
+}
 
 }  // namespace orbitutte

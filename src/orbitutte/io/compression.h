@@ -18,6 +18,9 @@ std::string decompress(std::string_view bytes, std::size_t size);
 /// As a gzip file without name and time, so that the same bytes give the same file.
 std::string compress_to_gzip(std::string_view bytes);
 
+/// Writes a file (write_file), as a gzip file if the path ends in `.gz`.
+void write_compressed_as_named(const std::string& path, const std::string& bytes);
+
 /// As a zlib stream.
 std::string compress(std::string_view bytes);
 

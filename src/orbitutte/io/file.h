@@ -21,16 +21,21 @@ std::string read_standard_input();
 /// directly, never replaced. Throws FileError with the path and the system's reason.
 void write_file(const std::string& path, std::string_view bytes);
 
-/// What `parse` makes of the bytes of a file. Throws FileError, and the MeshError of `parse` with the path
-/// before its message.
-template <typename Parse>
-auto parse_file(const std::string& path, const Parse& parse) {
-  std::string bytes = read_file(path);
+/// What `step` returns; its MeshError gets the path before its message.
+template <typename Step>
+auto naming_file(const std::string& path, const Step& step) {
   try {
-    return parse(std::move(bytes));
+    return step();
   } catch (const MeshError& error) {
     throw MeshError(path + ": " + error.what());
   }
+}
+
+/// What `parse` makes of the bytes of a file. Throws FileError, and as naming_file does.
+template <typename Parse>
+auto parse_file(const std::string& path, const Parse& parse) {
+  std::string bytes = read_file(path);
+  return naming_file(path, [&] { return parse(std::move(bytes)); });
 }
 
 /// The ending by which writers choose a format: ".ply" of "A Mesh.PLY".

@@ -21,8 +21,10 @@ std::string lower_case(std::string text) {
   return text;
 }
 
+bool is_compressed(const std::string& path) { return ending_of(path) == ".gz"; }
+
 std::string without_gz(const std::string& path) {
-  return ending_of(path) == ".gz" ? path.substr(0, path.size() - 3) : path;
+  return is_compressed(path) ? path.substr(0, path.size() - 3) : path;
 }
 
 }  // namespace orbitutte

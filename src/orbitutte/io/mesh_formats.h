@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One reader and one writer per mesh format. mesh_io.h says what they accept.
+// One reader and one writer per mesh format. mesh_io.h says what they accept. To add a format, add its
+// functions here and a row to the table in mesh_io.cpp.
 #pragma once
 
 #include <string>
@@ -33,18 +34,12 @@ std::string write_vtp(const Mesh& mesh);
 std::string write_gltf(const Mesh& mesh);
 std::string write_glb(const Mesh& mesh);
 
-// The same of meshes some of whose faces have more than three corners; STL, GIfTI, FreeSurfer and
-// glTF have triangles only.
+// The same of meshes some of whose faces have more than three corners, where the format has such faces.
 std::string write_obj_polygons(const PolygonMesh& mesh);
 std::string write_off_polygons(const PolygonMesh& mesh);
 std::string write_ply_polygons(const PolygonMesh& mesh);
-std::string write_stl_polygons(const PolygonMesh& mesh);
-std::string write_gifti_polygons(const PolygonMesh& mesh);
-std::string write_freesurfer_polygons(const PolygonMesh& mesh);
 std::string write_vtk_polygons(const PolygonMesh& mesh);
 std::string write_vtp_polygons(const PolygonMesh& mesh);
-std::string write_gltf_polygons(const PolygonMesh& mesh);
-std::string write_glb_polygons(const PolygonMesh& mesh);
 
 /// An empty text with room for a line of each vertex and face. Room that is not needed is never touched, so
 /// it takes no memory.

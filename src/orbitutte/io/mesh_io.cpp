@@ -22,21 +22,24 @@ struct FormatRow {
   std::string_view endings;
   PolygonMesh (*read)(std::string_view);
   std::string (*write)(const Mesh&);
+  // triangles_only: polygons are divided into triangles.
   std::string (*write_polygons)(const PolygonMesh&);
 };
+
+constexpr std::nullptr_t triangles_only = nullptr;
 
 constexpr FormatRow formats[] = {
     {MeshFormat::obj, ".obj", read_obj, write_obj, write_obj_polygons},
     {MeshFormat::off, ".off", read_off, write_off, write_off_polygons},
     {MeshFormat::ply, ".ply", read_ply, write_ply, write_ply_polygons},
-    {MeshFormat::stl, ".stl", read_stl, write_stl, write_stl_polygons},
-    {MeshFormat::gifti, ".gii", read_gifti, write_gifti, write_gifti_polygons},
+    {MeshFormat::stl, ".stl", read_stl, write_stl, triangles_only},
+    {MeshFormat::gifti, ".gii", read_gifti, write_gifti, triangles_only},
     {MeshFormat::vtk, ".vtk", read_vtk, write_vtk, write_vtk_polygons},
     {MeshFormat::vtp, ".vtp", read_vtp, write_vtp, write_vtp_polygons},
-    {MeshFormat::gltf, ".gltf", read_gltf, write_gltf, write_gltf_polygons},
-    {MeshFormat::glb, ".glb", read_gltf, write_glb, write_glb_polygons},
+    {MeshFormat::gltf, ".gltf", read_gltf, write_gltf, triangles_only},
+    {MeshFormat::glb, ".glb", read_gltf, write_glb, triangles_only},
     {MeshFormat::freesurfer, ".pial .white .inflated .sphere .orig .smoothwm .reg .nofix", read_freesurfer,
-     write_freesurfer, write_freesurfer_polygons}};
+     write_freesurfer, triangles_only}};
 
 constexpr std::string_view gzip_magic = "\x1F\x8B";
 constexpr const char* standard_input = "-";
@@ -65,10 +68,6 @@ std::string known_endings() {
   return endings;
 }
 
-void write_bytes(const std::string& path, const std::string& bytes) {
-  write_file(path, is_compressed(path) ? compress_to_gzip(bytes) : bytes);
-}
-
 }  // namespace
 
 std::vector<std::string> mesh_endings() {
@@ -86,8 +85,6 @@ MeshFormat mesh_format(const std::string& path) {
       "{}: the ending names no known mesh format; use one of {}, each also with .gz", path, known_endings()));
 }
 
-bool is_compressed(const std::string& path) { return ending_of(path) == ".gz"; }
-
 PolygonMesh parse_mesh(std::string_view bytes, MeshFormat format) {
   if (bytes.empty()) throw MeshError("the file is empty; export it again");
   try {
@@ -100,11 +97,9 @@ PolygonMesh parse_mesh(std::string_view bytes, MeshFormat format) {
 
 PolygonMesh parse_mesh_file(const std::string& path, std::string_view bytes) {
   const MeshFormat format = mesh_format(path);
-  try {
+  return naming_file(path, [&] {
     return is_compressed(path) ? parse_mesh(decompress(bytes), format) : parse_mesh(bytes, format);
-  } catch (const MeshError& error) {
-    throw MeshError(fmt::format("{}: {}", path, error.what()));
-  }
+  });
 }
 
 PolygonMesh read_mesh(const std::string& path) {
@@ -127,12 +122,10 @@ std::string read_bytes(const MeshInput& input) {
 
 PolygonMesh parse_mesh_input(const MeshInput& input, std::string_view bytes) {
   if (!input.format) return parse_mesh_file(input.path, bytes);
-  try {
+  return naming_file(input.path, [&] {
     return bytes.starts_with(gzip_magic) ? parse_mesh(decompress(bytes), *input.format)
                                          : parse_mesh(bytes, *input.format);
-  } catch (const MeshError& error) {
-    throw MeshError(fmt::format("{}: {}", input.path, error.what()));
-  }
+  });
 }
 
 PolygonMesh read_mesh(const MeshInput& input) { return parse_mesh_input(input, read_bytes(input)); }
@@ -140,16 +133,17 @@ PolygonMesh read_mesh(const MeshInput& input) { return parse_mesh_input(input, r
 std::string serialize_mesh(const Mesh& mesh, MeshFormat format) { return row(format).write(mesh); }
 
 std::string serialize_mesh(const PolygonMesh& mesh, MeshFormat format) {
-  if (is_triangle_mesh(mesh)) return serialize_mesh(to_triangle_mesh(mesh), format);
-  return row(format).write_polygons(mesh);
+  const FormatRow& known = row(format);
+  if (is_triangle_mesh(mesh) || !known.write_polygons) return known.write(to_triangle_mesh(mesh));
+  return known.write_polygons(mesh);
 }
 
 void write_mesh(const std::string& path, const Mesh& mesh) {
-  write_bytes(path, serialize_mesh(mesh, mesh_format(path)));
+  write_compressed_as_named(path, serialize_mesh(mesh, mesh_format(path)));
 }
 
 void write_mesh(const std::string& path, const PolygonMesh& mesh) {
-  write_bytes(path, serialize_mesh(mesh, mesh_format(path)));
+  write_compressed_as_named(path, serialize_mesh(mesh, mesh_format(path)));
 }
 
 }  // namespace orbitutte

@@ -43,9 +43,6 @@ MeshFormat mesh_format(const std::string& path);
 /// The usual ending of every format.
 std::vector<std::string> mesh_endings();
 
-/// Does the path end in `.gz` (any case)?
-bool is_compressed(const std::string& path);
-
 /// The polygons in the text or bytes of a mesh file.
 ///
 /// - OBJ: `v`, `f` with v, v/vt, v//vn, v/vt/vn, negative indices; three numbers after the coordinates are

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "orbitutte/io/mesh_formats.h"
+#include "orbitutte/io/obj_lines.h"
 #include "orbitutte/io/text_colours.h"
 #include "orbitutte/io/text_scanner.h"
 
@@ -118,12 +119,30 @@ PolygonMesh read_obj(std::string_view text) {
   return mesh;
 }
 
+void append_obj_vertices(const Points& points, std::string& text) {
+  const auto out = std::back_inserter(text);
+  for (const auto& position : points.rowwise())
+    fmt::format_to(out, FMT_COMPILE("v {} {} {}\n"), position[0], position[1], position[2]);
+}
+
+void append_textured_obj(const Surface& surface, const TextureLayout& layout, std::string& text) {
+  append_obj_vertices(surface.V, text);
+  const auto out = std::back_inserter(text);
+  for (const auto& p : layout.uv.rowwise()) fmt::format_to(out, FMT_COMPILE("vt {} {}\n"), p[0], p[1]);
+  const FaceView faces = surface.faces();
+  for (int f = 0; f < faces.count(); ++f) {
+    text += 'f';
+    for (int k = 0; k < faces.degree(f); ++k)
+      fmt::format_to(out, FMT_COMPILE(" {}/{}"), faces[f][k] + 1LL,
+                     layout.of_corner[faces.start(f) + k] + 1LL);
+    text += '\n';
+  }
+}
+
 std::string write_obj(const Mesh& mesh) {
   std::string text = room_for_text(mesh);
+  append_obj_vertices(mesh.V, text);
   const auto out = std::back_inserter(text);
-  for (const auto& position : mesh.V.rowwise()) {
-    fmt::format_to(out, FMT_COMPILE("v {} {} {}\n"), position[0], position[1], position[2]);
-  }
   for (const auto& face : mesh.F.rowwise()) {
     fmt::format_to(out, FMT_COMPILE("f {} {} {}\n"), face[0] + 1LL, face[1] + 1LL, face[2] + 1LL);
   }

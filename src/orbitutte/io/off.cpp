@@ -7,7 +7,7 @@
 #include <iterator>
 #include <optional>
 
-#include "orbitutte/io/bytes.h"
+#include "orbitutte/io/big_endian_bytes.h"
 #include "orbitutte/io/mesh_formats.h"
 #include "orbitutte/io/text_colours.h"
 #include "orbitutte/io/text_scanner.h"
@@ -205,45 +205,7 @@ std::optional<BinaryOff> parse_binary_start(std::string_view text) {
   return BinaryOff{keyword->columns, word.starts_with("ST"), numbers};
 }
 
-/// Numbers of four bytes, the highest one first.
-class BinaryOffNumbers {
- public:
-  explicit BinaryOffNumbers(std::string_view bytes) : rest_(bytes), size_(bytes.size()) {}
-
-  template <class T>
-  T take(std::string_view what) {
-    if (rest_.size() < sizeof(T)) refuse(fmt::format("the file ends before {}", what));
-    const T value = load<T>(rest_.data(), std::endian::big);
-    rest_.remove_prefix(sizeof(T));
-    return value;
-  }
-
-  /// A count of things that have so many bytes each, and all of which follow.
-  int take_count(std::string_view what, std::size_t least_size) {
-    const auto count = take<std::int32_t>(what);
-    require_room(count, what, least_size);
-    return count;
-  }
-
-  void require_room(std::int32_t count, std::string_view what, std::size_t least_size) const {
-    if (count < 0 || static_cast<std::size_t>(count) > rest_.size() / least_size)
-      refuse(fmt::format("{} is {}, but only {} bytes follow", what, count, rest_.size()));
-  }
-
-  bool is_at_end() const { return rest_.empty(); }
-
-  /// Throws MeshError.
-  [[noreturn]] void refuse(std::string_view problem) const {
-    throw MeshError(fmt::format("byte {} behind the first line: {}; export the file again",
-                                size_ - rest_.size(), problem));
-  }
-
- private:
-  std::string_view rest_;
-  std::size_t size_;
-};
-
-void read_binary_vertices(BinaryOffNumbers& in, const BinaryOff& start, int count, PolygonMesh& mesh) {
+void read_binary_vertices(BigEndianBytes& in, const BinaryOff& start, int count, PolygonMesh& mesh) {
   const auto take = [&] { return static_cast<double>(in.take<float>("a number of a vertex")); };
   mesh.V.resize(count, 3);
   Points colours(start.columns.has_colours ? count : 0, 3);
@@ -261,7 +223,7 @@ void read_binary_vertices(BinaryOffNumbers& in, const BinaryOff& start, int coun
   if (start.columns.has_colours) give_colours(colours_of_numbers(colours), mesh);
 }
 
-void read_binary_faces(BinaryOffNumbers& in, int count, PolygonMesh& mesh) {
+void read_binary_faces(BigEndianBytes& in, int count, PolygonMesh& mesh) {
   mesh.face_start.reserve(count + std::size_t{1});
   for (int f = 0; f < count; ++f) {
     const int degree = in.take_count("the number of a face's corners", sizeof(std::int32_t));
@@ -274,7 +236,7 @@ void read_binary_faces(BinaryOffNumbers& in, int count, PolygonMesh& mesh) {
 
 PolygonMesh read_binary_off(const BinaryOff& start) {
   constexpr std::size_t least_vertex = 3 * sizeof(float), least_face = 2 * sizeof(std::int32_t);
-  BinaryOffNumbers in(start.numbers);
+  BigEndianBytes in(start.numbers, " behind the first line");
   const auto vertices = in.take<std::int32_t>("the number of vertices"),
              faces = in.take<std::int32_t>("the number of faces");
   in.take<std::int32_t>("the number of edges");
@@ -283,7 +245,7 @@ PolygonMesh read_binary_off(const BinaryOff& start) {
   PolygonMesh mesh;
   read_binary_vertices(in, start, vertices, mesh);
   read_binary_faces(in, faces, mesh);
-  if (!in.is_at_end()) in.refuse("bytes follow after the last face");
+  if (in.bytes_left() > 0) in.refuse("bytes follow after the last face");
   return mesh;
 }
 

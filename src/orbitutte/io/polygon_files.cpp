@@ -5,18 +5,13 @@
 #include <algorithm>
 
 #include "orbitutte/io/mesh_formats.h"
+#include "orbitutte/io/obj_lines.h"
 #include "orbitutte/io/ply_triangles.h"
-#include "orbitutte/mesh/triangulation.h"
 
 namespace orbitutte {
 namespace {
 
 FaceView faces_of(const PolygonMesh& mesh) { return {mesh.corners, mesh.face_start}; }
-
-void append_line(std::string& text, const char* keyword, const Eigen::RowVector3d& position) {
-  fmt::format_to(std::back_inserter(text), FMT_COMPILE("{}{} {} {}\n"), keyword, position[0], position[1],
-                 position[2]);
-}
 
 // The corners, counted from `first`.
 void append_line(std::string& text, const std::string& keyword, std::span<const int> corners, int first) {
@@ -29,14 +24,16 @@ void append_line(std::string& text, const std::string& keyword, std::span<const 
 
 std::string write_obj_polygons(const PolygonMesh& mesh) {
   std::string text;
-  for (const auto& position : mesh.V.rowwise()) append_line(text, "v ", position);
+  append_obj_vertices(mesh.V, text);
   for (int f = 0; f < mesh.face_count(); ++f) append_line(text, "f", faces_of(mesh)[f], 1);
   return text;
 }
 
 std::string write_off_polygons(const PolygonMesh& mesh) {
   std::string text = fmt::format("OFF\n{} {} 0\n", mesh.vertex_count(), mesh.face_count());
-  for (const auto& position : mesh.V.rowwise()) append_line(text, "", position);
+  for (const auto& position : mesh.V.rowwise())
+    fmt::format_to(std::back_inserter(text), FMT_COMPILE("{} {} {}\n"), position[0], position[1],
+                   position[2]);
   for (int f = 0; f < mesh.face_count(); ++f)
     append_line(text, std::to_string(mesh.face_degree(f)), faces_of(mesh)[f], 0);
   return text;
@@ -44,18 +41,6 @@ std::string write_off_polygons(const PolygonMesh& mesh) {
 
 std::string write_ply_polygons(const PolygonMesh& mesh) {
   return write_ply_faces(mesh.V, faces_of(mesh), {}, {});
-}
-
-std::string write_stl_polygons(const PolygonMesh& mesh) { return write_stl(to_triangle_mesh(mesh)); }
-
-std::string write_gifti_polygons(const PolygonMesh& mesh) { return write_gifti(to_triangle_mesh(mesh)); }
-
-std::string write_gltf_polygons(const PolygonMesh& mesh) { return write_gltf(to_triangle_mesh(mesh)); }
-
-std::string write_glb_polygons(const PolygonMesh& mesh) { return write_glb(to_triangle_mesh(mesh)); }
-
-std::string write_freesurfer_polygons(const PolygonMesh& mesh) {
-  return write_freesurfer(to_triangle_mesh(mesh));
 }
 
 }  // namespace orbitutte

@@ -7,6 +7,7 @@
 
 #include "orbitutte/io/compression.h"
 #include "orbitutte/io/file.h"
+#include "orbitutte/io/file_ending.h"
 #include "orbitutte/io/mesh_io.h"
 #include "orbitutte/io/text_scanner.h"
 
@@ -97,12 +98,9 @@ std::optional<TextureLayout> parse_obj_texture(std::string_view text) { return T
 
 std::optional<TextureLayout> read_texture_layout(const std::string& path) {
   if (mesh_format(path) != MeshFormat::obj) return std::nullopt;
-  try {
-    const std::string bytes = read_file(path);
+  return parse_file(path, [&](const std::string& bytes) {
     return is_compressed(path) ? parse_obj_texture(decompress(bytes)) : parse_obj_texture(bytes);
-  } catch (const MeshError& error) {
-    throw MeshError(fmt::format("{}: {}", path, error.what()));
-  }
+  });
 }
 
 }  // namespace orbitutte

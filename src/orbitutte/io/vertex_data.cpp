@@ -74,22 +74,11 @@ NamedFormat known_format(const std::string& path) {
       endings));
 }
 
-bool is_gzip_path(const std::string& path) { return without_gz(path) != path; }
-
 // Throws MeshError if the names are not one for each map.
 void require_consistent(const VertexData& data) {
   if (!data.names.empty() && static_cast<Eigen::Index>(data.names.size()) != data.values.cols())
     throw MeshError(fmt::format("there are {} names for {} maps; give each map one name, or none a name",
                                 data.names.size(), data.values.cols()));
-}
-
-template <class Step>
-auto naming(const std::string& path, const Step& step) {
-  try {
-    return step();
-  } catch (const MeshError& error) {
-    throw MeshError(fmt::format("{}: {}", path, error.what()));
-  }
 }
 
 }  // namespace
@@ -113,14 +102,13 @@ std::string serialize_vertex_data(const VertexData& data, VertexDataFormat forma
 VertexData read_vertex_data(const std::string& path) {
   const VertexDataFormat format = vertex_data_format(path);
   const std::string bytes = read_file(path);
-  return naming(path,
-                [&] { return parse_vertex_data(is_gzip_path(path) ? decompress(bytes) : bytes, format); });
+  return naming_file(
+      path, [&] { return parse_vertex_data(is_compressed(path) ? decompress(bytes) : bytes, format); });
 }
 
 void write_vertex_data(const std::string& path, const VertexData& data) {
   const VertexDataFormat format = vertex_data_format(path);
-  const std::string bytes = naming(path, [&] { return serialize_vertex_data(data, format); });
-  write_file(path, is_gzip_path(path) ? compress_to_gzip(bytes) : bytes);
+  write_compressed_as_named(path, naming_file(path, [&] { return serialize_vertex_data(data, format); }));
 }
 
 int label_key(const VertexData& data, Eigen::Index vertex, Eigen::Index map) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One reader and one writer per format of values at vertices. vertex_data.h says what they accept.
+// One reader and one writer per format of values at vertices. vertex_data.h says what they accept. To add a
+// format, add its functions here and a row to the table in vertex_data.cpp.
 #pragma once
 
 #include <string>

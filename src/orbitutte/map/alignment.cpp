@@ -2,10 +2,10 @@
 #include "orbitutte/map/alignment.h"
 
 #include <Eigen/LU>
-#include <Eigen/SVD>
 #include <cmath>
 #include <complex>
 
+#include "orbitutte/geometry/fitted_rotation.h"
 #include "orbitutte/orbifold/symmetry_group.h"
 
 namespace orbitutte {
@@ -40,15 +40,12 @@ Complex seen_from_above(const AxisSymmetry& symmetry, const Vector3& point) {
   return Complex(p.x(), p.y()) * (symmetry.flips ? std::abs(p.z()) : 1.0);
 }
 
-// W. Kabsch, "A solution for the best rotation to relate two sets of vectors", 1976.
 Isometry best_rotation_of_whole_sphere(const Points& from, const Points& to) {
-  const Eigen::JacobiSVD<Matrix3> svd(to.transpose() * from, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  if (!(svd.singularValues()[1] > 1e-12 * static_cast<double>(from.rows())))
+  const FittedRotation rotation = fitted_rotation(from, to);
+  if (!(rotation.certainty > 1e-12 * static_cast<double>(from.rows())))
     throw ArgumentError(
         "the points do not say which rotation to take; give points that lie on no line through the centre");
-  const Matrix3 &U = svd.matrixU(), &V = svd.matrixV();
-  const double handedness = (U * V.transpose()).determinant() < 0 ? -1 : 1;
-  return Space::sphere().isometry(U * Vector3(1, 1, handedness).asDiagonal() * V.transpose());
+  return Space::sphere().isometry(rotation.matrix);
 }
 
 // z^n with the length of z.

@@ -5,14 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "orbitutte/parallel.h"
-
 namespace orbitutte {
 namespace {
-
-double total_area(const Surface& surface) {
-  return parallel_sum(surface.triangle_count(), [&](int t) { return surface.area(t); });
-}
 
 double landmark_error(const Surface& b, const SurfaceMap& map, const VertexMap& a_to_b) {
   double largest = 0;
@@ -22,7 +16,7 @@ double landmark_error(const Surface& b, const SurfaceMap& map, const VertexMap& 
       image += a_to_b.images.barycentric(landmark.a, k) * Vector3(b.V.row(a_to_b.corners(landmark.a, k)));
     largest = std::max(largest, (image - Vector3(b.V.row(landmark.b))).norm());
   }
-  return largest / std::sqrt(total_area(b));
+  return largest / std::sqrt(b.total_area());
 }
 
 }  // namespace

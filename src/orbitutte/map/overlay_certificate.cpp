@@ -149,7 +149,7 @@ class PointSource {
                           c = with_digits<Real>(line[0]).x, d = with_digits<Real>(line[1]).x;
     const Vector3Of<Real> of_edge = a.cross(b), of_line = c.cross(d), sum = a + b;
     const Vector3Of<Real> point = of_edge.cross(of_line);
-    const Real side = space_.curvature() > 0 ? Real(point.dot(sum)) : point.z(),
+    const Real side = space_.side(point, sum),
                terms = size_of<Real>(a) * size_of<Real>(b) * size_of<Real>(c) * size_of<Real>(d);
     const Real error = 100 * digit_error<Real>() * terms / size_of<Real>(point);
     return {side < 0 ? Vector3Of<Real>(-point) : point, error};

@@ -97,6 +97,29 @@ std::vector<int> asked_tour(const std::vector<int>& tour, const LandmarkPlaces& 
   return result;
 }
 
+// What the kind of tile, which is fixed, flat or curved, means for a map through so many landmarks.
+struct TileFreedom {
+  TileFreedom(const Target& target, int landmarks)
+      : has_shape(target.has_free_tile),
+        is_curved(target.has_curved_free_tile()),
+        has_several_classes(has_shape && target.topology == Topology::sphere),
+        has_classes(has_several_classes && (!is_curved || landmarks <= most_compared)),
+        has_closed_form(!is_curved && landmarks == 4) {}
+
+  /// Curved tiles of free shape are found by Newton's method, which goes beyond what is asked for; rounding
+  /// keeps it from finer tolerances.
+  double finest_tolerance() const { return is_curved ? 1e-9 : 0; }
+
+  /// Is the shape of the tile found together with the map?
+  bool has_shape;
+
+  /// Then it takes a search, which begins with the tiles that both surfaces have of their own.
+  bool is_curved;
+
+  /// Are there several classes of maps, and are they compared? Classes of four landmarks in closed form.
+  bool has_several_classes, has_classes, has_closed_form;
+};
+
 class Mapping {
  public:
   Mapping(const std::array<const Surface*, 2>& surfaces, const std::vector<Landmark>& landmarks,
@@ -105,6 +128,7 @@ class Mapping {
         options_(options),
         places_(places),
         target_(target),
+        freedom_(target, places.count()),
         stage_(options.embed.progress, map_.timings) {
     map_.landmarks = landmarks;
     map_.map_class.tile = options.tile;
@@ -172,7 +196,7 @@ class Mapping {
   // the place of one that was asked for. The first results are kept if none is certified.
   void try_other_tours() {
     constexpr std::size_t most_tries = 3;
-    if (options_.tour.empty() || !target_.has_curved_free_tile()) return;
+    if (options_.tour.empty() || !freedom_.is_curved) return;
     const std::array<EmbedResult, 2> results = {sides_[0]->result, sides_[1]->result};
     const SharingOptions sharing = sharing_;
     const MapClass first_class = map_.map_class;
@@ -231,7 +255,7 @@ class Mapping {
     state_problems(problems);
     // Other weights change neither the class nor much of the tiles.
     if (sharing_.own[0].cones.size() == 0) {
-      if (has_classes())
+      if (freedom_.has_classes)
         find_class(problems);
       else if (needs_own_tiles())
         sharing_.own = own_tiles(pair_of(problems), lbfgs(), stage_);
@@ -277,7 +301,7 @@ class Mapping {
     }
   }
 
-  bool is_twisted() const { return target_.has_curved_free_tile() && !sharing_.braid.empty(); }
+  bool is_twisted() const { return freedom_.is_curved && !sharing_.braid.empty(); }
 
   void compare(const Problems& problems) {
     sharing_.own = own_tiles(pair_of(problems), lbfgs(), stage_);
@@ -289,7 +313,7 @@ class Mapping {
   }
 
   IsotopyClass class_of(const std::array<TiledPositions, 2>& own) const {
-    if (target_.has_curved_free_tile() || places_.count() != 4)
+    if (!freedom_.has_closed_form)
       return isotopy_class(moduli_of(target_, sides_[0]->cut), own[0].cones, own[1].cones);
     const auto complex = [](const Points& cones) {
       Eigen::VectorXcd result(cones.rows());
@@ -299,19 +323,15 @@ class Mapping {
     return isotopy_class_of_four(complex(own[0].cones), complex(own[1].cones));
   }
 
-  // Curved tiles of free shape are found by Newton's method, which goes beyond what is asked for; rounding
-  // keeps it from finer tolerances.
   LbfgsOptions lbfgs() const {
-    constexpr double finest_on_free_tile = 1e-9;
     LbfgsOptions result;
-    result.tolerance =
-        std::max(options_.embed.tolerance, target_.has_curved_free_tile() ? finest_on_free_tile : 0);
+    result.tolerance = std::max(options_.embed.tolerance, freedom_.finest_tolerance());
     result.max_iterations = options_.embed.max_iterations;
     return result;
   }
 
   std::array<Placement, 2> placed(const ProblemPair& problems) {
-    if (!target_.has_free_tile) return placed_alone(problems);
+    if (!freedom_.has_shape) return placed_alone(problems);
     if (map_.map_class.tile == TileShape::shared) {
       if (std::optional<std::array<Placement, 2>> shared = placed_on_shared_tile(problems)) return *shared;
       map_.map_class.tile = TileShape::regular;
@@ -354,14 +374,7 @@ class Mapping {
   }
 
   // Where the search for the shape of a shared tile begins.
-  bool needs_own_tiles() const {
-    return target_.has_curved_free_tile() && map_.map_class.tile == TileShape::shared;
-  }
-
-  bool has_classes() const {
-    return target_.has_free_tile && target_.topology == Topology::sphere &&
-           (!target_.has_curved_free_tile() || places_.count() <= most_compared);
-  }
+  bool needs_own_tiles() const { return freedom_.is_curved && map_.map_class.tile == TileShape::shared; }
 
   void finish_both(const ProblemPair& problems, const std::array<Placement, 2>& placed) {
     // The map stays in its frame, which both surfaces have: more digits come before turning it. Limbs have
@@ -382,8 +395,8 @@ class Mapping {
   void warn_of_classes() {
     constexpr double close = 2;
     MapClass& found = map_.map_class;
-    if (!target_.has_free_tile || target_.topology != Topology::sphere) return;
-    if (!has_classes()) {
+    if (!freedom_.has_several_classes) return;
+    if (!freedom_.has_classes) {
       found.next_distance = std::numeric_limits<double>::infinity();
       return;
     }
@@ -398,6 +411,7 @@ class Mapping {
   const MapOptions& options_;
   LandmarkPlaces places_;
   Target target_;
+  TileFreedom freedom_;
   SurfaceMap map_;
   Stages stage_;
   Sides sides_;

@@ -5,10 +5,12 @@
 #include <memory>
 #include <string>
 
-#include "orbitutte/mesh/intrinsic_triangulation.h"
 #include "orbitutte/names.h"
+#include "orbitutte/types.h"
 
 namespace orbitutte {
+
+struct IntrinsicTriangulation;
 
 enum class WeightKind {
   /// Delaunay, or cotan on meshes with faces of more than three corners.

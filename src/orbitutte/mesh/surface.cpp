@@ -5,11 +5,17 @@
 #include <algorithm>
 #include <array>
 
+#include "orbitutte/parallel.h"
+
 namespace orbitutte {
 
 double Surface::area(Eigen::Index triangle) const {
   const auto corner = [&](int k) -> Vector3 { return V.row(triangles(triangle, k)); };
   return 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
+}
+
+double Surface::total_area() const {
+  return parallel_sum(triangle_count(), [&](int t) { return area(t); });
 }
 
 std::vector<char> Surface::boundary_vertices() const {

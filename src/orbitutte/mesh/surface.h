@@ -35,6 +35,9 @@ struct Surface {
   /// The area of a triangle.
   double area(Eigen::Index triangle) const;
 
+  /// The area of all triangles.
+  double total_area() const;
+
   /// n: a third of the area of the triangles around each vertex.
   Eigen::VectorXd vertex_areas() const;
 

@@ -16,14 +16,23 @@ struct TwistedPlaces {
   int centre, moved;
 };
 
+// By what the second of them is moved, from the rotation about the first.
+template <typename Rotation>
+Rotation motion_of(const HalfTwist& twist, const Rotation& rotation) {
+  return twist.is_forth ? rotation.inverse() : rotation;
+}
+
+Isometry motion_of(const HalfTwist& twist, const Moduli& moduli, const Points& cones) {
+  const int centre = TwistedPlaces(twist).centre;
+  return motion_of(twist, moduli.space().rotation(cones.row(centre), moduli.marks()[centre].angle));
+}
+
 Points after_half_twist(const Moduli& moduli, const Points& cones, const HalfTwist& twist) {
   const auto [centre, moved] = TwistedPlaces(twist);
-  const Space space = moduli.space();
-  const Isometry rotation = space.rotation(cones.row(centre), moduli.marks()[centre].angle);
-  const Isometry motion = twist.is_forth ? rotation.inverse() : rotation;
+  const Isometry motion = motion_of(twist, moduli, cones);
   Points result = cones;
   result.row(moved) = cones.row(centre);
-  result.row(centre) = space.retract(motion * Vector3(cones.row(moved))).transpose();
+  result.row(centre) = moduli.space().retract(motion * Vector3(cones.row(moved))).transpose();
   return result;
 }
 
@@ -65,8 +74,7 @@ std::vector<Isometry> motions(const Moduli& moduli, Points cones, const Braid& b
   std::vector<Isometry> result(cones.rows());
   for (const HalfTwist& twist : braid) {
     const auto [centre, moved] = TwistedPlaces(twist);
-    const Isometry rotation = moduli.space().rotation(cones.row(centre), moduli.marks()[centre].angle);
-    const Isometry motion = twist.is_forth ? rotation.inverse() : rotation;
+    const Isometry motion = motion_of(twist, moduli, cones);
     cones = after_half_twist(moduli, cones, twist);
     std::swap(result[moved], result[centre]);
     result[centre] = motion * result[centre];
@@ -90,9 +98,7 @@ Eigen::MatrixXcd braid_matrix(int count, const Braid& braid, double angle) {
 VaryingMarks braided(VaryingMarks marks, const Braid& braid) {
   for (const HalfTwist& twist : braid) {
     const auto [centre, moved] = TwistedPlaces(twist);
-    const VaryingIsometry& rotation = marks.rotations()[centre];
-    const VaryingIsometry motion = twist.is_forth ? rotation.inverse() : rotation;
-    marks.carry(moved, centre, motion);
+    marks.carry(moved, centre, motion_of(twist, marks.rotations()[centre]));
   }
   return marks;
 }

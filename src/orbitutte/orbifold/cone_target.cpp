@@ -54,6 +54,14 @@ Space space_of_curvature(double curvature) {
 
 }  // namespace
 
+bool takes_angles(const std::string& signature) {
+  return signature == cones_signature || signature == mirrored_cones_signature;
+}
+
+Topology topology_of_cones(const std::string& signature) {
+  return signature == cones_signature ? Topology::sphere : Topology::disk;
+}
+
 double total_curvature(Topology topology, const std::vector<Mark>& marks) {
   double curvature = curvature_without_marks(topology);
   for (const Mark& mark : marks) curvature -= flat_angle(mark) - mark.angle;

@@ -4,6 +4,7 @@
 // conical singularities", 1991).
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "orbitutte/orbifold/target.h"
@@ -16,6 +17,12 @@ namespace orbitutte {
 /// rounding (1e-9) are corrected to be flat. Throws ArgumentError if an angle is not positive and finite, if
 /// a corner stands before a cone or on a sphere, or for another topology.
 Target cone_target(Topology topology, std::vector<Mark> marks);
+
+/// Do the signature's angles stand apart from it: is it `cones` or `*cones`?
+bool takes_angles(const std::string& signature);
+
+/// What the mesh of such a signature must be.
+Topology topology_of_cones(const std::string& signature);
 
 /// 2 pi chi - sum of (2 pi - angle) over the cones - sum of (pi - angle) over the corners, radians.
 double total_curvature(Topology topology, const std::vector<Mark>& marks);

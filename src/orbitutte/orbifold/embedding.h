@@ -80,6 +80,13 @@ struct Embedding {
   /// `positions` and all of its offsets. Ascending by vertex, the largest of a vertex first.
   std::vector<Offset> offsets;
 
+  /// n: how many vertices the input has, up to the last one that has a cut vertex.
+  int input_vertex_count() const;
+
+  /// n: for each input vertex a corner 3 t + k of a triangle that lies there, the last one; -1 where there is
+  /// none.
+  std::vector<int> corner_at_input_vertex() const;
+
   const Space& space() const { return target.space; }
 
   /// The faces of the input, on cut vertices.

@@ -208,6 +208,19 @@ ConwaySymbol crossed(int rotation) { return {{rotation}, {}, false, true}; }
 const ConwaySymbol nothing_marked;
 const ConwaySymbol mirror_alone = {{}, {}, true, false};
 
+Family about_one_axis(Family family) {
+  family.has_one_axis = true;
+  return family;
+}
+
+Family filling(const PartOfCell& part, Family family) {
+  family.part_of_cell = part;
+  return family;
+}
+
+constexpr PartOfCell quarter_at_order_4 = {0.5, 0.5, 4}, quarter_at_order_2 = {0.5, 0.5, 2},
+                     half_at_order_2 = {0.5, 1, 2};
+
 const std::string infinite = "infinite";
 const std::string none_marked = "none";
 const std::string three_vertices = "three vertices, in the order of the digits";
@@ -231,31 +244,35 @@ const std::vector<Family>& family_table() {
       {"432", "24", three_vertices, rotations({2, 3, 4}), sphere, doubled_triangle, triangle_of_marks},
       {"332", "12", three_vertices, rotations({2, 3, 3}), sphere, doubled_triangle, triangle_of_marks},
       {"22N", "2N", three_vertices, rotations({2, 2, N}), sphere, doubled_triangle, triangle_of_marks},
-      {"NN", "N", two_vertices, rotations({N, N}), sphere, glued_lune, triangle_at_equator},
+      about_one_axis({"NN", "N", two_vertices, rotations({N, N}), sphere, glued_lune, triangle_at_equator}),
       {"*532", "120", three_boundary_vertices, corners({2, 3, 5}), disk, mirrored_triangle,
        triangle_of_marks},
       {"*432", "48", three_boundary_vertices, corners({2, 3, 4}), disk, mirrored_triangle, triangle_of_marks},
       {"*332", "24", three_boundary_vertices, corners({2, 3, 3}), disk, mirrored_triangle, triangle_of_marks},
       {"*22N", "4N", three_boundary_vertices, corners({2, 2, N}), disk, mirrored_triangle, triangle_of_marks},
-      {"*NN", "2N", two_boundary_vertices, corners({N, N}), disk, mirrored_lune, triangle_at_equator},
+      about_one_axis(
+          {"*NN", "2N", two_boundary_vertices, corners({N, N}), disk, mirrored_lune, triangle_at_equator}),
       {"3*2", "24", vertex_on_each_side, mixed(3, {2}), disk, mirrored_kite, triangle_at_mirror, true},
       {"2*N", "4N", vertex_on_each_side, mixed(2, {N}), disk, mirrored_kite, triangle_at_mirror, true},
-      {"N*", "2N", one_vertex_inside, mixed(N, {}), disk, sector, triangle_at_equator, true},
+      about_one_axis({"N*", "2N", one_vertex_inside, mixed(N, {}), disk, sector, triangle_at_equator, true}),
       {"Nx", "2N", one_vertex, crossed(N), Topology::projective_plane, crossed_lune, triangle_at_equator,
        false, 1},
       {"1", "1", none_marked, nothing_marked, sphere, whole_sphere, octant},
       {"*", "2", none_marked, mirror_alone, disk, hemisphere, octant, true},
       {"333", infinite, three_vertices, rotations({3, 3, 3}), sphere, doubled_triangle, triangle_of_marks},
-      {"442", infinite, three_vertices, rotations({2, 4, 4}), sphere, doubled_triangle, triangle_of_marks},
+      filling(quarter_at_order_4, {"442", infinite, three_vertices, rotations({2, 4, 4}), sphere,
+                                   doubled_triangle, triangle_of_marks}),
       {"632", infinite, three_vertices, rotations({2, 3, 6}), sphere, doubled_triangle, triangle_of_marks},
-      {"2222", infinite, four_vertices, rotations({2, 2, 2, 2}), sphere, free_tile, no_chamber},
+      filling(half_at_order_2,
+              {"2222", infinite, four_vertices, rotations({2, 2, 2, 2}), sphere, free_tile, no_chamber}),
       {"*333", infinite, three_boundary_vertices, corners({3, 3, 3}), disk, mirrored_triangle,
        triangle_of_marks},
       {"*442", infinite, three_boundary_vertices, corners({2, 4, 4}), disk, mirrored_triangle,
        triangle_of_marks},
       {"*632", infinite, three_boundary_vertices, corners({2, 3, 6}), disk, mirrored_triangle,
        triangle_of_marks},
-      {"*2222", infinite, four_boundary_vertices, corners({2, 2, 2, 2}), disk, free_tile, no_chamber},
+      filling(quarter_at_order_2, {"*2222", infinite, four_boundary_vertices, corners({2, 2, 2, 2}), disk,
+                                   free_tile, no_chamber}),
   };
   return table;
 }
@@ -285,6 +302,12 @@ const Family* find_family(const ConwaySymbol& symbol) {
       return &family;
   }
   return nullptr;
+}
+
+bool is_of_three_half_turns(const ConwaySymbol& symbol) {
+  const std::vector<int> none, three = {2, 2, 2};
+  return !symbol.cross && symbol.rotations == (symbol.star ? none : three) &&
+         symbol.corners == (symbol.star ? three : none);
 }
 
 }  // namespace orbitutte

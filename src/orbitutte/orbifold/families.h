@@ -9,6 +9,17 @@
 
 namespace orbitutte {
 
+/// The part of a cell of the plane's lattice that a tile fills, from the cell's lower left corner.
+struct PartOfCell {
+  /// Shares of both sides of the cell; 0 if the tile is no such part.
+  double across = 0, up = 0;
+
+  /// The order of the rotation about that corner.
+  int order_at_corner = 0;
+
+  bool is_known() const { return order_at_corner > 0; }
+};
+
 /// One row of the table. A family is known by its symbol with the orders sorted, where 0 stands for the free
 /// order N.
 struct Family {
@@ -39,11 +50,21 @@ struct Family {
 
   /// The smallest N.
   int smallest_order = 2;
+
+  /// Is z -> z^N, in the stereographic chart of the canonical frame, the quotient by the rotations of the
+  /// group?
+  bool has_one_axis = false;
+
+  /// In the plane.
+  PartOfCell part_of_cell = {};
 };
 
 const std::vector<Family>& family_table();
 
 /// The row that the symbol belongs to, or null.
 const Family* find_family(const ConwaySymbol& symbol);
+
+/// Is the symbol 222 or *222?
+bool is_of_three_half_turns(const ConwaySymbol& symbol);
 
 }  // namespace orbitutte

@@ -362,6 +362,7 @@ Moduli moduli_of(const Target& target, const CutMesh& cut) {
 }
 
 void require_shapes(const Target& target) {
+  if (!target.has_curved_free_tile()) return;
   std::vector<Mark> marks(target.marks.begin() + target.inner_marks, target.marks.end());
   if (marks.empty() && target.topology == Topology::disk) marks.push_back({pi, ConeKind::corner});
   marks.insert(marks.end(), target.marks.begin(), target.marks.begin() + target.inner_marks);

@@ -62,7 +62,7 @@ std::vector<int> cones_as_met(const CutMesh& cut);
 /// The shapes of a curved target. Throws ArgumentError if there are none (Moduli).
 Moduli moduli_of(const Target& target, const CutMesh& cut);
 
-/// Throws ArgumentError if the target, which is curved and whose tile is free, has no shapes.
+/// Throws ArgumentError if the target's tile is curved, its shape is free, and the angles leave none.
 void require_shapes(const Target& target);
 
 /// Of a map (n x 3) whose first mark lies at (0, 0, 1), a point that has the direction which x has in the

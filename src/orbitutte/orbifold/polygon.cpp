@@ -12,6 +12,7 @@
 
 #include "orbitutte/orbifold/cone_target.h"
 #include "orbitutte/orbifold/signature.h"
+#include "orbitutte/orbifold/tile.h"
 
 namespace orbitutte {
 namespace {

@@ -6,9 +6,10 @@
 #include <vector>
 
 #include "orbitutte/orbifold/embedding.h"
-#include "orbitutte/orbifold/tile.h"
 
 namespace orbitutte {
+
+struct Tile;
 
 /// The polygon with these corners, in the order of the vertices along the mesh's boundary, counterclockwise
 /// as seen from outside. Its marks are the corners, which are fixed. There must be three or more different

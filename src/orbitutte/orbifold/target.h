@@ -76,6 +76,9 @@ struct Target {
   /// The corners of a fixed polygon, one for each mark; otherwise empty (polygon.h).
   std::vector<PolygonCorner> corners;
 
+  /// Is the boundary held on a polygon?
+  bool is_polygon() const { return !corners.empty(); }
+
   /// Do rotations about (0, 0, 1) change nothing about the target? NN, N* and Nx fix a map only up to such a
   /// rotation.
   bool is_free_to_rotate = false;

@@ -25,6 +25,10 @@ std::string place_in(Space space) {
   return space == Space::plane() ? "in the plane" : "in the hyperbolic plane";
 }
 
+std::string drawn_in(Space space) {
+  return space == Space::hyperbolic_plane() ? "in Poincaré's disk" : place_in(space);
+}
+
 std::string text_of(Topology topology) {
   if (topology == Topology::other) return "surface of another kind";
   std::string text = name_of(topology);

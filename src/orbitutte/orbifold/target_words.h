@@ -18,6 +18,9 @@ std::string text_of(Space space);
 /// Where a map to the space lies: "on the sphere", "in the plane" or "in the hyperbolic plane".
 std::string place_in(Space space);
 
+/// Where pictures show it (DrawnSpace): "on the sphere", "in the plane" or "in Poincaré's disk".
+std::string drawn_in(Space space);
+
 /// "sphere", "disk", "projective plane" or "other surface".
 std::string text_of(Topology topology);
 

@@ -12,7 +12,6 @@
 #include "orbitutte/page/html_template.h"
 #include "orbitutte/page/page_assets.h"
 #include "orbitutte/page/page_frame.h"
-#include "orbitutte/report/program.h"
 
 namespace orbitutte {
 namespace {
@@ -81,17 +80,17 @@ std::string batch_page(const std::vector<JobRecord>& records, std::size_t missin
   }
   const auto count = static_cast<long long>(records.size()) + static_cast<long long>(missing);
   const bool all_are_certified = missing == 0 && certified == static_cast<long long>(records.size());
-  return fill_template({batch_template, {}}, {{"style", page_style_sheet()},
-                                              {"version", this_program().version},
-                                              {"count", grouped_digits(count)},
-                                              {"jobs_word", count == 1 ? "job" : "jobs"},
-                                              {"certified", grouped_digits(certified)},
-                                              {"verdict", all_are_certified ? "good" : "bad"},
-                                              {"is_unfinished", missing > 0},
-                                              {"missing", grouped_digits(static_cast<long long>(missing))},
-                                              {"seconds", decimals(seconds, 1)},
-                                              {"counts", counts_of(records)},
-                                              {"jobs", std::move(jobs)}});
+  Content content = {{"count", grouped_digits(count)},
+                     {"jobs_word", count == 1 ? "job" : "jobs"},
+                     {"certified", grouped_digits(certified)},
+                     {"verdict", all_are_certified ? "good" : "bad"},
+                     {"is_unfinished", missing > 0},
+                     {"missing", grouped_digits(static_cast<long long>(missing))},
+                     {"seconds", decimals(seconds, 1)},
+                     {"counts", counts_of(records)},
+                     {"jobs", std::move(jobs)}};
+  add_frame({}, content);
+  return fill_template(framed_template(batch_template, {}), content);
 }
 
 }  // namespace orbitutte

@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
+#include <utility>
 
 #include "orbitutte/errors.h"
 #include "orbitutte/export/common_view.h"
@@ -20,7 +22,6 @@
 #include "orbitutte/page/page_frame.h"
 #include "orbitutte/page/scene_numbers.h"
 #include "orbitutte/report/overlay_distortion.h"
-#include "orbitutte/report/program.h"
 
 namespace orbitutte {
 namespace {
@@ -166,11 +167,7 @@ Content check_rows_of_overlay(const OverlayCertificate& certificate) {
 Content map_content(const MapPageSubject& subject) {
   const MapDistortion& distortion = subject.composed.distortion;
   const bool certified = subject.map.is_bijective() && subject.composed.certificate.holds;
-  const std::string style_sheet = page_style_sheet();
-  return {{"version", this_program().version},
-          {"style", style_sheet},
-          {"policy", page_policy(style_sheet, page_script)},
-          {"name_of_a", subject.name_of_a},
+  return {{"name_of_a", subject.name_of_a},
           {"name_of_b", subject.name_of_b},
           {"signature", subject.map.target().signature},
           {"verdict", certified ? "Certified bijective" : "Not certified"},
@@ -186,8 +183,7 @@ Content map_content(const MapPageSubject& subject) {
           {"landmark_error", number_text(subject.composed.landmark_error)},
           {"has_colours", subject.b.colours.rows() > 0},
           {"landmarks", landmark_rows(subject)},
-          {"checks", check_rows_of_overlay(subject.composed.certificate)},
-          {"interactive", has_interactive_view()}};
+          {"checks", check_rows_of_overlay(subject.composed.certificate)}};
 }
 
 }  // namespace
@@ -225,12 +221,10 @@ std::string map_scene(const MapPageSubject& subject) {
 
 std::string map_page(const MapPageSubject& subject) {
   Content content = map_content(subject);
-  if (has_interactive_view()) {
-    content["licences"] = std::string(page_licences);
-    content["script"] = std::string(page_script);
-    content["scene"] = map_scene(subject);
-  }
-  return fill_template({map_page_template, {{"view", map_page_view}}}, content);
+  std::optional<PageScene> scene;
+  if (has_interactive_view()) scene = {"linked-scene", map_scene(subject)};
+  add_frame(std::move(scene), content);
+  return fill_template(framed_template(map_page_template, {{"view", map_page_view}}), content);
 }
 
 }  // namespace orbitutte

@@ -9,6 +9,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include "orbitutte/export/html_text.h"
 #include "orbitutte/export/palette.h"
@@ -22,7 +24,6 @@
 #include "orbitutte/page/page_scene.h"
 #include "orbitutte/page/svg_chart.h"
 #include "orbitutte/report/charts.h"
-#include "orbitutte/report/program.h"
 #include "orbitutte/report/report.h"
 #include "orbitutte/verify/certificate.h"
 
@@ -125,7 +126,7 @@ std::string failed_checks(const Certificate& certificate) {
 
 // What the copies of the tile cover.
 std::string covering(const Target& target) {
-  if (!target.corners.empty()) return "the map covers the polygon";
+  if (target.is_polygon()) return "the map covers the polygon";
   if (!tiles_its_space(target)) return "the tile, glued along its seams, covers the surface with these cones";
   const std::string space = text_of(target.space);
   if (target.group_order == 1) return "the tile covers " + space;
@@ -311,14 +312,13 @@ std::string mesh_name(const Json& report) {
 void add_view(const PageSubject& subject, const PageOptions& options,
               const std::vector<FaceDistortion>& faces, Content& content) {
   content["has_view"] = has_interactive_view();
-  content["interactive"] = is_interactive(options);
   content["is_planar"] = !subject.embedding.space().is_closed();
   content["has_pictures"] = !options.pictures.empty();
   content["pictures"] = picture_list(options.pictures);
-  if (!is_interactive(options)) return;
-  content["licences"] = std::string(page_licences);
-  content["script"] = std::string(page_script);
-  content["scene"] = page_scene(subject.surface, subject.embedding, faces, options.limits);
+  std::optional<PageScene> scene;
+  if (is_interactive(options))
+    scene = {"scene", page_scene(subject.surface, subject.embedding, faces, options.limits)};
+  add_frame(std::move(scene), content);
 }
 
 void add_judgement(const Judgement& judgement, const Embedding& embedding, Content& content) {
@@ -340,11 +340,7 @@ Content page_content(const PageSubject& subject, const Json& report, const PageO
                                at(report, "/termination") == "converged"};
   const std::vector<FaceDistortion> faces = measure_triangles(subject.surface, embedding);
   const std::vector<Iteration> history = history_of(report);
-  const std::string style_sheet = page_style_sheet();
-  Content content = {{"version", this_program().version},
-                     {"style", style_sheet},
-                     {"policy", page_policy(style_sheet, is_interactive(options) ? page_script : "")},
-                     {"mesh_name", mesh_name(report)},
+  Content content = {{"mesh_name", mesh_name(report)},
                      {"topology", text_of(embedding.target.topology)},
                      {"signature", embedding.target.signature},
                      {"place", place_in(embedding.space())},
@@ -372,10 +368,10 @@ std::string report_page(const PageSubject& subject, const PageOptions& options) 
   const Json report = parse(subject.report);
   PageOptions possible = options;
   possible.interactive = options.interactive && subject.embedding.space().is_closed();
-  return fill_template({page_template,
-                        {{"view", page_view}, {"pictures", page_pictures}, {"chart", page_chart}},
-                        [&](const std::string& name) { return named_figure(report, name); }},
-                       page_content(subject, report, possible));
+  Template page = framed_template(page_template,
+                                  {{"view", page_view}, {"pictures", page_pictures}, {"chart", page_chart}});
+  page.otherwise = [&](const std::string& name) { return named_figure(report, name); };
+  return fill_template(page, page_content(subject, report, possible));
 }
 
 }  // namespace orbitutte

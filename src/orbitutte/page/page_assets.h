@@ -9,6 +9,10 @@ namespace orbitutte {
 
 /// viewer/page.html
 extern const std::string_view page_template;
+/// viewer/page_head.html
+extern const std::string_view page_head;
+/// viewer/page_foot.html
+extern const std::string_view page_foot;
 /// viewer/view.html
 extern const std::string_view page_view;
 /// viewer/map_page.html

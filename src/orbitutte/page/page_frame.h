@@ -2,15 +2,30 @@
 // What all pages share. Private to page/.
 #pragma once
 
+#include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "orbitutte/page/html_template.h"
+
 namespace orbitutte {
 
-/// The style sheet with the colours that charts have in pictures, too.
-std::string page_style_sheet();
+/// A page's template: its text, the parts that all pages have ({{>head}}, {{>foot}}), and others of its own.
+Template framed_template(std::string_view text, std::map<std::string, std::string_view> parts);
 
-/// A content security policy: nothing is loaded, sent or run but this style and this script, if there is one.
-std::string page_policy(const std::string& style_sheet, std::string_view script);
+/// What the interactive view shows.
+struct PageScene {
+  /// Of the element that holds it.
+  std::string id;
+
+  /// JSON.
+  std::string json;
+};
+
+/// Adds what the parts that all pages have show: version, style, a content security policy (nothing is
+/// loaded, sent or run but this style and the view's script), and the script with its licences if there is a
+/// scene for it.
+void add_frame(std::optional<PageScene> scene, Content& content);
 
 }  // namespace orbitutte

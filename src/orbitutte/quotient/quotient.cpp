@@ -9,6 +9,7 @@
 
 #include "orbitutte/cones/chart.h"
 #include "orbitutte/orbifold/exact_positions.h"
+#include "orbitutte/orbifold/families.h"
 #include "orbitutte/orbifold/signature.h"
 #include "orbitutte/parallel.h"
 #include "orbitutte/quotient/centring.h"
@@ -19,17 +20,9 @@ namespace {
 // Which curve of the chart the boundary of a disk comes to lie on.
 enum class ChartMirror { real_line, unit_circle };
 
-bool is_of_orders(const std::vector<int>& orders, std::size_t count) {
-  return orders.size() == count &&
-         std::all_of(orders.begin(), orders.end(), [&](int n) { return n == orders[0]; });
-}
-
-// NN, *NN and N*.
-bool is_of_one_axis(const ConwaySymbol& symbol) {
-  const std::vector<int>&inside = symbol.rotations, &corners = symbol.corners;
-  if (symbol.cross) return false;
-  if (!symbol.star) return is_of_orders(inside, 2);
-  return (inside.empty() && is_of_orders(corners, 2)) || (inside.size() == 1 && corners.empty());
+bool has_one_axis(const ConwaySymbol& symbol) {
+  const Family* family = find_family(symbol);
+  return family && family->has_one_axis;
 }
 
 // z^N, z = (x + iy)/(1 + z) of a unit vector.
@@ -61,7 +54,7 @@ std::vector<ChartPoint> chart_points(const Surface& surface, const Embedding& ba
 }
 
 ChartMirror mirror_of(const Target& base) {
-  const bool has_cone_inside = !base.symbol.rotations.empty();
+  const bool has_cone_inside = base.inner_marks > 0;
   return has_cone_inside ? ChartMirror::unit_circle : ChartMirror::real_line;
 }
 
@@ -201,8 +194,8 @@ void boost_positions(const Vector3& velocity, Embedding& embedding) {
 }  // namespace
 
 Target quotient_target(const Target& base) {
-  const bool has_symbol = base.corners.empty() && !base.has_free_tile;
-  if (!has_symbol || !(has_orbifold_chart(base) || is_of_one_axis(base.symbol)))
+  const bool has_symbol = !base.is_polygon() && !base.has_free_tile;
+  if (!has_symbol || !(has_orbifold_chart(base) || has_one_axis(base.symbol)))
     throw ArgumentError(
         fmt::format("the quotient of a map to {} is not known; there are those of NN, *NN, N*, 222 and *222",
                     base.signature));

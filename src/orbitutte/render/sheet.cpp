@@ -16,7 +16,7 @@ namespace {
 
 // What the source mesh is drawn with.
 const char* source_caption(const Embedding& embedding) {
-  if (!embedding.target.corners.empty()) return "Source mesh and the corners of the polygon";
+  if (embedding.target.is_polygon()) return "Source mesh and the corners of the polygon";
   return embedding.cones.empty() ? "Source mesh" : "Source mesh, marked vertices and seams";
 }
 
@@ -59,8 +59,7 @@ void draw_captioned(Canvas& canvas, const Box& box, PictureParts& parts, const C
 
 std::string tile_caption(const Embedding& embedding) {
   if (embedding.seams.empty()) return "Its image on the sphere";
-  const bool is_in_disk = embedding.space() == Space::hyperbolic_plane();
-  const std::string where = is_in_disk ? "in Poincaré's disk" : place_in(embedding.space());
+  const std::string where = drawn_in(embedding.space());
   const bool are_all = embedding.target.group_order > 0;
   const char* copies = !tiles_its_space(embedding.target) ? ""
                        : are_all                          ? ", and the copies"

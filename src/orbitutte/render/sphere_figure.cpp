@@ -202,20 +202,25 @@ Ornaments sphere_ornaments(const Embedding& embedding, const std::vector<TileCop
   return result;
 }
 
+namespace {
+
+// The tile, and the copies around it if there are any.
+DrawnSpace::Ball around_tile(const Embedding& embedding) {
+  const double tiles_across = tiles_its_space(embedding.target) ? 2.2 : 1.1;
+  const Vector3 centre = tile_centre(embedding);
+  const Points away = embedding.positions.rowwise() - centre.transpose();
+  return {centre, tiles_across * away.rowwise().norm().maxCoeff()};
+}
+
+}  // namespace
+
 Camera sphere_camera(const Embedding& embedding, const View& view, const PictureSize& size, double fill) {
-  const DrawnSpace drawn = drawn_space(embedding);
   Camera camera;
   camera.axes = view_axes(view);
   camera.size = size;
-  double radius = 1;
-  if (drawn.is_disk()) camera.centre = Space::origin();
-  if (!drawn.is_disk() && !embedding.space().is_closed()) {
-    const double tiles_across = tiles_its_space(embedding.target) ? 2.2 : 1.1;
-    camera.centre = tile_centre(embedding);
-    radius = tiles_across *
-             (embedding.positions.rowwise() - camera.centre.transpose()).rowwise().norm().maxCoeff();
-  }
-  camera.pixel = 2 * radius / (fill * std::min(size.width, size.height));
+  const DrawnSpace::Ball shown = drawn_space(embedding).whole().value_or(around_tile(embedding));
+  camera.centre = shown.centre;
+  camera.pixel = 2 * shown.radius / (fill * std::min(size.width, size.height));
   return camera;
 }
 

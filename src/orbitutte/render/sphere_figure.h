@@ -3,9 +3,9 @@
 #pragma once
 
 #include "orbitutte/export/tiling.h"
+#include "orbitutte/geometry/drawn_space.h"
 #include "orbitutte/orbifold/embedding.h"
 #include "orbitutte/render/camera.h"
-#include "orbitutte/render/drawn_space.h"
 #include "orbitutte/render/lighting.h"
 #include "orbitutte/render/ornaments.h"
 

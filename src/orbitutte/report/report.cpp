@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "orbitutte/io/file.h"
+#include "orbitutte/mesh/intrinsic_triangulation.h"
 #include "orbitutte/orbifold/polygon.h"
 #include "orbitutte/report/embedding_file.h"
 #include "orbitutte/report/program.h"
@@ -442,11 +443,7 @@ Embedding with_report(Embedding embedding, const Report& report) {
 
 Embedding read_embedding(const std::string& ply_path, const Report& report) {
   Embedding embedding = read_embedding(ply_path);
-  try {
-    return with_report(std::move(embedding), report);
-  } catch (const MeshError& error) {
-    throw MeshError(fmt::format("{}: {}", ply_path, error.what()));
-  }
+  return naming_file(ply_path, [&] { return with_report(std::move(embedding), report); });
 }
 
 std::string sha256(std::string_view bytes) {

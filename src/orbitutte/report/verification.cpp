@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "orbitutte/mesh/intrinsic_triangulation.h"
 #include "orbitutte/orbifold/precise_group.h"
 #include "orbitutte/orbifold/signature.h"
 #include "orbitutte/quotient/quotient.h"

@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "orbitutte/errors.h"
+#include "orbitutte/orbifold/families.h"
 #include "orbitutte/orbifold/symmetry_group.h"
 #include "orbitutte/parallel.h"
 
@@ -89,25 +90,16 @@ std::optional<Vector2d> fixed_point(const std::vector<Isometry>& elements, const
   return std::nullopt;
 }
 
-// Tiles that are part of the cell: a quarter of it for 442 and *2222, a half for 2222.
-enum class TileForm { square, rectangle, half_cell, none };
-
-TileForm form_of_tile(const ConwaySymbol& symbol) {
-  std::vector<int> orders = symbol.rotations;
-  std::sort(orders.begin(), orders.end());
-  if (symbol.cross) return TileForm::none;
-  if (symbol.star)
-    return orders.empty() && symbol.corners == std::vector<int>{2, 2, 2, 2} ? TileForm::rectangle
-                                                                            : TileForm::none;
-  if (orders == std::vector<int>{2, 4, 4}) return TileForm::square;
-  return orders == std::vector<int>{2, 2, 2, 2} ? TileForm::half_cell : TileForm::none;
+PartOfCell part_of_cell(const Target& target) {
+  const Family* family = find_family(target.symbol);
+  return family ? family->part_of_cell : PartOfCell();
 }
 
 // A corner of the tile: a centre of order 4 or 2, where mirrors meet. Otherwise the origin.
-Vector2d corner_of_cell(const std::vector<Isometry>& elements, TileForm form) {
-  if (form == TileForm::none) return Vector2d::Zero();
+Vector2d corner_of_cell(const std::vector<Isometry>& elements, const PartOfCell& part) {
+  if (!part.is_known()) return Vector2d::Zero();
   Eigen::Matrix2d turn = -Eigen::Matrix2d::Identity();
-  if (form == TileForm::square) turn << 0, -1, 1, 0;
+  if (part.order_at_corner == 4) turn << 0, -1, 1, 0;
   return fixed_point(elements, turn).value_or(Vector2d::Zero());
 }
 
@@ -115,17 +107,16 @@ Vector2d corner_of_cell(const std::vector<Isometry>& elements, TileForm form) {
 FlatImage flat_image(const std::vector<Isometry>& elements, const Target& target, GridKind kind) {
   FlatImage flat;
   flat.sheets = sheets_of(elements);
-  const TileForm form = form_of_tile(target.symbol);
-  flat.lattice = lattice_matrix(lattice_basis(elements, target), corner_of_cell(elements, form));
+  const PartOfCell part = part_of_cell(target);
+  flat.lattice = lattice_matrix(lattice_basis(elements, target), corner_of_cell(elements, part));
   if (kind == GridKind::periodic) return flat;
-  if (form == TileForm::none)
+  if (!part.is_known())
     throw ArgumentError(
         fmt::format("the tile of {} is no image: those of 442, 2222 and *2222 are; take periodic, which all "
-                    "orbifolds of the "
-                    "plane have",
+                    "orbifolds of the plane have",
                     target.signature));
-  flat.across = 0.5;
-  flat.up = form == TileForm::half_cell ? 1 : 0.5;
+  flat.across = part.across;
+  flat.up = part.up;
   return flat;
 }
 

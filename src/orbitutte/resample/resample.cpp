@@ -17,11 +17,6 @@ namespace {
 
 constexpr int stencils_at_once = 1 << 21;
 
-int input_vertices(const Embedding& embedding) {
-  const std::vector<int>& source = embedding.source_vertex;
-  return source.empty() ? 0 : *std::max_element(source.begin(), source.end()) + 1;
-}
-
 void require_kind(ResampleKind kind) {
   if (kind == ResampleKind::conservative)
     throw ArgumentError("conservative tables need the areas of the vertices: conservative_tables makes them");
@@ -35,13 +30,6 @@ std::vector<Isometry> copies_in(const Embedding& embedding, const Grid& grid) {
   return canonical_group_of(embedding, of_cone_surfaces).elements();
 }
 
-// n: 1 for vertices of triangles.
-std::vector<char> used_vertices(const Embedding& embedding, int count) {
-  std::vector<char> used(count, 0);
-  for (const int cut_vertex : embedding.triangles.reshaped()) used[embedding.source_vertex[cut_vertex]] = 1;
-  return used;
-}
-
 // Appends the rows of a table with as many columns.
 void append_rows(const SparseTable& part, SparseTable& table) {
   const int before = table.start.back();
@@ -53,8 +41,8 @@ void append_rows(const SparseTable& part, SparseTable& table) {
 // The means over the copies, of which only so many are made at once.
 SparseTable linear_to_surface(const Embedding& embedding, const Grid& grid,
                               const std::vector<Isometry>& copies) {
-  const int vertices = input_vertices(embedding), count = static_cast<int>(copies.size());
-  const std::vector<char> used = used_vertices(embedding, vertices);
+  const int vertices = embedding.input_vertex_count(), count = static_cast<int>(copies.size());
+  const std::vector<int> corner = embedding.corner_at_input_vertex();
   const Points positions = embedding.canonical_positions();
   const GridInterpolation interpolation(grid);
   const int at_once = std::max(1, stencils_at_once / count);
@@ -72,7 +60,7 @@ SparseTable linear_to_surface(const Embedding& embedding, const Grid& grid,
     });
     std::vector<Stencil> stencils = interpolation.stencils(points);
     for (int v = begin; v < end; ++v)
-      for (int g = 0; g < count && used[v] == 0; ++g)
+      for (int g = 0; g < count && corner[v] < 0; ++g)
         stencils[static_cast<std::size_t>(v - begin) * count + g].count = 0;
     append_rows(table_of_stencils(grid.count(), stencils, count), table);
   }
@@ -88,12 +76,12 @@ SparseTable linear_to_grid(const Embedding& embedding, const Grid& grid) {
         stencils[k].add(embedding.source_vertex[embedding.triangles(found.triangle[k], i)],
                         found.barycentric(k, i));
   });
-  return table_of_stencils(input_vertices(embedding), stencils);
+  return table_of_stencils(embedding.input_vertex_count(), stencils);
 }
 
 // A third of the areas of a vertex's triangles on the target.
 Eigen::VectorXd target_areas(const Embedding& embedding) {
-  Eigen::VectorXd areas = Eigen::VectorXd::Zero(input_vertices(embedding));
+  Eigen::VectorXd areas = Eigen::VectorXd::Zero(embedding.input_vertex_count());
   for (Eigen::Index t = 0; t < embedding.triangles.rows(); ++t) {
     const auto corner = [&](int k) -> Vector3 { return embedding.positions.row(embedding.triangles(t, k)); };
     const double area = std::abs(embedding.space().area(corner(0), corner(1), corner(2)));
@@ -118,7 +106,7 @@ SparseTable table_to_surface(const Embedding& embedding, const Grid& grid, Resam
 
 ConservativeTables conservative_tables(const Embedding& embedding, const Grid& grid,
                                        const Eigen::VectorXd& vertex_areas) {
-  const int vertices = input_vertices(embedding);
+  const int vertices = embedding.input_vertex_count();
   if (vertex_areas.size() != vertices)
     throw ArgumentError(fmt::format("there are areas of {} vertices, but the embedding has {}",
                                     vertex_areas.size(), vertices));

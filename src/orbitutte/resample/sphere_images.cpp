@@ -20,6 +20,12 @@ double sphere_triangle_area(const Vector3& a, const Vector3& b, const Vector3& c
   return std::abs(Space::sphere().area(a, b, c));
 }
 
+// Of a pixel; point(i, j) lies i rows below and j columns to the right of the image's upper left corner.
+template <typename Point>
+PixelCorners pixel_corners(int row, int column, const Point& point) {
+  return {point(row, column), point(row, column + 1), point(row + 1, column + 1), point(row + 1, column)};
+}
+
 double sign_or_one(double x) { return x < 0 ? -1 : 1; }
 
 // The point of an octahedral image: x to the right, y up, both -1 .. 1.
@@ -145,10 +151,8 @@ Grid octahedral_grid(int size) {
     for (int column = 0; column < size; ++column) {
       const Eigen::Index k = static_cast<Eigen::Index>(row) * size + column;
       grid.points.row(k) = octahedral_point(place(column + 0.5), -place(row + 0.5)).transpose();
-      const PixelCorners cell = {octahedral_point(place(column), -place(row)),
-                                 octahedral_point(place(column + 1), -place(row)),
-                                 octahedral_point(place(column + 1), -place(row + 1)),
-                                 octahedral_point(place(column), -place(row + 1))};
+      const PixelCorners cell = pixel_corners(
+          row, column, [&](double i, double j) { return octahedral_point(place(j), -place(i)); });
       // In the upper left and the lower right quarter the equator runs from the lower left to the upper
       // right.
       const bool rising = (2 * column < size) == (2 * row < size);
@@ -190,10 +194,8 @@ Grid cube_grid(int size) {
     for (int column = 0; column < size; ++column) {
       const Eigen::Index at = static_cast<Eigen::Index>(k) * size + column;
       grid.points.row(at) = cube_point(face, place(column + 0.5), place(row + 0.5)).transpose();
-      const PixelCorners cell = {cube_point(face, place(column), place(row)),
-                                 cube_point(face, place(column + 1), place(row)),
-                                 cube_point(face, place(column + 1), place(row + 1)),
-                                 cube_point(face, place(column), place(row + 1))};
+      const PixelCorners cell = pixel_corners(
+          row, column, [&](double i, double j) { return cube_point(face, place(j), place(i)); });
       grid.areas[at] =
           sphere_triangle_area(cell[0], cell[1], cell[2]) + sphere_triangle_area(cell[0], cell[2], cell[3]);
     }

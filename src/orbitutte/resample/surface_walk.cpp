@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "orbitutte/geometry/barycentric_coordinates.h"
+#include "orbitutte/geometry/morton.h"
 #include "orbitutte/geometry/orientation.h"
 #include "orbitutte/mesh/connectivity.h"
 #include "orbitutte/orbifold/signature.h"
@@ -25,15 +26,6 @@ constexpr int no_gluing = -1, no_halfedge = -1;
 constexpr int longest_walk = 20000;
 constexpr int most_crossings = 64;  // of seams, before rounding errors are left behind
 
-// The bits of a number below 2^21, each followed by two zeros.
-std::uint64_t bits_with_gaps(std::uint64_t x) {
-  x = (x | x << 32) & 0x1f00000000ffffULL;
-  x = (x | x << 16) & 0x1f0000ff0000ffULL;
-  x = (x | x << 8) & 0x100f00f00f00f00fULL;
-  x = (x | x << 4) & 0x10c30c30c30c30c3ULL;
-  return (x | x << 2) & 0x1249249249249249ULL;
-}
-
 // The numbers of the points along a curve that keeps neighbours near to each other (Morton's order).
 std::vector<int> along_curve(const Points& points) {
   const int count = static_cast<int>(points.rows());
@@ -44,13 +36,11 @@ std::vector<int> along_curve(const Points& points) {
   constexpr double cells = 0x1fffff;
   parallel_ranges(count, [&](int begin, int end) {
     for (int k = begin; k < end; ++k) {
-      std::uint64_t key = 0;
-      for (int c = 0; c < 3; ++c) {
+      const auto cell = [&](int c) {
         const double share = (points(k, c) - low[c]) / size;
-        const auto cell = static_cast<std::uint64_t>(share >= 0 && share <= 1 ? share * cells : 0);
-        key |= bits_with_gaps(cell) << c;
-      }
-      keys[k] = {key, k};
+        return static_cast<std::uint64_t>(share >= 0 && share <= 1 ? share * cells : 0);
+      };
+      keys[k] = {place_on_curve(cell(0), cell(1), cell(2)), k};
     }
   });
   std::sort(keys.begin(), keys.end());
@@ -157,9 +147,9 @@ struct SurfaceWalk::State {
     return no_halfedge;
   }
 
-  // From the opposite point of the sphere, the sides of a triangle that is turned over look the same.
+  // From the opposite point of a sphere, the sides of a triangle that is turned over look the same.
   bool is_this_side(const TriangleCorners& at, const Vector3& here) const {
-    return space.curvature() <= 0 || here.dot(at[0] + at[1] + at[2]) > 0;
+    return space.side(here, Vector3(at[0] + at[1] + at[2])) > 0;
   }
 
   // Goes to the triangle that holds the point, or returns false.

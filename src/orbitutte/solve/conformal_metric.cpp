@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "orbitutte/linear/laplacian_matrix.h"
+#include "orbitutte/mesh/intrinsic_triangulation.h"
 #include "orbitutte/parallel.h"
 
 namespace orbitutte {
@@ -60,10 +61,6 @@ TriangleAngles triangle_angles(int k, const std::array<double, 3>& half_sn) {
 namespace {
 
 // The area of the surface in space.
-double area_of(const Surface& surface) {
-  return parallel_sum(surface.triangle_count(), [&](int f) { return surface.area(f); });
-}
-
 // What the angles around each vertex add up to where nothing is marked; zero if no triangle uses it.
 Eigen::VectorXd ordinary_angles(const Surface& surface) {
   Eigen::VectorXd angles = Eigen::VectorXd::Zero(surface.vertex_count());
@@ -86,7 +83,8 @@ class ConformalScale {
  public:
   explicit ConformalScale(const ConformalProblem& problem)
       : surface_(problem.surface),
-        k_(problem.space.curvature()),
+        space_(problem.space),
+        k_(space_.curvature()),
         wanted_(problem.angles),
         ordinary_(ordinary_angles(problem.surface)),
         angles_(problem.angles),
@@ -105,9 +103,10 @@ class ConformalScale {
   ConformalMetric solve() {
     constexpr double loose = 1, tight = 1e-4;
     State state;
-    state.u = Eigen::VectorXd::Constant(surface_.vertex_count(), 0.5 * std::log(1 / area_of(surface_)));
+    state.u = Eigen::VectorXd::Constant(surface_.vertex_count(), 0.5 * std::log(1 / surface_.total_area()));
     double area = 1;
-    for (const double share : k_ > 0 ? std::vector<double>{0.3, 1} : std::vector<double>{1}) {
+    const std::vector<double> last = {1}, with_a_smaller = {0.3, 1};
+    for (const double share : space_.has_convex_distances() ? last : with_a_smaller) {
       const double next = share * area_;
       angles_ = angles_with_area(next);
       const double growth = 0.5 * std::log(next / area), limit = -std::log(length_.maxCoeff());
@@ -189,8 +188,8 @@ class ConformalScale {
     return state;
   }
 
-  // On the sphere no chord is longer than 2.
-  bool fits(const State& state) const { return k_ <= 0 || state.half_sn.maxCoeff() < 1; }
+  // In a closed space no chord is longer than 2.
+  bool fits(const State& state) const { return !space_.is_closed() || state.half_sn.maxCoeff() < 1; }
 
   // The derivative of the excess along -v.
   Eigen::VectorXd curved_laplacian(const State& state, const Eigen::VectorXd& v) const {
@@ -264,8 +263,7 @@ class ConformalScale {
 
   ConformalMetric metric_of(const State& state) const {
     ConformalMetric metric;
-    metric.lengths = state.half_sn.unaryExpr(
-        [this](double sn) { return 2 * (k_ > 0 ? std::asin(std::min(sn, 1.0)) : std::asinh(sn)); });
+    metric.lengths = state.half_sn.unaryExpr([this](double sn) { return space_.length_of_half_sn(sn); });
     metric.angles = state.angles;
     metric.is_flat = state.is_flat;
     metric.defect = state.defect();
@@ -273,6 +271,7 @@ class ConformalScale {
   }
 
   const Surface& surface_;
+  Space space_;
   int k_;
   const Eigen::VectorXd& wanted_;
   Eigen::VectorXd ordinary_;

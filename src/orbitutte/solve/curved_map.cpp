@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "orbitutte/linear/dissection.h"
+#include "orbitutte/mesh/intrinsic_triangulation.h"
 #include "orbitutte/orbifold/braid.h"
 #include "orbitutte/orbifold/cone_target.h"
 #include "orbitutte/orbifold/free_tile.h"
@@ -48,7 +49,7 @@ std::vector<double> areas_on_the_way(const Target& target) {
   const bool is_disk = target.topology == Topology::disk;
   const double small = is_disk ? 0.5 : 5, first = is_disk ? 0.5 : 3, step = is_disk ? 0.7 : 2;
   const double area = free_tile_area(target);
-  if (!target.space.is_closed() || area <= small) return {area};
+  if (target.space.has_convex_distances() || area <= small) return {area};
   const int steps = static_cast<int>(std::ceil((area - first) / step));
   std::vector<double> areas;
   for (int k = 0; k <= steps; ++k) areas.push_back(first + (area - first) * k / steps);
@@ -541,7 +542,7 @@ Points corners_of_polygon(const GluingProblem& problem, const Moduli& moduli) {
 // The operator of that is indefinite in the hyperbolic plane, where the energy of maps onto one tile is
 // convex: there the start is a matter of speed alone.
 Points first_map(const GluingProblem& problem, const Target& target, const Points& corners) {
-  if (!target.space.is_closed()) return corners;
+  if (target.space.has_convex_distances()) return corners;
   const Tile tile = tile_through(target, problem.cut, corners);
   const BoundaryConditions boundary = glue(problem.cut, tile, target);
   const GluedEdges glued = glued_along(problem, boundary);
@@ -601,7 +602,8 @@ class AreaContinuation {
       LbfgsOptions within = options;
       if (area < free_tile_area(problem_.target)) within.tolerance = std::max(options.tolerance, 1e-4);
       const Points cones = cones_of(minimum.positions, search.moduli());
-      if (!target.space.is_closed()) minimum.positions = approached(search, cones, minimum.positions, within);
+      if (target.space.has_convex_distances())
+        minimum.positions = approached(search, cones, minimum.positions, within);
       minimum = ShapeDescent({&search}, within, stage).run(cones, {minimum.positions}).front();
     }
     return minimum;

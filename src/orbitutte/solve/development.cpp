@@ -20,8 +20,7 @@ Vector3 placed(Space space, const Vector3& p, const Vector3& q, const PolarPlace
   const double length = space.norm(towards);
   const Vector3 ahead = length > 0 ? Vector3(towards / length)
                                    : Vector3(space.to_origin(p).inverse() * Vector3(Vector3::UnitX()));
-  Vector3 left = p.cross(ahead);
-  left.z() *= space.curvature();
+  const Vector3 left = space.turned_left(p, ahead);
   return space.retract(
       space.at(p, std::cos(place.angle) * ahead + std::sin(place.angle) * left, place.distance));
 }

@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "orbitutte/mesh/intrinsic_triangulation.h"
 #include "orbitutte/solve/frames.h"
 
 namespace orbitutte {

@@ -117,7 +117,7 @@ Points ModuliEnergy::gradient(const Points& x, const Points& cones) const {
     });
   });
   for (const int v : cones_) result.row(v).setZero();
-  if (moduli_.space().curvature() < 0) result.col(2) *= -1;
+  lower_rows(moduli_.space(), result);
   return result;
 }
 
@@ -161,7 +161,7 @@ Eigen::VectorXd ModuliEnergy::cone_gradient(const Points& x, const VaryingMarks&
     });
   });
   Eigen::VectorXd result = Eigen::VectorXd::Zero(marks.points().front().motion.parameters());
-  const Eigen::RowVector3d metric(1, 1, moduli_.space().curvature());
+  const Eigen::RowVector3d metric = moduli_.space().metric().transpose();
   for (Eigen::Index k = 0; k < cones.rows(); ++k)
     result += marks.points()[k].motion.velocities(cones.row(k)).transpose() *
               at_cones.row(k).cwiseProduct(metric).transpose();
@@ -185,21 +185,6 @@ VaryingMotion ModuliEnergy::motion_along(const GluedEdge& edge, const VaryingIso
 
 namespace {
 
-// d(d/sn d)/ds, with s = 4 sn^2(d/2) the squared chord: (1 - cs d d/sn d)/(2 sn^2 d). Nearby by the series of
-// d/sn d, the sum of G_j (k s/4)^j with G_j = 4^j j!^2/(2j + 1)!.
-double slope_of_over_sn(int k, double s, double over_sn) {
-  constexpr double nearby = 0.01;
-  if (s > nearby) return (1 - (1 - k * s / 2) * over_sn) / (2 * s * (1 - k * s / 4));
-  double sum = 0;
-  double power = k / 4.0, G = 2.0 / 3;
-  for (int j = 1; j <= 6; ++j) {
-    sum += j * G * power;
-    power *= k * s / 4;
-    G *= 2.0 * (j + 1) / (2 * j + 3);
-  }
-  return sum;
-}
-
 // What moving an edge's far end q, as it is seen from the near end p, changes: with the squared chord s = <y,
 // y>, y = q - p, and f(s) = d^2, of which f' = d/sn d.
 class MovingEdge {
@@ -208,15 +193,17 @@ class MovingEdge {
       : motion_(motion), p_(p), q_(q), y_(q - p), velocity_(motion.velocities(q)) {
     const Space space = motion.space;
     s_ = space.dot(y_, y_);
-    visit_curvature(space, [&](auto curvature) { slope_ = curvature.distance(p, q).over_sn; });
-    bend_ = slope_of_over_sn(space.curvature(), s_, slope_);
+    visit_curvature(space, [&](auto curvature) {
+      slope_ = curvature.distance(p, q).over_sn;
+      bend_ = curvature.slope_of_over_sn(s_, slope_);
+    });
     chord_ = 2 * (motion.first.transpose() * q.cross(y_));
   }
 
   // Of d^2, q x q: f'' s_a s_b + f' s_ab, with s_ab = 2 <Z_a q, Z_b q> + 2 <y, acceleration_ab>.
   void add_second(double w, Eigen::MatrixXd& sum) const {
     const Eigen::Index count = motion_.parameters();
-    const Vector3 metric(1, 1, motion_.space.curvature());
+    const Vector3 metric = motion_.space.metric();
     const Eigen::VectorXd second = motion_.second.transpose() * q_.cross(y_);
     Eigen::Matrix3Xd moments(3, count);
     for (Eigen::Index a = 0; a < count; ++a) moments.col(a) = Vector3(velocity_.col(a)).cross(y_);
@@ -269,8 +256,7 @@ ModuliEnergy::Curvature ModuliEnergy::curvature(const Points& x, const VaryingMa
     add(edge.i, w_[e] * moving.near_gradient());
     add(edge.j, w_[e] * moving.far_gradient(g.value));
   }
-  if (space.curvature() < 0)
-    for (Points& gradient : result.gradient) gradient.col(2) *= -1;
+  for (Points& gradient : result.gradient) lower_rows(space, gradient);
   return result;
 }
 

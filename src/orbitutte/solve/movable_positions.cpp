@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "orbitutte/geometry/orientation.h"
+#include "orbitutte/geometry/precise_distance.h"
 
 namespace orbitutte {
 namespace {
@@ -24,25 +25,6 @@ PreciseGroup<Real> group_of(const Gluing& gluing, const Target& target) {
   };
   return group_of_boundary<Real>(target,
                                  {cut.boundary, cut.source_vertex, boundary.seams, boundary.cones, position});
-}
-
-// d/sn d of the squared chord s up to an error, the sum of G_j (k s/4)^j with G_j = 4^j j!^2/(2j + 1)!. Of
-// long edges doubles have to do.
-template <typename Real>
-Real precise_over_sn(int k, const Real& s, double error) {
-  constexpr double longest = 2.5, of_doubles = 1e-15;
-  const double rough = static_cast<double>(s);
-  if (k == 0) return 1;
-  if (error >= of_doubles || !(rough < longest))
-    return k > 0 ? Curvature<1>::over_sn(rough) : Curvature<-1>::over_sn(rough);
-  const Real ratio = k * s / 4;
-  Real sum = 1, term = 1;
-  for (int j = 1; j < 500 && abs(term) > error; ++j) {
-    term *= ratio * (2 * j);
-    term /= 2 * j + 1;
-    sum += term;
-  }
-  return sum;
 }
 
 }  // namespace
@@ -144,21 +126,20 @@ Vector3 PrecisePositions<Real>::pull(int v, const std::vector<Neighbour>& neighb
 // See Curvature::tangent.
 template <typename Real>
 Vector3 PrecisePositions<Real>::tangential(const Vector& here, const Vector& sum) const {
-  const int curvature = gluing().boundary.space.curvature();
-  const Real off = here.z() * sum.z() + curvature * (here.x() * sum.x() + here.y() * sum.y());
+  const Real off = gluing().boundary.space.form(here, sum);
   return Vector(sum - off * here).template cast<double>();
 }
 
 template <typename Real>
 Vector3 PrecisePositions<Real>::harmonic_pull(int v, const std::vector<Neighbour>& neighbours,
                                               double error) const {
-  const int curvature = gluing().boundary.space.curvature();
+  const Space space = gluing().boundary.space;
   const Vector here = precise(v);
   Vector sum = Vector::Zero();
   for (const auto& [u, e, weight] : neighbours) {
     const Vector away = e == 0 ? Vector(precise(u) - here) : Vector(element(e) * precise(u) - here);
-    const Real s = away.x() * away.x() + away.y() * away.y() + curvature * (away.z() * away.z());
-    sum += Real(weight) * precise_over_sn<Real>(curvature, s, error) * away;
+    const Real s = space.squared_norm(away);
+    sum += Real(weight) * precise_over_sn<Real>(space, s, error) * away;
   }
   return tangential(here, sum);
 }

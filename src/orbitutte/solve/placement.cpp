@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "orbitutte/mesh/intrinsic_triangulation.h"
 #include "orbitutte/orbifold/free_tile.h"
 #include "orbitutte/solve/conformal_map.h"
 #include "orbitutte/solve/curved_map.h"

@@ -59,13 +59,6 @@ std::vector<int> tangent_unknowns(const BoundaryConditions& boundary) {
   return count;
 }
 
-// A tangent vector at p, moved along the geodesic from p to q: v - k <v, q>/(1 + cs d) (p + q).
-Vector3 parallel(Space space, const Vector3& v, const Vector3& p, const Vector3& q) {
-  const int k = space.curvature();
-  const double cs = k * p.head<2>().dot(q.head<2>()) + p.z() * q.z();
-  return v - k * space.dot(v, q) / (1 + cs) * (p + q);
-}
-
 // The lower triangle of a matrix of 2 x 2 blocks, one for each vertex and each edge between two that have
 // unknowns.
 class BlockMatrix {
@@ -180,7 +173,7 @@ TangentSystem TangentSystem::moved_to(const Points& x) const {
   parallel_ranges(static_cast<int>(x.rows()), [&](int begin, int end) {
     for (int v = begin; v < end; ++v)
       for (int a = 0; a < 2; ++a)
-        result.frames_[v].col(a) = parallel(space_, frames_[v].col(a), x_.row(v), x.row(v));
+        result.frames_[v].col(a) = space_.moved_along(frames_[v].col(a), x_.row(v), x.row(v));
   });
   return result;
 }
@@ -195,12 +188,8 @@ std::shared_ptr<const SparseMatrix> TangentSystem::assemble_form(const TangentPr
                                                                  const Points& x,
                                                                  const Factored& factored) const {
   const std::vector<GluedEdge>& edges = problem.glued.edges;
-  const int k_of_space = problem.boundary.space.curvature();
-  const auto lowered = [&](int v) {
-    Frame frame = frames_[v];
-    frame.row(2) *= k_of_space;
-    return frame;
-  };
+  const Vector3 metric = problem.boundary.space.metric();
+  const auto lowered = [&](int v) -> Frame { return metric.asDiagonal() * frames_[v]; };
   std::vector<double> sense;
   for (const Isometry& g : problem.glued.transforms) sense.push_back(g.reverses_orientation() ? -1 : 1);
   std::vector<EdgeHessian> hessians(edges.size());

@@ -25,6 +25,7 @@
 #include <utility>
 
 #include "orbitutte/mesh/connectivity.h"
+#include "orbitutte/mesh/intrinsic_triangulation.h"
 #include "orbitutte/orbifold/exact_positions.h"
 #include "orbitutte/orbifold/polygon.h"
 #include "orbitutte/orbifold/signature.h"
@@ -302,7 +303,7 @@ Check transform_check(const Embedding& embedding) {
 // Positions with offsets lie in the target's space at the scale of the edges beside them: by how much more or
 // less than 1 is k (x^2 + y^2) + z^2, in shares of the shortest edge there.
 Check exact_surface_check(const Embedding& triangles, const ExactPositions& positions) {
-  const int count = static_cast<int>(triangles.source_vertex.size()), k = triangles.space().curvature();
+  const int count = static_cast<int>(triangles.source_vertex.size());
   std::vector<char> has_offsets(count);
   for (int v = 0; v < count; ++v) has_offsets[v] = positions.has_offsets(v);
   const std::vector<double> shortest = shortest_edges(triangles, positions, has_offsets);
@@ -310,7 +311,7 @@ Check exact_surface_check(const Embedding& triangles, const ExactPositions& posi
   for (int v = 0; v < count; ++v) {
     if (!has_offsets[v]) continue;
     const Vector3Of<MostPrecise> p = positions.exact(v);
-    const MostPrecise off = k * (p.x() * p.x() + p.y() * p.y()) + p.z() * p.z() - 1;
+    const MostPrecise off = triangles.space().form(p, p) - 1;
     const double share = std::abs(static_cast<double>(off)) / shortest[v];
     if (share > 0) worst = std::max(worst, share);
   }

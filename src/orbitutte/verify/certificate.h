@@ -6,11 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "orbitutte/mesh/intrinsic_triangulation.h"
 #include "orbitutte/mesh/surface.h"
 #include "orbitutte/orbifold/embedding.h"
 
 namespace orbitutte {
+
+struct IntrinsicTriangulation;
 
 /// One condition of the certificate: `value` is compared with `bound` as `name` says.
 struct Check {

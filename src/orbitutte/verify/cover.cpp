@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "orbitutte/mesh/intrinsic_triangulation.h"
 #include "orbitutte/verify/edge_images.h"
 #include "orbitutte/verify/laid_out.h"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "orbitutte/verify/energy.h"
 
+#include "orbitutte/mesh/intrinsic_triangulation.h"
 #include "orbitutte/verify/edge_images.h"
 #include "orbitutte/verify/laid_out.h"
 

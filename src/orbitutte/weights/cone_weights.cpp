@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "orbitutte/mesh/intrinsic_triangulation.h"
 #include "orbitutte/parallel.h"
 #include "orbitutte/weights/delaunay_flips.h"
 

@@ -11,6 +11,7 @@
 
 #include "orbitutte/io/file.h"
 #include "orbitutte/io/text_scanner.h"
+#include "orbitutte/mesh/intrinsic_triangulation.h"
 #include "orbitutte/parallel.h"
 #include "orbitutte/weights/delaunay_flips.h"
 

@@ -18,7 +18,14 @@ class DrawnSpace {
   /// What a line of sight meets: the sphere or the plane.
   Space surface() const { return is_disk() ? Space::plane() : space_; }
 
-  bool is_disk() const { return space_.curvature() < 0; }
+  /// A ball that holds all of the picture.
+  struct Ball {
+    Vector3 centre;
+    double radius;
+  };
+
+  /// Nothing for the plane, which is drawn without an end.
+  std::optional<Ball> whole() const;
 
   /// Where a point of the space is drawn, on the surface.
   Vector3 at(const Vector3& p) const;
@@ -30,6 +37,8 @@ class DrawnSpace {
   double scale(const Vector3& p) const;
 
  private:
+  bool is_disk() const { return space_.curvature() < 0; }
+
   Space space_;
   Isometry to_middle_;
 };

@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "orbitutte/render/drawn_space.h"
+#include "orbitutte/geometry/drawn_space.h"
 
 namespace orbitutte {
 
 DrawnSpace::DrawnSpace(Space space, const Vector3& middle) : space_(space) {
   if (is_disk()) to_middle_ = space.to_origin(middle);
+}
+
+std::optional<DrawnSpace::Ball> DrawnSpace::whole() const {
+  if (is_disk()) return Ball{Space::origin(), 1};
+  if (space_.is_closed()) return Ball{Vector3::Zero(), 1};
+  return std::nullopt;
 }
 
 Vector3 DrawnSpace::at(const Vector3& p) const {
