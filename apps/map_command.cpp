@@ -220,6 +220,12 @@ SurfaceMap sought_map(const MapArguments& arguments, const Surface& a, const Sur
   return map;
 }
 
+SurfaceMap stored_map(const MapArguments& arguments, const Surface& a, const Surface& b) {
+  SurfaceMap map = read_surface_map(arguments.from, a, b);
+  map.a.threads = map.b.threads = arguments.threads;
+  return map;
+}
+
 // The files of a map that was sought.
 void write_map(const std::string& folder, const Mapped& result, const std::array<RunRecord, 2>& runs,
                const std::string& json) {
@@ -258,7 +264,7 @@ int map_command(const MapArguments& arguments) {
   const CarriedInputs carried(arguments, on_a, on_b);
   const double read_seconds = reading.seconds();
   SurfaceMap map = arguments.from.empty() ? sought_map(arguments, on_a, on_b)
-                                          : read_surface_map(arguments.from, on_a, on_b);
+                                          : stored_map(arguments, on_a, on_b);
 
   const Stopwatch composing;
   const Mapped result = mapped(on_a, on_b, std::move(map));

@@ -221,6 +221,10 @@ class Maps(CommandLine):
                 self.assertFalse((self.folder / 'nothing').exists())
         self.expect(IS_WRONG, *self.map('--landmarks', '1:1,60'), says="landmark '60' is not two vertices")
 
+    def test_two_projective_planes_are_refused_with_the_reason(self):
+        self.expect(0, 'sample', '--shape', 'boy', '--faces', 400, '-o', 'boy.obj')
+        self.expect(IS_UNSUITABLE, 'map', 'boy.obj', 'boy.obj', '--landmarks', '1:1,60:60,120:120', says='projective-?plane; .* have one mark alone')
+
     def test_no_file_of_the_map_replaces_an_input(self):
         (self.folder / 'own').mkdir(exist_ok=True)
         shutil.copy(self.folder / 'figure.obj', self.folder / 'own' / 'overlay_a.obj')

@@ -343,15 +343,6 @@ int ExactSigns::orientation(const PlacedPoint& p, const PlacedPoint& q, const Pl
 }
 
 Vector3 ExactSigns::coordinates(const std::array<PlacedPoint, 3>& corners, const PlacedPoint& point) const {
-  constexpr double enough = 1e-13;
-  Vector3 weights;
-  double error = 0;
-  for (int k = 0; k < 3; ++k) {
-    const RoughDeterminant rough = rough_determinant(point, corners[(k + 1) % 3], corners[(k + 2) % 3]);
-    weights[k] = std::max(rough.value, 0.0);
-    error += rough.error;
-  }
-  if (error <= enough * weights.sum()) return weights / weights.sum();
   if (const std::optional<Vector3> fine = fine_coordinates(elements_, corners, point)) return *fine;
   if (!all_digits_) return precise_coordinates<Precise>(elements_, corners, point, Trust::always);
   const Vector3 precise =
