@@ -154,7 +154,7 @@ TEST(Colours, TwelveMarksAreToldApartAndBearWhiteNumbers) {
     for (int d = 0; d < c; ++d) {
       const Rgb x = cone_colour(c), y = cone_colour(d);
       const double away = std::hypot(x.red - y.red, x.green - y.green, x.blue - y.blue);
-      EXPECT_GT(away, 50) << c << " and " << d;
+      EXPECT_GT(away, 45) << c << " and " << d;
     }
   }
   EXPECT_EQ(different.size(), static_cast<std::size_t>(count));

@@ -63,7 +63,7 @@ def shared_mesh(name):
     return mesh, mesh, [(v, v) for v in orbitutte.choose_cones(*mesh, "2222")]
 
 
-# With four landmarks a hand of the bodies shrinks by ten million: the points in between are doubles.
+# With four landmarks limbs of the bodies shrink so far that the last digits of the doubles in between show.
 @pytest.mark.parametrize(("made", "bound"), [(lambda: shared_pair("bodies", range(5)), 1e-9), (lambda: shared_pair("bodies", (0, 1, 3, 4)), 1e-8),
                                              (lambda: shared_pair("hands", range(5)), 1e-9), (lambda: shared_mesh("spot.obj"), 1e-9),
                                              (lambda: shared_mesh("itokawa.off"), 1e-9)], ids=["bodies", "bodies by four", "hands", "spot", "itokawa"])
