@@ -804,7 +804,7 @@ class OverlayExaminer {
   }
 
   // An image on the target, and by how much the rounding of coordinates may move it: in triangles of the size
-  // of a hemisphere they cancel, and far out in the hyperbolic plane the difference of their squares is 1.
+  // of a hemisphere they cancel.
   std::optional<NearPoint> point_of(int side, int f, int v) const {
     const std::optional<Vector3> coordinates = coordinates_in(side, f, v);
     if (!coordinates || !coordinates->allFinite() || coordinates->minCoeff() < 0 ||
@@ -812,10 +812,7 @@ class OverlayExaminer {
       return std::nullopt;
     Vector3 sum = Vector3::Zero();
     for (int k = 0; k < 3; ++k) sum += (*coordinates)[k] * points_.near(corner_of_parent(side, f, k)).x;
-    const Space space = embeddings_[0]->space();
-    const Vector3 image = space.retract(sum);
-    const double cancelled = space.curvature() < 0 ? 2e-15 * sum.squaredNorm() * image.norm() : 0;
-    return NearPoint{image, 1e-14 / std::min(1.0, sum.norm()) + cancelled};
+    return NearPoint{embeddings_[0]->space().retract(sum), 1e-14 / std::min(1.0, sum.norm())};
   }
 
   void examine_positions() {

@@ -248,7 +248,7 @@ Points PrecisePositions<Real>::spread(const std::vector<double>& shortest_edge,
   Points result = gluing().boundary.spread(positions(), source_vertex);
   for (int c = 0; c < static_cast<int>(source_vertex.size()); ++c) {
     const int v = source_vertex[c];
-    if (!is_refined(v)) continue;
+    if (!is_refined(v) || shortest_edge[v] > long_enough) continue;
     Vector rest = cut_position(c);
     // Takes away what a double holds of it.
     const auto split = [&rest] {
@@ -256,9 +256,7 @@ Points PrecisePositions<Real>::spread(const std::vector<double>& shortest_edge,
       rest -= to_precise<Real>(d);
       return d;
     };
-    // Also where no offset follows: gluings of free tiles that close in doubles alone are off by more.
     result.row(c) = split();
-    if (shortest_edge[v] > long_enough) continue;
     for (int k = 0; k < most; ++k) {
       offsets.push_back({c, split()});
       if (Vector3(rest.template cast<double>()).cwiseAbs().maxCoeff() <= part * shortest_edge[v]) break;
