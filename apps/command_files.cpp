@@ -67,6 +67,24 @@ void require_sound_files(const std::vector<InputFile>& inputs, const std::vector
   }
 }
 
+void require_folders(const std::vector<OutputFile>& outputs, const std::string& made) {
+  for (const OutputFile& output : outputs) {
+    const fs::path folder = fs::path(output.path).parent_path();
+    std::error_code error;
+    if (folder.empty() || fs::is_directory(folder, error) ||
+        (!made.empty() && resolved(folder) == resolved(made)))
+      continue;
+    throw FileError(fmt::format("{} is '{}', but there is no folder '{}'; make it first", output.option,
+                                output.path, folder.string()));
+  }
+}
+
+void require_no_file_there(const std::string& folder) {
+  std::error_code error;
+  if (fs::exists(folder, error) && !fs::is_directory(folder, error))
+    throw FileError(fmt::format("the folder '{}' cannot be made: a file has that name", folder));
+}
+
 void make_folder(const std::string& folder) {
   std::error_code error;
   fs::create_directories(folder, error);

@@ -33,6 +33,13 @@ bool is_same_file(const std::string& first, const std::string& second);
 /// ending that its content does not have. Devices and pipes may be anything. Opens no file.
 void require_sound_files(const std::vector<InputFile>& inputs, const std::vector<OutputFile>& outputs);
 
+/// Throws FileError if a file cannot be written since the folder that it goes into is none; files in `made`,
+/// a folder that the command makes, have no such trouble. Opens no file.
+void require_folders(const std::vector<OutputFile>& outputs, const std::string& made);
+
+/// Throws FileError if there is a file with the name of a folder that is to be made.
+void require_no_file_there(const std::string& folder);
+
 /// Makes the folder, and those above it, if it is not there. Throws FileError.
 void make_folder(const std::string& folder);
 

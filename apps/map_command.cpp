@@ -62,6 +62,8 @@ void require_inputs_kept(const MapArguments& arguments) {
     for (const OutputFile& file : files_in(arguments.from))
       inputs.push_back({"a file of the map", file.path});
   require_sound_files(inputs, outputs);
+  require_no_file_there(folder);
+  require_folders(outputs, folder);
 }
 
 // With --from, what would change the map is not looked at, so it may not be given.
@@ -218,6 +220,12 @@ SurfaceMap sought_map(const MapArguments& arguments, const Surface& a, const Sur
   return map;
 }
 
+SurfaceMap stored_map(const MapArguments& arguments, const Surface& a, const Surface& b) {
+  SurfaceMap map = read_surface_map(arguments.from, a, b);
+  map.a.threads = map.b.threads = arguments.threads;
+  return map;
+}
+
 // The files of a map that was sought.
 void write_map(const std::string& folder, const Mapped& result, const std::array<RunRecord, 2>& runs,
                const std::string& json) {
@@ -249,16 +257,19 @@ int map_command(const MapArguments& arguments) {
   require_sound_source(arguments);
   require_sound_products(arguments);
   require_inputs_kept(arguments);
+  const Stopwatch reading;
   const MappedInput a = read_surface(surface_input(arguments.a, arguments));
   const MappedInput b = read_surface(surface_input(arguments.b, arguments));
   const Surface &on_a = *a.input.surface, &on_b = *b.input.surface;
   const CarriedInputs carried(arguments, on_a, on_b);
+  const double read_seconds = reading.seconds();
   SurfaceMap map = arguments.from.empty() ? sought_map(arguments, on_a, on_b)
-                                          : read_surface_map(arguments.from, on_a, on_b);
+                                          : stored_map(arguments, on_a, on_b);
 
   const Stopwatch composing;
   const Mapped result = mapped(on_a, on_b, std::move(map));
-  Timings timings = result.map.timings;
+  Timings timings = {{"read", read_seconds}};
+  timings.insert(timings.end(), result.map.timings.begin(), result.map.timings.end());
   timings.emplace_back("compose", composing.seconds());
   timings.emplace_back("total", total.seconds());
   std::array<RunRecord, 2> runs = {a.run, b.run};

@@ -97,7 +97,8 @@ TextureLayout layout_of_b(const std::string& path) {
   std::optional<TextureLayout> layout = read_texture_layout(path);
   if (!layout)
     throw MeshError(fmt::format(
-        "{}: B has no texture coordinates, which --texture needs; use an OBJ with 'vt' lines", path));
+        "{}: B has no texture coordinates, which --texture needs; use an OBJ with 'vt' lines{}", path,
+        ending_of(path) == ".glb" || ending_of(path) == ".gltf" ? " (those of glTF are not read)" : ""));
   return std::move(*layout);
 }
 
@@ -264,14 +265,14 @@ void require_sound_products(const MapArguments& arguments) {
   if (arguments.texture.empty() && (arguments.new_chart || !arguments.texture_size.empty()))
     throw ArgumentError(fmt::format("{} belongs to --texture, which was not given",
                                     arguments.new_chart ? "--new-chart" : "--texture-size"));
-  if (!arguments.texture_size.empty()) parse_texture_size(arguments.texture_size);
+  if (!arguments.texture_size.empty()) require_texture_size(parse_texture_size(arguments.texture_size));
   if (arguments.frames == 0 && !arguments.morph.empty() && !is_glb(arguments.morph))
     throw ArgumentError(
         "--morph writes one .glb, or else --frames says how many meshes; give it, or change the ending");
   if (arguments.frames != 0 && (arguments.morph.empty() || is_glb(arguments.morph)))
     throw ArgumentError("--frames belongs to --morph with the name of a mesh, such as --morph frame.ply");
   if (arguments.frames != 0) frame_paths(arguments.morph, arguments.frames);
-  if (!arguments.picture.empty()) require_pictures();
+  if (!arguments.picture.empty()) require_pictures(arguments.view, arguments.up);
   if (arguments.picture.empty() && !(arguments.view.empty() && arguments.up.empty()))
     throw ArgumentError("--view and --up belong to --picture, which was not given");
 }

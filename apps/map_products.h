@@ -49,8 +49,8 @@ struct MappedSurfaces {
   const ComposedMap& composed;
 };
 
-/// Throws ArgumentError in builds without pictures.
-void require_pictures();
+/// Throws ArgumentError in builds without pictures, and for a view or a direction up that is none.
+void require_pictures(const std::string& view, const std::string& up);
 
 /// The sheet of a map: PNG.
 std::string map_picture(const MapArguments& arguments, const MappedSurfaces& mapped);

@@ -524,6 +524,16 @@ void products_of_map(Command<MapArguments>& command) {
                 "curves_on_a.obj");
 }
 
+// What would change the map says nothing where it is read.
+void require_search_or_map(const CLI::App& command, MapArguments& arguments) {
+  if (arguments.from.empty()) return;
+  for (const char* const option : {"--landmarks", "--tile", "--tour", "--weights", "--clamp", "--cut-seed-a",
+                                   "--cut-seed-b", "--tolerance", "--max-iterations"})
+    if (command.count(option) > 0)
+      throw orbitutte::ArgumentError(
+          fmt::format("{} seeks a map and --from reads one; give one of them", option));
+}
+
 void add_map(CLI::App& app, int& code) {
   Command<MapArguments> command(
       app, "map", "Map one surface to another so that landmarks correspond, one to one, and certify it");
@@ -566,6 +576,7 @@ void add_map(CLI::App& app, int& code) {
   command.flag("--quiet", command->quiet, "Print no progress and no summary");
   command.flag("--json", command->json, "Print map.json on standard output");
   products_of_map(command);
+  command.prepares(require_search_or_map);
   command.runs(map_command, code);
 }
 

@@ -55,7 +55,10 @@ void write_scale_picture(const std::string& path, const Surface& surface, const 
   write_picture(path, {surface, embedding, Report(), "", candidates}, options);
 }
 
-void require_pictures() {}
+void require_pictures(const std::string& view, const std::string& up) {
+  const Vector3 direction = up.empty() ? Vector3(Vector3::UnitY()) : parse_up_direction(up);
+  if (!view.empty()) parse_view_direction(view, direction);
+}
 
 std::string map_picture(const MapArguments& arguments, const MappedSurfaces& mapped) {
   const Viewpoint viewpoint = parse_viewpoint(arguments.view, arguments.up, mapped.a);

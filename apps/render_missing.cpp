@@ -25,7 +25,7 @@ void write_scale_picture(const std::string&, const Surface&, const Embedding&, c
   throw ArgumentError(no_pictures);
 }
 
-void require_pictures() { throw ArgumentError(no_pictures); }
+void require_pictures(const std::string&, const std::string&) { throw ArgumentError(no_pictures); }
 
 std::string map_picture(const MapArguments&, const MappedSurfaces&) { throw ArgumentError(no_pictures); }
 

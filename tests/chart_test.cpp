@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <set>
+#include <string>
 
 #include "orbitutte/export/palette.h"
 #include "orbitutte/page/svg_chart.h"
@@ -139,6 +141,23 @@ TEST(Colours, EncodingToSrgbAndBackIsExact) {
     EXPECT_EQ(srgb(linear({channel, 17, 255})), (Rgb{channel, 17, 255}));
   }
   EXPECT_EQ(hexadecimal({0, 92, 160}), "#005ca0");
+}
+
+TEST(Colours, TwelveMarksAreToldApartAndBearWhiteNumbers) {
+  constexpr int count = 12;
+  std::set<std::string> different;
+  for (int c = 0; c < count; ++c) {
+    const Colour colour = linear(cone_colour(c));
+    different.insert(hexadecimal(cone_colour(c)));
+    const double luminance = 0.2126 * colour[0] + 0.7152 * colour[1] + 0.0722 * colour[2];
+    EXPECT_GT(1.05 / (luminance + 0.05), 3) << c;
+    for (int d = 0; d < c; ++d) {
+      const Rgb x = cone_colour(c), y = cone_colour(d);
+      const double away = std::hypot(x.red - y.red, x.green - y.green, x.blue - y.blue);
+      EXPECT_GT(away, 45) << c << " and " << d;
+    }
+  }
+  EXPECT_EQ(different.size(), static_cast<std::size_t>(count));
 }
 
 TEST(Colours, LinesOfChartsStandOutFromTheirGround) {

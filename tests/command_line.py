@@ -221,6 +221,10 @@ class Maps(CommandLine):
                 self.assertFalse((self.folder / 'nothing').exists())
         self.expect(IS_WRONG, *self.map('--landmarks', '1:1,60'), says="landmark '60' is not two vertices")
 
+    def test_two_projective_planes_are_refused_with_the_reason(self):
+        self.expect(0, 'sample', '--shape', 'boy', '--faces', 400, '-o', 'boy.obj')
+        self.expect(IS_UNSUITABLE, 'map', 'boy.obj', 'boy.obj', '--landmarks', '1:1,60:60,120:120', says='projective-?plane; .* have one mark alone')
+
     def test_no_file_of_the_map_replaces_an_input(self):
         (self.folder / 'own').mkdir(exist_ok=True)
         shutil.copy(self.folder / 'figure.obj', self.folder / 'own' / 'overlay_a.obj')
@@ -300,6 +304,32 @@ class Maps(CommandLine):
                 self.assertFalse((self.folder / 'none').exists())
         self.expect(IS_A_FILE, *self.map('--landmarks', self.LANDMARKS, '--texture', 'no.png', '-o', 'none', b=mesh), says='neither a PNG nor a JPEG')
         self.expect(IS_WRONG, *self.map('--landmarks', self.LANDMARKS, '--texture', picture, '--texture-size', 'big', '-o', 'none', b=mesh), says="'big'")
+
+    def test_what_cannot_be_written_is_named_before_the_map_is_sought(self):
+        mesh, picture = self.textured_figure()
+        for code, options, says in ((IS_WRONG, ['--picture', 'sheet.png', '--view', 'sideways'], "the view is 'sideways'|without pictures"),
+                                    (IS_WRONG, ['--picture', 'sheet.png', '--up', 'w'], "the direction up is 'w'|without pictures"),
+                                    (IS_WRONG, ['--texture', picture, '--texture-size', '99999', '-o', 'none'], 'a texture of 99999 x 99999 pixels'),
+                                    (IS_A_FILE, ['--page', 'nowhere/page.html'], "--page is 'nowhere/page.html', but there is no folder 'nowhere'"),
+                                    (IS_A_FILE, ['--morph', 'nowhere/f.ply', '--frames', '3'], "there is no folder 'nowhere'"),
+                                    (IS_A_FILE, ['-o', 'figure.obj'], "the folder 'figure.obj' cannot be made: a file has that name")):
+            with self.subTest(options):
+                done = self.expect(code, *self.map('--landmarks', '1:1,60:60', *options, b=mesh), says=says)  # too few landmarks: not looked at
+                self.assertEqual(done.stderr.count('\n'), 1)
+                self.assertFalse((self.folder / 'none').exists())
+
+    def test_what_would_change_the_map_is_refused_where_one_is_read(self):
+        for option, value in (('--tile', 'regular'), ('--tour', '0,1,2,3'), ('--weights', 'cotan'), ('--clamp', '0.1'), ('--cut-seed-a', '3'),
+                              ('--cut-seed-b', '3'), ('--tolerance', '1e-6'), ('--max-iterations', '7'), ('--landmarks', self.LANDMARKS)):
+            with self.subTest(option):
+                self.expect(IS_WRONG, *self.map('--from', 'no folder', option, value, '--page', 'page.html'), says=f'{option} seeks a map and --from reads one')
+
+    def test_stages_add_up_to_the_total(self):
+        done = self.expect(0, *self.map('--landmarks', self.LANDMARKS, '--json'))
+        timings = json.loads(done.stdout)['timings']
+        total = timings.pop('total')
+        self.assertLessEqual(sum(timings.values()), total + 1e-6)
+        self.assertGreater(sum(timings.values()), 0.8 * total)
 
 
 class Resampling(CommandLine):

@@ -476,6 +476,17 @@ TEST(DefaultView, WhatStandsOnABroadBaseAcrossZHasZUp) {
   EXPECT_EQ(default_up_direction(test::unjudged(Mesh())), Vector3::UnitY());
 }
 
+// Legs in a square below a head, along -y: a cone upside down.
+TEST(DefaultView, WhatStandsOnABroadBaseAtTheFarEndOfYHasThatDown) {
+  const Mesh mesh = pyramid();
+  const Mesh standing{mesh.V(Eigen::all, {1, 2, 0}), mesh.F};
+  Mesh hanging = standing;
+  hanging.V.col(1) *= -1;
+  hanging.F.col(1).swap(hanging.F.col(2));
+  EXPECT_EQ(default_up_direction(test::unjudged(standing)), Vector3::UnitY());
+  EXPECT_EQ(default_up_direction(test::unjudged(hanging)), -Vector3::UnitY());
+}
+
 TEST(DefaultView, OpenSurfacesAreSeenFromWhereTheyFace) {
   const Mesh mesh = sample_embedding("*432").mesh;  // a bent disk that faces +z
   const SourceFigure figure(mesh.V, mesh.F);

@@ -223,8 +223,10 @@ def map_between(A: Any, B: Any, landmarks: npt.ArrayLike = (), *, tile: str = "s
         Which cuts through the landmarks are taken on A and on B. They change nothing about the map.
     progress : callable(stage, iteration, energy, gradient_norm), optional
         As for `embed`.
-    weights, clamp, tolerance, max_iterations, threads
+    weights, clamp, max_iterations, threads
         As for `embed`.
+    tolerance : float
+        As for `embed`, but 1e-13: errors in shrunk limbs appear in full size on the other surface. Hyperbolic tiles stop at 1e-9.
 
     Raises
     ------
@@ -234,6 +236,7 @@ def map_between(A: Any, B: Any, landmarks: npt.ArrayLike = (), *, tile: str = "s
     ArgumentError, TypeError, Cancelled
         As for `embed`.
     """
+    options.setdefault("tolerance", 1e-13)
     meshes = _arrays.mesh(*A), _arrays.mesh(*B)
     pairs = _landmarks(landmarks)
     seeds = tuple(_options.whole(seed, "cut_seeds") for seed in cut_seeds)

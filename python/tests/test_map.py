@@ -1,12 +1,16 @@
 # SPDX-License-Identifier: MIT
 """Maps between two surfaces."""
 import json
+import pathlib
 import struct
 
 import numpy as np
 import pytest
 
 import orbitutte
+
+
+SHARED = pathlib.Path(__file__).resolve().parents[3] / "shared"
 
 
 @pytest.fixture(scope="module")
@@ -41,6 +45,34 @@ def test_there_and_back_is_the_identity(pair, surface_map):
     A = pair[0]
     back = surface_map.to_a(surface_map.to_b())
     assert np.abs(points_in_space(A, back) - A[0]).max() < 1e-9
+
+
+def shared_pair(name, rows):
+    folder = SHARED / "pairs" / name
+    if not folder.is_dir():
+        pytest.skip(f"{folder} is not there")
+    marks = np.loadtxt(folder / "landmarks.tsv", skiprows=1, dtype=int)[list(rows)]
+    return orbitutte.read_mesh(folder / "a.off"), orbitutte.read_mesh(folder / "b.off"), marks
+
+
+def shared_mesh(name):
+    path = SHARED / "meshes" / name
+    if not path.exists():
+        pytest.skip(f"{path} is not there")
+    mesh = orbitutte.read_mesh(path)
+    return mesh, mesh, [(v, v) for v in orbitutte.choose_cones(*mesh, "2222")]
+
+
+# With four landmarks limbs of the bodies shrink so far that the last digits of the doubles in between show.
+@pytest.mark.parametrize(("made", "bound"), [(lambda: shared_pair("bodies", range(5)), 1e-9), (lambda: shared_pair("bodies", (0, 1, 3, 4)), 1e-8),
+                                             (lambda: shared_pair("hands", range(5)), 1e-9), (lambda: shared_mesh("spot.obj"), 1e-9),
+                                             (lambda: shared_mesh("itokawa.off"), 1e-9)], ids=["bodies", "bodies by four", "hands", "spot", "itokawa"])
+def test_there_and_back_is_the_identity_even_where_limbs_shrink(made, bound):
+    A, B, landmarks = made()
+    found = orbitutte.map_between(A, B, landmarks, cut_seeds=(0, 7))
+    for (V, F), back in ((A, found.to_a(found.to_b())), (B, found.to_b(found.to_a()))):
+        size = np.linalg.norm(V.max(axis=0) - V.min(axis=0))
+        assert np.linalg.norm(points_in_space((V, F), back) - V, axis=1).max() < bound * size
 
 
 def test_rows_of_the_matrix_sum_to_one(pair, surface_map):

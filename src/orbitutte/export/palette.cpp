@@ -25,7 +25,18 @@ Rgb tile_colour(int colour, bool mirrored) {
 }
 
 Rgb cone_colour(int cone) {
-  static constexpr std::array<Rgb, 4> colours = {{{204, 51, 17}, {0, 136, 96}, {136, 46, 114}, {0, 92, 160}}};
+  static constexpr std::array<Rgb, 12> colours = {{{204, 51, 17},
+                                                   {0, 136, 96},
+                                                   {136, 46, 114},
+                                                   {0, 92, 160},
+                                                   {176, 112, 0},
+                                                   {0, 140, 170},
+                                                   {226, 62, 150},
+                                                   {92, 52, 20},
+                                                   {98, 128, 0},
+                                                   {120, 96, 224},
+                                                   {24, 32, 84},
+                                                   {118, 118, 124}}};
   return colours[cone % colours.size()];
 }
 

@@ -21,7 +21,8 @@ Rgb tile_colour(int colour, bool mirrored);
 /// The source, and the tile itself among its copies.
 constexpr Rgb bold_colour = {86, 142, 205};
 
-/// Marked vertices and seams, by their number in the embedding; the lists start again at their ends.
+/// Marked vertices and seams, by their number in the embedding; the lists start again at their ends, after
+/// twelve and six. Those of marked vertices are dark enough for white numbers.
 Rgb cone_colour(int cone);
 Rgb seam_colour(int seam);
 

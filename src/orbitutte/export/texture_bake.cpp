@@ -215,12 +215,6 @@ class PieceTexture {
   Triangles rows_;
 };
 
-void require_size(const TextureSize& size) {
-  if (std::min(size.width, size.height) < 1 || std::max(size.width, size.height) > largest_texture)
-    throw ArgumentError(fmt::format("a texture of {} x {} pixels; its sides may have 1 to {}", size.width,
-                                    size.height, largest_texture));
-}
-
 void require_no_overlap(const TextureCanvas& canvas) {
   constexpr double tolerated = 0.01;
   if (canvas.overlap() > tolerated)
@@ -232,9 +226,15 @@ void require_no_overlap(const TextureCanvas& canvas) {
 
 }  // namespace
 
+void require_texture_size(const TextureSize& size) {
+  if (std::min(size.width, size.height) < 1 || std::max(size.width, size.height) > largest_texture)
+    throw ArgumentError(fmt::format("a texture of {} x {} pixels; its sides may have 1 to {}", size.width,
+                                    size.height, largest_texture));
+}
+
 PixelImage bake_texture(const Overlay& overlay, const TexturedSurface& a, const TexturedSurface& b,
                         const PixelImage& picture_of_b, const TextureSize& size) {
-  require_size(size);
+  require_texture_size(size);
   const OverlayPieces pieces = overlay_pieces(overlay);
   const PieceTexture on_a(a, overlay.on_a), on_b(b, overlay.on_b);
   const PictureSampler sampler(picture_of_b, b.layout);

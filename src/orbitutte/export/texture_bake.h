@@ -22,6 +22,9 @@ struct TextureSize {
   int width = 0, height = 0;
 };
 
+/// Throws ArgumentError if a side is out of range.
+void require_texture_size(const TextureSize& size);
+
 /// B's picture in A's texture coordinates: the colour of a point of A is the colour of B where it lies there.
 /// On every piece of the overlay both texture coordinates are linear, so that the map is exact at the
 /// vertices of the overlay and continuous in between. Every pixel is the mean, in linear light, of nine

@@ -19,9 +19,7 @@ double landmark_error(const Surface& b, const SurfaceMap& map, const VertexMap& 
   return largest / std::sqrt(b.total_area());
 }
 
-}  // namespace
-
-ComposedMap compose(const Surface& a, const Surface& b, const SurfaceMap& map) {
+ComposedMap composed_of(const Surface& a, const Surface& b, const SurfaceMap& map) {
   const Embedding &on_a = map.a.embedding, &on_b = map.b.embedding;
   ComposedMap result;
   result.overlay = overlay(on_a, on_b);
@@ -35,6 +33,12 @@ ComposedMap compose(const Surface& a, const Surface& b, const SurfaceMap& map) {
       measure_map(overlay_triangles(result.overlay).triangles, result.overlay_on_a, result.overlay_on_b);
   result.landmark_error = landmark_error(b, map, result.a_to_b);
   return result;
+}
+
+}  // namespace
+
+ComposedMap compose(const Surface& a, const Surface& b, const SurfaceMap& map) {
+  return with_threads(map.a.threads, [&] { return composed_of(a, b, map); });
 }
 
 }  // namespace orbitutte

@@ -26,7 +26,8 @@ struct ComposedMap {
   double landmark_error = 0;
 };
 
-/// `map` is of the surfaces a and b. Throws MeshError naming a face if an embedding is not certified, and as
+/// `map` is of the surfaces a and b, and takes as many threads as were allowed for its first embedding
+/// (EmbedResult::threads; 0: all). Throws MeshError naming a face if an embedding is not certified, and as
 /// overlay does.
 ComposedMap compose(const Surface& a, const Surface& b, const SurfaceMap& map);
 

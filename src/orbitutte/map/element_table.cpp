@@ -25,6 +25,13 @@ bool are_equal(const Matrix3Of<Precise>& a, const Matrix3Of<Precise>& b, double 
   return true;
 }
 
+Matrix3Of<DoubleDouble> fine_matrix(const Matrix3Of<Precise>& precise, const Matrix3& rough) {
+  const Matrix3 rest = (precise - rough.cast<Precise>()).cast<double>();
+  Matrix3Of<DoubleDouble> result;
+  for (int i = 0; i < 9; ++i) result.data()[i] = DoubleDouble::sum(rough.data()[i], rest.data()[i]);
+  return result;
+}
+
 }  // namespace
 
 ElementTable::ElementTable(Space space) : space_(space) { add(Matrix3Of<MostPrecise>::Identity()); }
@@ -38,7 +45,7 @@ int ElementTable::add(const Matrix3Of<MostPrecise>& matrix) {
         are_equal(elements_[g].precise, precise, size))
       return g;
   const Matrix3 inverse = precise_inverse(space_, matrix).cast<double>();
-  elements_.push_back({Isometry(rough, inverse), precise, matrix});
+  elements_.push_back({Isometry(rough, inverse), fine_matrix(precise, rough), precise, matrix});
   return count() - 1;
 }
 

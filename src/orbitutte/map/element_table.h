@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "orbitutte/geometry/double_double.h"
 #include "orbitutte/orbifold/embedding.h"
 #include "orbitutte/orbifold/precise_group.h"
 
@@ -25,6 +26,9 @@ class ElementTable {
 
   int count() const { return static_cast<int>(elements_.size()); }
   const Isometry& rough(int element) const { return elements_[element].rough; }
+
+  /// With the digits of two doubles: each entry is right to 2^-105 of itself.
+  const Matrix3Of<DoubleDouble>& fine(int element) const { return elements_[element].fine; }
   const Matrix3Of<Precise>& precise(int element) const { return elements_[element].precise; }
   const Matrix3Of<MostPrecise>& exact(int element) const { return elements_[element].exact; }
   const Space& space() const { return space_; }
@@ -32,6 +36,7 @@ class ElementTable {
  private:
   struct Element {
     Isometry rough;
+    Matrix3Of<DoubleDouble> fine;
     Matrix3Of<Precise> precise;
     Matrix3Of<MostPrecise> exact;
   };

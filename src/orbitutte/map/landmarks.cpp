@@ -38,8 +38,11 @@ void require_same_topology(const Surface& a, const Surface& b) {
         fmt::format("surface A is a {}, but surface B is a {}; a map between them needs two of one topology",
                     name_of(a.topology), name_of(b.topology)));
   if (a.topology != Topology::sphere && a.topology != Topology::disk)
-    throw MeshError(fmt::format("both surfaces are a {}; maps are made between spheres and between disks",
-                                name_of(a.topology)));
+    throw MeshError(fmt::format(
+        "both surfaces are a {}; maps are made between spheres and between disks{}", name_of(a.topology),
+        a.topology == Topology::projective_plane
+            ? ", since the targets of projective planes have one mark alone, which holds no landmarks but one"
+            : ""));
 }
 
 void require_vertices(const MarkedSurface& side) {

@@ -5,10 +5,9 @@
 #include "orbitutte/map/overlay.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
-#include <unordered_map>
 #include <utility>
 
 #include "orbitutte/map/surface_pair.h"
@@ -145,19 +144,22 @@ class OverlayBuilder {
   }
 
   void lay_edges_of_b() {
+    first_of_b_.resize(b_.edge_count());
     pieces_of_b_.resize(b_.edge_count());
     walked_halfedge_.resize(b_.edge_count());
+    halfedges_.reserve(2 * walked_.pieces.size());
     for (int i = 0; i < walked_.count(); ++i) {
       const int h = walked_.halfedge[i], stops = walked_.stop_count(i);
       const int e = b_.edge[h];
       walked_halfedge_[e] = h;
+      first_of_b_[e] = static_cast<int>(halfedges_.size());
+      pieces_of_b_[e] = stops - 1;
       int origin = id_of_b_[b_.vertex_of(h)];
       for (int k = 1; k < stops; ++k) {
         const bool is_end = k == stops - 1;
         const int target = is_end ? id_of_b_[b_.vertex_of(next_halfedge(h))] : vertex_at_stop(i, k);
         const int g = add_edge(origin, target);
         lay_piece(h, walked_.piece(i, k - 1), g);
-        pieces_of_b_[e].push_back(g);
         origin = target;
       }
     }
@@ -253,7 +255,9 @@ class OverlayBuilder {
   // The pieces of an edge of A are pieces of B where both run along each other, and new ones elsewhere.
   void lay_edges_of_a() {
     find_common_pieces();
-    pieces_of_a_.resize(a_.edge_count());
+    first_of_a_.reserve(a_.edge_count() + 1);
+    pieces_of_a_.reserve(stops_.size() + a_.edge_count());
+    halfedges_.reserve(halfedges_.size() + 2 * (stops_.size() + a_.edge_count()));
     std::size_t next = 0;
     for (int e = 0; e < a_.edge_count(); ++e) {
       const int h = a_.reference[e];
@@ -265,11 +269,8 @@ class OverlayBuilder {
         origin = vertex;
       }
       lay_piece_of_a(e, origin, id_of_a_[a_.vertex_of(next_halfedge(h))]);
+      first_of_a_.push_back(static_cast<int>(pieces_of_a_.size()));
     }
-  }
-
-  static std::uint64_t key_of(int edge, int origin) {
-    return static_cast<std::uint64_t>(edge) << 32 | static_cast<std::uint32_t>(origin);
   }
 
   // Those that run along edges of A, by the edge and where they begin, in the reference's direction.
@@ -277,22 +278,31 @@ class OverlayBuilder {
     for (int g = 0; g < static_cast<int>(halfedges_.size()); ++g) {
       const int on = halfedges_[g].on_a;
       if (on >= 0 && a_.reference[a_.edge[on]] == on)
-        common_[key_of(a_.edge[on], halfedges_[twin_of(g)].target)] = g;
+        common_.push_back({a_.edge[on], halfedges_[twin_of(g)].target, g});
     }
+    std::sort(common_.begin(), common_.end());
+  }
+
+  // Along edge e of A from a vertex of the overlay on, or none; e does not fall from call to call.
+  int common_piece(int e, int origin) {
+    while (next_common_ < common_.size() && common_[next_common_][0] < e) ++next_common_;
+    for (std::size_t k = next_common_; k < common_.size() && common_[k][0] == e; ++k)
+      if (common_[k][1] == origin) return common_[k][2];
+    return none;
   }
 
   void lay_piece_of_a(int e, int origin, int target) {
     const int h = a_.reference[e];
-    if (const auto at = common_.find(key_of(e, origin)); at != common_.end()) {
-      if (halfedges_[at->second].target != target) refuse_overlay();
-      pieces_of_a_[e].push_back(at->second);
+    if (const int common = common_piece(e, origin); common >= 0) {
+      if (halfedges_[common].target != target) refuse_overlay();
+      pieces_of_a_.push_back(common);
       return;
     }
     if (a_.opposite[h] < 0) refuse_overlay();
     const int g = add_edge(origin, target);
     halfedges_[g].on_a = h;
     halfedges_[twin_of(g)].on_a = a_.opposite[h];
-    pieces_of_a_[e].push_back(g);
+    pieces_of_a_.push_back(g);
   }
 
   // -- Faces --
@@ -304,13 +314,15 @@ class OverlayBuilder {
     if (v.a_halfedge < 0) return none;
     const int e = a_.edge[v.a_halfedge], h = a_.halfedge_on(triangle, e), index = index_on_a_[vertex];
     if (h < 0) return none;
-    return a_.reference[e] == h ? pieces_of_a_[e][index] : twin_of(pieces_of_a_[e][index - 1]);
+    const int piece = first_of_a_[e] + index;
+    return a_.reference[e] == h ? pieces_of_a_[piece] : twin_of(pieces_of_a_[piece - 1]);
   }
 
   int first_piece_of_a(int h) const {
     if (h < 0) return none;
-    const std::vector<int>& pieces = pieces_of_a_[a_.edge[h]];
-    return a_.reference[a_.edge[h]] == h ? pieces.front() : twin_of(pieces.back());
+    const int e = a_.edge[h];
+    return a_.reference[e] == h ? pieces_of_a_[first_of_a_[e]]
+                                : twin_of(pieces_of_a_[first_of_a_[e + 1] - 1]);
   }
 
   int piece_of_b_from(int vertex, int triangle) const {
@@ -319,27 +331,40 @@ class OverlayBuilder {
     if (v.b_halfedge < 0) return none;
     const int e = b_.edge[v.b_halfedge], h = b_.halfedge_on(triangle, e), index = index_on_b_[vertex];
     if (h < 0) return none;
-    return walked_halfedge_[e] == h ? pieces_of_b_[e][index] : twin_of(pieces_of_b_[e][index - 1]);
+    return walked_halfedge_[e] == h ? piece_of_b(e, index) : twin_of(piece_of_b(e, index - 1));
   }
 
   int first_piece_of_b(int h) const {
     if (h < 0) return none;
-    const std::vector<int>& pieces = pieces_of_b_[b_.edge[h]];
-    return walked_halfedge_[b_.edge[h]] == h ? pieces.front() : twin_of(pieces.back());
+    const int e = b_.edge[h];
+    return walked_halfedge_[e] == h ? piece_of_b(e, 0) : twin_of(piece_of_b(e, pieces_of_b_[e] - 1));
   }
+
+  // They were made one after the other.
+  int piece_of_b(int e, int k) const { return first_of_b_[e] + 2 * k; }
 
   void trace_faces() {
     index_on_b_.assign(result_.vertices.size(), none);
-    for (const std::vector<int>& pieces : pieces_of_b_)
-      for (std::size_t k = 1; k < pieces.size(); ++k)
-        index_on_b_[halfedges_[twin_of(pieces[k])].target] = static_cast<int>(k);
+    for (int e = 0; e < b_.edge_count(); ++e)
+      for (int k = 1; k < pieces_of_b_[e]; ++k) index_on_b_[halfedges_[twin_of(piece_of_b(e, k))].target] = k;
+    reserve_faces();
     std::vector<int> waiting;
+    waiting.reserve(halfedges_.size());
     for (int g = 0; g < static_cast<int>(halfedges_.size()); ++g)
       if (halfedges_[g].left_a >= 0) waiting.push_back(g);
     for (std::size_t k = 0; k < waiting.size(); ++k)
       if (!halfedges_[waiting[k]].is_traced) trace_face(waiting[k], waiting);
     for (const OverlayHalfedge& halfedge : halfedges_)
       if (!halfedge.is_traced && (halfedge.on_a >= 0 || halfedge.on_b >= 0)) refuse_overlay();
+  }
+
+  // E - V + 2 on a sphere, one less on a disk; every half-edge is one of a face's, or of the boundary.
+  void reserve_faces() {
+    const std::size_t edges = halfedges_.size() / 2, vertices = result_.vertices.size();
+    const std::size_t faces = edges + 2 > vertices ? edges + 2 - vertices : 0;
+    result_.faces.corners.reserve(halfedges_.size());
+    result_.faces.start.reserve(faces + 1);
+    result_.parents.reserve(faces);
   }
 
   void trace_face(int first, std::vector<int>& waiting) {
@@ -397,9 +422,13 @@ class OverlayBuilder {
   }
 
   int placement_of(int element) {
-    const auto [at, is_new] = placement_.try_emplace(element, static_cast<int>(result_.placements.size()));
-    if (is_new) result_.placements.push_back(pair_.elements().rough(element));
-    return at->second;
+    if (element >= static_cast<int>(placement_.size())) placement_.resize(pair_.elements().count(), none);
+    int& placement = placement_[element];
+    if (placement == none) {
+      placement = static_cast<int>(result_.placements.size());
+      result_.placements.push_back(pair_.elements().rough(element));
+    }
+    return placement;
   }
 
   // -- Where vertices lie --
@@ -486,13 +515,17 @@ class OverlayBuilder {
   std::vector<int> id_of_a_, id_of_b_;  // vertices of the overlay
   std::vector<EdgeStop> stops_;         // on edges of A
   std::vector<OverlayHalfedge> halfedges_;
-  std::vector<std::vector<int>> pieces_of_a_, pieces_of_b_;  // of edges, in the direction of
-  std::vector<int> walked_halfedge_;                         // the reference of A, and of this of B
-  std::unordered_map<std::uint64_t, int> common_;
+  // Of edges of A, in the direction of the reference: edge e has those from first_of_a_[e] on.
+  std::vector<int> first_of_a_ = {0}, pieces_of_a_;
+
+  // Of edges of B, in the direction of the half-edge that was walked: the first one, and how many there are.
+  std::vector<int> walked_halfedge_, first_of_b_, pieces_of_b_;
+  std::vector<std::array<int, 3>> common_;  // edges of A, vertices of the overlay, half-edges of the overlay
+  std::size_t next_common_ = 0;
   std::vector<int> index_on_a_, index_on_b_;     // of the overlay's vertices: their places among the pieces
   std::vector<double> share_on_a_, share_on_b_;  // of these directions
   std::vector<Meeting> meeting_;                 // of the vertices of A
-  std::unordered_map<int, int> placement_;       // of elements
+  std::vector<int> placement_;                   // of elements
   Overlay result_;
 };
 

@@ -10,14 +10,15 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <optional>
 #include <span>
 #include <type_traits>
 #include <utility>
 
+#include "orbitutte/geometry/double_double.h"
 #include "orbitutte/geometry/precise_isometry.h"
 #include "orbitutte/map/developed_surface.h"
 #include "orbitutte/mesh/connectivity.h"
@@ -44,28 +45,59 @@ class Findings {
   long long count_ = 0;
 };
 
-// A point in doubles, by how much each coordinate may be off.
-struct NearPoint {
-  Vector3 x = Vector3::Zero();
+// A point in doubles, or in two doubles for each coordinate, and by how much each may be off.
+template <typename Number>
+struct PointWithin {
+  Vector3Of<Number> x = Vector3Of<Number>::Zero();
   double error = 0;
 };
 
-double largest_coordinate(const Vector3& v) { return v.cwiseAbs().maxCoeff(); }
+using NearPoint = PointWithin<double>;
+using NearerPoint = PointWithin<DoubleDouble>;
 
-// The sign of det[p q r], or nothing if rounding may have changed it: with |p| the sum of the coordinates and
-// e the errors, the determinant p . (q - p) x (r - p) is off by no more than 2 |p| (|u| e_v + |v| e_u + e_u
-// e_v + 8 |u| |v| 2^-53) + 2 e_p |u| |v|.
-std::optional<int> sign_in_doubles(const NearPoint& p, const NearPoint& q, const NearPoint& r) {
-  constexpr double unit = 0x1p-53;
-  const Vector3 u = q.x - p.x, v = r.x - p.x;
-  const double of_u = largest_coordinate(u), of_v = largest_coordinate(v),
+double largest_coordinate(const Vector3& v) { return v.cwiseAbs().maxCoeff(); }
+double sum_of_coordinates(const Vector3& v) { return v.cwiseAbs().sum(); }
+
+Vector3 in_doubles(const Vector3& v) { return v; }
+Vector3 in_doubles(const Vector3Of<DoubleDouble>& v) { return {v[0].high(), v[1].high(), v[2].high()}; }
+
+double in_doubles(double x) { return x; }
+double in_doubles(const DoubleDouble& x) { return x.high(); }
+
+// What one operation loses, in parts of its result.
+template <typename Number>
+constexpr double rounding_of = std::is_same_v<Number, double> ? 0x1p-53 : 5 * DoubleDouble::unit;
+
+// p . (q - p) x (r - p) = det[p q r], and by how much it may be off.
+template <typename Number>
+struct DeterminantWithin {
+  Number value;
+  double error = 0;
+};
+
+// With |p| the sum of the coordinates and e the errors, it is off by no more than 2 |p| (|u| e_v + |v| e_u +
+// e_u e_v + 8 |u| |v| 2^-53) + 2 e_p |u| |v|.
+template <typename Number>
+DeterminantWithin<Number> determinant_of(const PointWithin<Number>& p, const PointWithin<Number>& q,
+                                         const PointWithin<Number>& r) {
+  constexpr double unit = rounding_of<Number>;
+  const Vector3Of<Number> u = q.x - p.x, v = r.x - p.x;
+  const double of_u = largest_coordinate(in_doubles(u)), of_v = largest_coordinate(in_doubles(v)),
                off_u = p.error + q.error + unit * of_u, off_v = p.error + r.error + unit * of_v,
-               sum = p.x.cwiseAbs().sum() + 3 * p.error;
+               sum = sum_of_coordinates(in_doubles(p.x)) + 3 * p.error;
   const double bound = 2 * sum * (of_u * off_v + of_v * off_u + off_u * off_v + 8 * unit * of_u * of_v) +
                        6 * p.error * of_u * of_v + 1e-290;
-  const double value = p.x.dot(u.cross(v));
-  if (value > bound) return 1;
-  if (value < -bound) return -1;
+  return {p.x.dot(u.cross(v)), bound};
+}
+
+// The sign of det[p q r], or nothing if rounding may have changed it.
+template <typename Number>
+std::optional<int> sign_within(const PointWithin<Number>& p, const PointWithin<Number>& q,
+                               const PointWithin<Number>& r) {
+  const DeterminantWithin<Number> found = determinant_of<Number>(p, q, r);
+  const double value = in_doubles(found.value);
+  if (value > found.error) return 1;
+  if (value < -found.error) return -1;
   return std::nullopt;
 }
 
@@ -122,6 +154,15 @@ class PointSource {
     return {m * x, size * (3 * error + 0x1p-50 * x.cwiseAbs().sum())};
   }
 
+  NearerPoint nearer(const MovedSite& at) const {
+    const Vector3Of<DoubleDouble> x = at.surface->sites.fine(at.site);
+    const double error = at.surface->sites.fine_error(at.site);
+    if (at.element == ElementTable::identity) return {x, error};
+    const double size = elements_.rough(at.element).matrix().cwiseAbs().maxCoeff(),
+                 sum = sum_of_coordinates(in_doubles(x));
+    return {elements_.fine(at.element) * x, size * (3 * error + 64 * DoubleDouble::unit * sum)};
+  }
+
   template <typename Real>
   DigitPoint<Real> with_digits(const MovedSite& at) const {
     Vector3Of<Real> x;
@@ -136,7 +177,10 @@ class PointSource {
   }
 
   int sign(const MovedSite& p, const MovedSite& q, const MovedSite& r) const {
-    if (const std::optional<int> sign = sign_in_doubles(near(p), near(q), near(r))) return *sign;
+    if (const std::optional<int> sign = sign_within<double>(near(p), near(q), near(r))) return *sign;
+    if (have_same_digits(p, q) || have_same_digits(q, r) || have_same_digits(r, p)) return 0;
+    if (const std::optional<int> sign = sign_within<DoubleDouble>(nearer(p), nearer(q), nearer(r)))
+      return *sign;
     const int sign = sign_of<Precise>(p, q, r);
     return sign != 0 || !has_offsets_ ? sign : sign_of<MostPrecise>(p, q, r);
   }
@@ -156,6 +200,13 @@ class PointSource {
   }
 
  private:
+  // Then every determinant with both is zero.
+  static bool have_same_digits(const MovedSite& p, const MovedSite& q) {
+    const Sites &of_p = p.surface->sites, &of_q = q.surface->sites;
+    if (p.element != q.element || of_p.rough(p.site) != of_q.rough(q.site)) return false;
+    return (of_p.is_double(p.site) && of_q.is_double(q.site)) || of_p.exact(p.site) == of_q.exact(q.site);
+  }
+
   template <typename Real>
   int sign_of(const MovedSite& p, const MovedSite& q, const MovedSite& r) const {
     return sign_with_digits<Real>(with_digits<Real>(p), with_digits<Real>(q), with_digits<Real>(r));
@@ -164,6 +215,17 @@ class PointSource {
   const ElementTable& elements_;
   Space space_;
   bool has_offsets_;
+};
+
+// Where a corner of a face lies in one of the parents: at a corner or on an edge of it, or -1 for neither.
+struct PlaceInParent {
+  signed char corner = -1, edge = -1;
+
+  // Bit k: it lies on edge k, its ends included.
+  unsigned edges() const {
+    if (corner >= 0) return 1U << corner | 1U << (corner + 2) % 3;
+    return edge >= 0 ? 1U << edge : 0U;
+  }
 };
 
 // An edge of the overlay as a face has it, and the same as a face on the other side has it: its number, or
@@ -184,7 +246,8 @@ class OverlayExaminer {
         points_(elements_, a.space(), !a.offsets.empty() || !b.offsets.empty()) {}
 
   OverlayCertificate run() {
-    if (examine_indices() && find_elements()) {
+    if (examine_indices()) find_places();
+    if (result_.checks.back().passed && find_elements()) {
       examine_placements();
       examine_surface();
       examine_vertices();
@@ -266,6 +329,29 @@ class OverlayExaminer {
     return nearest;
   }
 
+  // Of every corner of every face, in the order of the faces' corners.
+  void find_places() {
+    for (int side = 0; side < 2; ++side) places_in_parents_[side].resize(overlay_.faces.corners.size());
+    parallel_ranges(face_count(), [&](int begin, int end) {
+      for (int f = begin; f < end; ++f)
+        for (int k = first_edge(f); k < first_edge(f + 1); ++k)
+          for (int side = 0; side < 2; ++side)
+            places_in_parents_[side][k] = place_in_parent(side, f, overlay_.faces.corners[k]);
+    });
+  }
+
+  PlaceInParent place_in_parent(int side, int f, int v) const {
+    PlaceInParent place;
+    if (vertex_on(side, v) >= 0)
+      if (const int h = surface(side).corner_at(parent(side, f), vertex_on(side, v)); h >= 0)
+        place.corner = static_cast<signed char>(h % 3);
+    if (halfedge_on(side, v) >= 0)
+      if (const int h = surface(side).halfedge_on(parent(side, f), surface(side).edge[halfedge_on(side, v)]);
+          h >= 0)
+        place.edge = static_cast<signed char>(h % 3);
+    return place;
+  }
+
   // The elements that place B: from one face, where the group is asked for it, to all others. A group need
   // not be discrete, so that no element would be known by its doubles alone.
   bool find_elements() {
@@ -304,16 +390,16 @@ class OverlayExaminer {
         const int beyond = edges_[edges_[e].twin].face;
         if (is_reached[beyond]) continue;
         is_reached[beyond] = 1;
-        element_of_[beyond] = element_beyond(edges_[e]);
+        element_of_[beyond] = element_beyond(e);
         reached.push_back(beyond);
       }
     }
   }
 
   // Beyond the edges of the parents that an edge of the overlay lies on: G_h^-1 G G_k.
-  int element_beyond(const DirectedEdge& edge) {
-    const int h = halfedge_under(0, edge), k = halfedge_under(1, edge);
-    int result = element(edge.face);
+  int element_beyond(int e) {
+    const int h = halfedge_under(0, e), k = halfedge_under(1, e);
+    int result = element(edges_[e].face);
     if (h >= 0) result = elements_.product(elements_.inverse(surface(0).beyond[h]), result);
     return k >= 0 ? elements_.product(result, surface(1).beyond[k]) : result;
   }
@@ -348,17 +434,25 @@ class OverlayExaminer {
 
   // Of edges in one direction that have the same ends, which is a fault, the first one has the twin.
   void find_twins() {
-    std::vector<std::pair<std::uint64_t, int>> by_ends;
-    by_ends.reserve(edges_.size());
-    for (int e = 0; e < static_cast<int>(edges_.size()); ++e) {
-      const auto [low, high] = std::minmax(edges_[e].origin, edges_[e].target);
-      by_ends.emplace_back(static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint32_t>(high), e);
-    }
-    std::sort(by_ends.begin(), by_ends.end());
-    for (std::size_t begin = 0, end = 0; begin < by_ends.size(); begin = end) {
+    const auto low = [&](const DirectedEdge& edge) { return std::min(edge.origin, edge.target); };
+    std::vector<int> start(overlay_.vertex_count() + 1, 0), by_low(edges_.size());
+    for (const DirectedEdge& edge : edges_) ++start[low(edge) + 1];
+    for (int v = 0; v < overlay_.vertex_count(); ++v) start[v + 1] += start[v];
+    std::vector<int> next(start.begin(), start.end() - 1);
+    for (int e = 0; e < static_cast<int>(edges_.size()); ++e) by_low[next[low(edges_[e])]++] = e;
+    for (int v = 0; v < overlay_.vertex_count(); ++v)
+      find_twins_of({by_low.data() + start[v], by_low.data() + start[v + 1]});
+  }
+
+  // Of edges with the same lower end.
+  void find_twins_of(std::span<int> edges) {
+    const auto high = [&](int e) { return std::max(edges_[e].origin, edges_[e].target); };
+    std::sort(edges.begin(), edges.end(),
+              [&](int x, int y) { return std::pair(high(x), x) < std::pair(high(y), y); });
+    for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
       int forward = -1, backward = -1;
-      for (end = begin; end < by_ends.size() && by_ends[end].first == by_ends[begin].first; ++end) {
-        const int e = by_ends[end].second;
+      for (end = begin; end < edges.size() && high(edges[end]) == high(edges[begin]); ++end) {
+        const int e = edges[end];
         int& first = edges_[e].origin < edges_[e].target ? forward : backward;
         (first < 0 ? first : repeated_edge_) = e;
       }
@@ -470,18 +564,8 @@ class OverlayExaminer {
             side == 0 ? ElementTable::identity : element(f)};
   }
 
-  // Which corner of the parent a vertex of the overlay is, or which of its edges it lies on (from corner k
-  // on); -1 for none.
-  int corner_index(int side, int f, int v) const {
-    if (vertex_on(side, v) < 0) return -1;
-    const int h = surface(side).corner_at(parent(side, f), vertex_on(side, v));
-    return h < 0 ? -1 : h % 3;
-  }
-  int edge_index(int side, int f, int v) const {
-    if (halfedge_on(side, v) < 0) return -1;
-    const int h = surface(side).halfedge_on(parent(side, f), surface(side).edge[halfedge_on(side, v)]);
-    return h < 0 ? -1 : h % 3;
-  }
+  // Of the corner that entry k of all faces' corners is.
+  const PlaceInParent& place(int side, int k) const { return places_in_parents_[side][k]; }
 
   std::array<MovedSite, 2> edge_of_parent(int side, int f, int k) const {
     return {corner_of_parent(side, f, k), corner_of_parent(side, f, (k + 1) % 3)};
@@ -497,21 +581,23 @@ class OverlayExaminer {
   }
 
   bool all_corners_belong(int f) const {
-    const std::span<const int> of_face = corners(f);
-    return std::all_of(of_face.begin(), of_face.end(), [&](int v) { return belongs(f, v); });
+    for (int k = first_edge(f); k < first_edge(f + 1); ++k)
+      if (!belongs(f, k)) return false;
+    return true;
   }
 
   // A vertex of one parent is in the other, as it says: at a corner, on an edge, or inside. A crossing is on
   // an edge of each.
-  bool belongs(int f, int v) const {
-    const std::array<int, 2> corner = {corner_index(0, f, v), corner_index(1, f, v)};
-    for (int side = 0; side < 2; ++side)
-      if ((vertex_on(side, v) >= 0) != (corner[side] >= 0)) return false;
-    if (corner[0] >= 0 && corner[1] >= 0) return is_same_point(f, corner[0], corner[1]);
-    if (corner[0] >= 0) return lies_as_claimed(f, v, 1, corner_of_parent(0, f, corner[0]));
-    if (corner[1] >= 0) return lies_as_claimed(f, v, 0, corner_of_parent(1, f, corner[1]));
-    const int on_a = edge_index(0, f, v), on_b = edge_index(1, f, v);
-    return on_a >= 0 && on_b >= 0 && do_cross(edge_of_parent(0, f, on_a), edge_of_parent(1, f, on_b));
+  bool belongs(int f, int k) const {
+    const int v = overlay_.faces.corners[k];
+    const PlaceInParent &on_a = place(0, k), &on_b = place(1, k);
+    if ((vertex_on(0, v) >= 0) != (on_a.corner >= 0)) return false;
+    if ((vertex_on(1, v) >= 0) != (on_b.corner >= 0)) return false;
+    if (on_a.corner >= 0 && on_b.corner >= 0) return is_same_point(f, on_a.corner, on_b.corner);
+    if (on_a.corner >= 0) return lies_as_claimed(f, k, 1, corner_of_parent(0, f, on_a.corner));
+    if (on_b.corner >= 0) return lies_as_claimed(f, k, 0, corner_of_parent(1, f, on_b.corner));
+    return on_a.edge >= 0 && on_b.edge >= 0 &&
+           do_cross(edge_of_parent(0, f, on_a.edge), edge_of_parent(1, f, on_b.edge));
   }
 
   // Both lie on one line through the origin of R^3, seen from two other points.
@@ -523,12 +609,12 @@ class OverlayExaminer {
   }
 
   // In the parent of a side: on the edge that it names, or inside if it names none.
-  bool lies_as_claimed(int f, int v, int side, const MovedSite& point) const {
-    const int on = edge_index(side, f, v);
-    if (halfedge_on(side, v) >= 0 && on < 0) return false;
-    for (int k = 0; k < 3; ++k) {
-      const auto edge = edge_of_parent(side, f, k);
-      if (points_.sign(edge[0], edge[1], point) != (k == on ? 0 : 1)) return false;
+  bool lies_as_claimed(int f, int k, int side, const MovedSite& point) const {
+    const int on = place(side, k).edge;
+    if (halfedge_on(side, overlay_.faces.corners[k]) >= 0 && on < 0) return false;
+    for (int i = 0; i < 3; ++i) {
+      const auto edge = edge_of_parent(side, f, i);
+      if (points_.sign(edge[0], edge[1], point) != (i == on ? 0 : 1)) return false;
     }
     return true;
   }
@@ -549,79 +635,112 @@ class OverlayExaminer {
     conclude(findings);
   }
 
-  // Every three corners that follow each other turn left, and so do the triangles from the first corner.
+  // Three corners of a face.
+  using CornerTriple = std::array<int, 3>;
+
+  // Those of a face whose sign is still to be found.
+  class OpenTriples {
+   public:
+    // Every three corners that follow each other, and the triangles from the first corner.
+    explicit OpenTriples(int count) {
+      for (int k = 0; k < count; ++k) triples_[size_++] = {k, (k + 1) % count, (k + 2) % count};
+      for (int k = 2; k + 1 < count; ++k) triples_[size_++] = {0, k, k + 1};
+    }
+
+    bool empty() const { return size_ == 0; }
+
+    // Removes those whose sign is positive; false if one is negative.
+    template <typename Sign>
+    bool remove_positive(const Sign& sign) {
+      int kept = 0;
+      for (int i = 0; i < size_; ++i) {
+        const int found = sign(triples_[i]);
+        if (found < 0) return false;
+        if (found == 0) triples_[kept++] = triples_[i];
+      }
+      size_ = kept;
+      return true;
+    }
+
+   private:
+    std::array<CornerTriple, 9> triples_;
+    int size_ = 0;
+  };
+
+  // All of these triples turn left.
   bool is_convex(int f) const {
     const int count = static_cast<int>(corners(f).size());
     if (count < 3 || count > 6) return false;
-    std::vector<std::array<int, 3>> open;
-    open.reserve(2 * count);
-    for (int k = 0; k < count; ++k) open.push_back({k, (k + 1) % count, (k + 2) % count});
-    for (int k = 2; k + 1 < count; ++k) open.push_back({0, k, k + 1});
-    if (!is_positive_in_doubles(f, open)) return false;
+    OpenTriples open(count);
+    if (!is_positive_within<double>(f, open) || !is_positive_within<DoubleDouble>(f, open)) return false;
     if (!is_positive_with_digits<Precise>(f, open)) return false;
     if (points_.has_offsets() && !is_positive_with_digits<MostPrecise>(f, open)) return false;
     return open.empty();
   }
 
-  // Is no triangle of these corners negative? Those that are positive for sure are left out of the list.
-  bool is_positive_in_doubles(int f, std::vector<std::array<int, 3>>& open) const {
-    std::array<NearPoint, 6> near;
-    for (std::size_t k = 0; k < corners(f).size(); ++k) near[k] = near_corner(f, corners(f)[k]);
-    std::vector<std::array<int, 3>> rest;
-    for (const auto& k : open) {
-      const std::optional<int> sign = sign_in_doubles(near[k[0]], near[k[1]], near[k[2]]);
-      if (sign && *sign < 0) return false;
-      if (!sign) rest.push_back(k);
-    }
-    open = rest;
-    return true;
+  template <typename Number>
+  bool is_positive_within(int f, OpenTriples& open) const {
+    if (open.empty()) return true;
+    std::array<PointWithin<Number>, 6> x;
+    const int first = first_edge(f), count = first_edge(f + 1) - first;
+    for (int k = 0; k < count; ++k) x[k] = corner_within<Number>(f, first + k);
+    return open.remove_positive(
+        [&](const CornerTriple& k) { return sign_within<Number>(x[k[0]], x[k[1]], x[k[2]]).value_or(0); });
   }
 
   template <typename Real>
-  bool is_positive_with_digits(int f, std::vector<std::array<int, 3>>& open) const {
+  bool is_positive_with_digits(int f, OpenTriples& open) const {
     if (open.empty()) return true;
     std::array<DigitPoint<Real>, 6> x;
-    for (std::size_t k = 0; k < corners(f).size(); ++k) x[k] = corner_with_digits<Real>(f, corners(f)[k]);
-    std::vector<std::array<int, 3>> rest;
-    for (const auto& k : open) {
-      const int sign = sign_with_digits<Real>(x[k[0]], x[k[1]], x[k[2]]);
-      if (sign < 0) return false;
-      if (sign == 0) rest.push_back(k);
-    }
-    open = rest;
-    return true;
+    const int first = first_edge(f), count = first_edge(f + 1) - first;
+    for (int k = 0; k < count; ++k) x[k] = corner_with_digits<Real>(f, first + k);
+    return open.remove_positive(
+        [&](const CornerTriple& k) { return sign_with_digits<Real>(x[k[0]], x[k[1]], x[k[2]]); });
   }
 
   template <typename Real>
-  DigitPoint<Real> corner_with_digits(int f, int v) const {
-    for (int side = 0; side < 2; ++side)
-      if (const int k = corner_index(side, f, v); k >= 0)
-        return points_.with_digits<Real>(corner_of_parent(side, f, k));
-    const int on_a = edge_index(0, f, v), on_b = edge_index(1, f, v);
-    if (on_a < 0 || on_b < 0) return {Vector3Of<Real>::Zero(), 1};
-    return points_.crossing<Real>(edge_of_parent(0, f, on_a), edge_of_parent(1, f, on_b));
+  DigitPoint<Real> corner_with_digits(int f, int k) const {
+    const PlaceInParent &on_a = place(0, k), &on_b = place(1, k);
+    if (on_a.corner >= 0) return points_.with_digits<Real>(corner_of_parent(0, f, on_a.corner));
+    if (on_b.corner >= 0) return points_.with_digits<Real>(corner_of_parent(1, f, on_b.corner));
+    if (on_a.edge < 0 || on_b.edge < 0) return {Vector3Of<Real>::Zero(), 1};
+    return points_.crossing<Real>(edge_of_parent(0, f, on_a.edge), edge_of_parent(1, f, on_b.edge));
   }
 
-  // A crossing is (1 - s) a + s b with s = det[a c d]/(det[a c d] - det[b c d]): it is off by the error of s
+  template <typename Number>
+  PointWithin<Number> site_within(const MovedSite& at) const {
+    if constexpr (std::is_same_v<Number, double>)
+      return points_.near(at);
+    else
+      return points_.nearer(at);
+  }
+
+  template <typename Number>
+  PointWithin<Number> corner_within(int f, int k) const {
+    const PlaceInParent &on_a = place(0, k), &on_b = place(1, k);
+    if (on_a.corner >= 0) return site_within<Number>(corner_of_parent(0, f, on_a.corner));
+    if (on_b.corner >= 0) return site_within<Number>(corner_of_parent(1, f, on_b.corner));
+    if (on_a.edge < 0 || on_b.edge < 0) return {Vector3Of<Number>::Zero(), 1};
+    return crossing_within<Number>(edge_of_parent(0, f, on_a.edge), edge_of_parent(1, f, on_b.edge));
+  }
+
+  // A crossing is a + s (b - a) with s = det[a c d]/(det[a c d] - det[b c d]): it is off by the error of s
   // along the edge.
-  NearPoint near_corner(int f, int v) const {
-    for (int side = 0; side < 2; ++side)
-      if (const int k = corner_index(side, f, v); k >= 0) return points_.near(corner_of_parent(side, f, k));
-    const int on_a = edge_index(0, f, v), on_b = edge_index(1, f, v);
-    if (on_a < 0 || on_b < 0) return {Vector3::Zero(), 1};
-    const auto edge = edge_of_parent(0, f, on_a), line = edge_of_parent(1, f, on_b);
-    const NearPoint a = points_.near(edge[0]), b = points_.near(edge[1]), c = points_.near(line[0]),
-                    d = points_.near(line[1]);
-    const double of_a = a.x.dot((c.x - a.x).cross(d.x - a.x)), of_b = b.x.dot((c.x - b.x).cross(d.x - b.x)),
-                 sum = of_a - of_b, size = std::max({a.x.cwiseAbs().sum(), b.x.cwiseAbs().sum(), 1.0}),
-                 reach = std::max({largest_coordinate(c.x - a.x), largest_coordinate(d.x - a.x),
-                                   largest_coordinate(c.x - b.x), largest_coordinate(d.x - b.x)}),
-                 off = a.error + b.error + c.error + d.error + 0x1p-53 * reach,
-                 error = 40 * size * reach * (off + 0x1p-53 * reach);
-    const double length = largest_coordinate(b.x - a.x);
-    if (!(2 * error < std::abs(sum))) return {a.x, length + off};
-    const double s = of_a / sum;
-    return {(1 - s) * a.x + s * b.x, length * 4 * error / std::abs(sum) + a.error + b.error + 0x1p-51 * size};
+  template <typename Number>
+  PointWithin<Number> crossing_within(const std::array<MovedSite, 2>& edge,
+                                      const std::array<MovedSite, 2>& line) const {
+    constexpr double unit = rounding_of<Number>;
+    const PointWithin<Number> a = site_within<Number>(edge[0]), b = site_within<Number>(edge[1]),
+                              c = site_within<Number>(line[0]), d = site_within<Number>(line[1]);
+    const DeterminantWithin<Number> of_a = determinant_of<Number>(a, c, d),
+                                    of_b = determinant_of<Number>(b, c, d);
+    const Number sum = of_a.value - of_b.value;
+    const Vector3Of<Number> along = b.x - a.x;
+    const double error = of_a.error + of_b.error, length = largest_coordinate(in_doubles(along)),
+                 size = std::max(largest_coordinate(in_doubles(a.x)), largest_coordinate(in_doubles(b.x)));
+    if (!(2 * error < std::abs(in_doubles(sum)))) return {a.x, length + a.error + b.error};
+    const double off = 4 * error / std::abs(in_doubles(sum)) + 8 * unit;
+    return {a.x + Number(of_a.value / sum) * along, length * off + a.error + b.error + 4 * unit * size};
   }
 
   // -- Neighbours --
@@ -631,8 +750,8 @@ class OverlayExaminer {
     for (int e = 0; e < static_cast<int>(edges_.size()); ++e) {
       const DirectedEdge& edge = edges_[e];
       if (edge.twin < 0) {
-        if (!is_on_boundary(edge)) findings.add("face {} ends where a surface goes on", edge.face);
-      } else if (const int other = edges_[edge.twin].face; e < edge.twin && !fits(edge, other)) {
+        if (!is_on_boundary(e)) findings.add("face {} ends where a surface goes on", edge.face);
+      } else if (const int other = edges_[edge.twin].face; e < edge.twin && !fits(e, other)) {
         findings.add("faces {} and {} do not fit along the edge from {} to {}", edge.face, other, edge.origin,
                      edge.target);
       }
@@ -640,37 +759,31 @@ class OverlayExaminer {
     conclude(findings);
   }
 
-  // Does the vertex lie on this edge of the parent, its ends included?
-  bool is_on_edge(int side, int f, int v, int k) const {
-    const int corner = corner_index(side, f, v);
-    return corner >= 0 ? corner == k || corner == (k + 1) % 3 : edge_index(side, f, v) == k;
+  // The half-edge of the parent that edge e of the overlay lies on, or -1: its target is entry e of all
+  // faces' corners, its origin the one before in the face.
+  int halfedge_under(int side, int e) const {
+    const int f = edges_[e].face, before = e == first_edge(f) ? first_edge(f + 1) - 1 : e - 1;
+    const unsigned both = place(side, before).edges() & place(side, e).edges();
+    return both == 0 ? -1 : 3 * parent(side, f) + std::countr_zero(both);
   }
 
-  // The half-edge of the parent that an edge of the overlay lies on, or -1.
-  int halfedge_under(int side, const DirectedEdge& edge) const {
-    for (int k = 0; k < 3; ++k)
-      if (is_on_edge(side, edge.face, edge.origin, k) && is_on_edge(side, edge.face, edge.target, k))
-        return 3 * parent(side, edge.face) + k;
-    return -1;
-  }
-
-  bool is_on_boundary(const DirectedEdge& edge) const {
+  bool is_on_boundary(int e) const {
     for (int side = 0; side < 2; ++side) {
-      const int h = halfedge_under(side, edge);
+      const int h = halfedge_under(side, e);
       if (h < 0 || surface(side).opposite[h] >= 0) return false;
     }
     return true;
   }
 
-  bool fits(const DirectedEdge& edge, int other) {
-    const std::array<int, 2> crossed = {halfedge_under(0, edge), halfedge_under(1, edge)};
+  bool fits(int e, int other) {
+    const std::array<int, 2> crossed = {halfedge_under(0, e), halfedge_under(1, e)};
     if (crossed[0] < 0 && crossed[1] < 0) return false;
     for (int side = 0; side < 2; ++side) {
       const int h = crossed[side], o = h < 0 ? -1 : surface(side).opposite[h];
       if (h >= 0 && o < 0) return false;
-      if (parent(side, other) != (h < 0 ? parent(side, edge.face) : o / 3)) return false;
+      if (parent(side, other) != (h < 0 ? parent(side, edges_[e].face) : o / 3)) return false;
     }
-    return element_beyond(edge) == element(other);
+    return element_beyond(e) == element(other);
   }
 
   // -- Positions and areas --
@@ -703,18 +816,25 @@ class OverlayExaminer {
   }
 
   void examine_positions() {
-    constexpr double bound = 1e-9;
     Findings findings("positions");
-    for (int f = 0; f < face_count(); ++f) {
-      for (const int v : corners(f)) {
-        const std::optional<NearPoint> on_a = point_of(0, f, v), on_b = point_of(1, f, v);
-        if (!on_a || !on_b ||
-            !((on_a->x - on_b->x).norm() <=
-              bound * std::max(1.0, on_a->x.norm()) + on_a->error + on_b->error))
-          findings.add("vertex {} has different images on the target from A and from B", v);
-      }
-    }
+    const std::vector<int> wrong =
+        parallel_select(face_count(), [&](int f) { return wrongly_placed_corner(f) >= 0; });
+    for (const int f : wrong)
+      findings.add("vertex {} has different images on the target from A and from B",
+                   wrongly_placed_corner(f));
     conclude(findings);
+  }
+
+  // -1 for none.
+  int wrongly_placed_corner(int f) const {
+    constexpr double bound = 1e-9;
+    for (const int v : corners(f)) {
+      const std::optional<NearPoint> on_a = point_of(0, f, v), on_b = point_of(1, f, v);
+      if (!on_a || !on_b ||
+          !((on_a->x - on_b->x).norm() <= bound * std::max(1.0, on_a->x.norm()) + on_a->error + on_b->error))
+        return v;
+    }
+    return -1;
   }
 
   void examine_shares(int side, const char* name) {
@@ -749,10 +869,15 @@ class OverlayExaminer {
   double area_on_target(int f) const {
     double area = 0;
     const Space space = embeddings_[0]->space();
-    const Vector3 first = near_corner(f, corners(f)[0]).x;
-    for (std::size_t k = 2; k < corners(f).size(); ++k)
-      area += space.area(space.retract(first), space.retract(near_corner(f, corners(f)[k - 1]).x),
-                         space.retract(near_corner(f, corners(f)[k]).x));
+    const auto at = [&](int k) { return space.retract(corner_within<double>(f, k).x); };
+    const int begin = first_edge(f);
+    const Vector3 first = at(begin);
+    Vector3 last = at(begin + 1);
+    for (int k = begin + 2; k < first_edge(f + 1); ++k) {
+      const Vector3 next = at(k);
+      area += space.area(first, last, next);
+      last = next;
+    }
     return area;
   }
 
@@ -779,6 +904,7 @@ class OverlayExaminer {
   std::array<DevelopedSurface, 2> surfaces_;
   PointSource points_;
   std::vector<int> element_of_;  // of faces
+  std::array<std::vector<PlaceInParent>, 2> places_in_parents_;
   std::vector<DirectedEdge> edges_;
 
   // One whose ends another edge has in the same direction; -1 for none.

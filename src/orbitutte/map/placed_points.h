@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "orbitutte/geometry/barycentric_coordinates.h"
+#include "orbitutte/geometry/double_double.h"
 #include "orbitutte/map/element_table.h"
 
 namespace orbitutte {
@@ -19,6 +20,9 @@ class Sites {
     rough_.reserve(exact_of_.size());
     for (Eigen::Index k = 0; k < doubles.rows(); ++k) rough_.emplace_back(doubles.row(k));
   }
+
+  /// Makes room for the digits of so many points.
+  void reserve_exact(int count) { digits_.reserve(static_cast<std::size_t>(count)); }
 
   int count() const { return static_cast<int>(exact_of_.size()); }
 
@@ -34,11 +38,17 @@ class Sites {
 
   /// By how much each rough coordinate may be off.
   double error(int site) const;
+
+  /// The same with the digits of two doubles.
+  Vector3Of<DoubleDouble> fine(int site) const;
+  double fine_error(int site) const;
+
   Vector3Of<Precise> precise(int site) const;
   Vector3Of<MostPrecise> exact(int site) const;
 
  private:
   struct Digits {
+    Vector3 rest;  // beyond the doubles
     Vector3Of<Precise> precise;
     Vector3Of<MostPrecise> exact;
   };
@@ -93,6 +103,9 @@ class ExactSigns {
   int compare_shares(const LineThrough& edge, const LineThrough& first, const LineThrough& second) const;
 
  private:
+  bool are_same(const PlacedPoint& p, const PlacedPoint& q) const;
+  double share_with_digits(const LineThrough& edge, const LineThrough& line) const;
+
   const ElementTable& elements_;
   bool all_digits_ = false;
 };

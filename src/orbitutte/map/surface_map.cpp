@@ -157,8 +157,10 @@ class Mapping {
       tours_ = short_tours(*surfaces_[0], inside, start_of_tours(map_.landmarks, places_), most_tours);
       if (!options_.tour.empty()) tours_.insert(tours_.begin(), asked_tour(options_.tour, places_));
     });
-    for (int s = 0; s < 2; ++s)
-      sides_[s] = std::make_unique<MappedSide>(*surfaces_[s], target_, quiet(options_.embed));
+    stage_("prepare", [&] {
+      for (int s = 0; s < 2; ++s)
+        sides_[s] = std::make_unique<MappedSide>(*surfaces_[s], target_, quiet(options_.embed));
+    });
     cut_along_next(0);
   }
 
@@ -263,11 +265,13 @@ class Mapping {
     finish_both(pair_of(problems), placed(pair_of(problems)));
   }
 
-  void state_problems(Problems& problems) const {
-    for (int s = 0; s < 2; ++s) {
-      const MappedSide& side = *sides_[s];
-      problems[s].emplace(gluing_problem(side.request(), side.result.weights, side.cut, side.cache));
-    }
+  void state_problems(Problems& problems) {
+    stage_("prepare", [&] {
+      for (int s = 0; s < 2; ++s) {
+        const MappedSide& side = *sides_[s];
+        problems[s].emplace(gluing_problem(side.request(), side.result.weights, side.cut, side.cache));
+      }
+    });
   }
 
   static ProblemPair pair_of(const Problems& problems) { return {*problems[0], *problems[1]}; }
@@ -389,6 +393,7 @@ class Mapping {
       result.backend = side.options.laplacian.backend;
       Stages stage(options_.embed.progress, result.timings);
       finish(side.request(), problems[s], {placed[s], remedies, with_limbs_in_place}, stage, result);
+      map_.timings.insert(map_.timings.end(), result.timings.begin(), result.timings.end());
     }
   }
 

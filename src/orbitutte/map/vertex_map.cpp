@@ -10,7 +10,6 @@
 #include <iterator>
 #include <limits>
 
-#include "orbitutte/geometry/precise_isometry.h"
 #include "orbitutte/map/surface_pair.h"
 #include "orbitutte/mesh/connectivity.h"
 
@@ -49,8 +48,8 @@ VertexMap vertices_of_overlay(const Overlay& overlay, int OverlayVertex::*vertex
 // Walks from the vertices of a surface to points of its triangles, which become sites of the walker.
 class PointWalks {
  public:
-  PointWalks(SurfacePair& pair, Space space)
-      : pair_(pair), walker_(pair.walker()), space_(space), fixes_(pair.locate_vertices()) {}
+  explicit PointWalks(SurfacePair& pair)
+      : pair_(pair), walker_(pair.walker()), fixes_(pair.locate_vertices()) {}
 
   SurfacePoints images(const SurfacePoints& points) {
     SurfacePoints result = no_points(points.count());
@@ -126,26 +125,20 @@ class PointWalks {
     return fix.place;
   }
 
-  // Points between corners that have further digits have them, too: they stay on mirrors and in limbs.
+  // With all digits: what doubles lose in a triangle that has shrunk shows in full size on the other surface.
   int add_site(int triangle, const Vector3& coordinates) {
-    TriangleCorners corners;
-    bool needs_digits = false;
-    for (int i = 0; i < 3; ++i) {
-      const int corner = walker_.site_of(3 * triangle + i);
-      corners[i] = walker_.sites.rough(corner);
-      if (coordinates[i] != 0 && !walker_.sites.is_double(corner)) needs_digits = true;
-    }
-    const int site = pair_.walker_sites().append(barycentric_point(space_, corners, coordinates));
-    if (needs_digits) pair_.walker_sites().set_exact(site, exact_position(triangle, coordinates));
+    const int site = pair_.walker_sites().append(Vector3::Zero());
+    pair_.walker_sites().set_exact(site, exact_position(triangle, coordinates));
     return site;
   }
 
+  // Up to its length, which no sign depends on.
   Vector3Of<MostPrecise> exact_position(int triangle, const Vector3& coordinates) const {
     Vector3Of<MostPrecise> sum = Vector3Of<MostPrecise>::Zero();
     for (int i = 0; i < 3; ++i)
       if (coordinates[i] != 0)
         sum += MostPrecise(coordinates[i]) * walker_.sites.exact(walker_.site_of(3 * triangle + i));
-    return precise_retract(space_, sum);
+    return sum;
   }
 
   // The image of the line from one point to the next.
@@ -214,7 +207,6 @@ class PointWalks {
 
   SurfacePair& pair_;
   const DevelopedSurface& walker_;
-  Space space_;
   std::vector<Fix> fixes_;
   Walk walk_;
 };
@@ -274,7 +266,7 @@ VertexMaps vertex_maps(const Overlay& overlay, const Embedding& a, const Embeddi
 SurfacePoints images_of_points(const Embedding& from, const Embedding& to, const SurfacePoints& points) {
   require_points(from, points);
   SurfacePair pair(to, from);
-  return PointWalks(pair, from.space()).images(points);
+  return PointWalks(pair).images(points);
 }
 
 SurfacePoints image_of_polyline(const Embedding& from, const Embedding& to, const SurfacePoints& points) {
@@ -282,7 +274,7 @@ SurfacePoints image_of_polyline(const Embedding& from, const Embedding& to, cons
   for (int k = 0; k < points.count(); ++k)
     if (points.triangle[k] < 0) throw ArgumentError(fmt::format("point {} of a polyline is none", k));
   SurfacePair pair(to, from);
-  return PointWalks(pair, from.space()).polyline(points);
+  return PointWalks(pair).polyline(points);
 }
 
 std::vector<MatrixEntry> transfer_matrix(const VertexMap& map) {

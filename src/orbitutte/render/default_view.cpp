@@ -10,8 +10,12 @@
 namespace orbitutte {
 namespace {
 
+// Which end of an axis is up.
+enum class Upwards { forward, backward };
+
 // The box of the lowest slice along an axis, a thirtieth of the height, as a share of the whole footprint's.
-double base_share(const Points& V, int axis) {
+double base_share(Points V, int axis, Upwards upwards) {
+  if (upwards == Upwards::backward) V.col(axis) *= -1;
   const Vector3 low = V.colwise().minCoeff(), high = V.colwise().maxCoeff();
   const double level = low[axis] + (high[axis] - low[axis]) / 30;
   Vector3 base_low = high, base_high = low;
@@ -93,8 +97,12 @@ Vector3 default_up_direction(const Surface& surface) {
   // An open surface does not stand on its rim but faces the viewer.
   if (surface.triangles.rows() == 0 || is_open(orientation(surface.V, surface.triangles)))
     return Vector3::UnitY();
-  const double across_y = base_share(surface.V, 1), across_z = base_share(surface.V, 2);
-  return across_z > 0.6 && across_z > 2 * across_y ? Vector3::UnitZ() : Vector3::UnitY();
+  constexpr double clear = 4;
+  const double across_y = base_share(surface.V, 1, Upwards::forward),
+               across_z = base_share(surface.V, 2, Upwards::forward);
+  if (across_z > 0.6 && across_z > 2 * across_y) return Vector3::UnitZ();
+  if (base_share(surface.V, 1, Upwards::backward) > clear * across_y) return -Vector3::UnitY();
+  return Vector3::UnitY();
 }
 
 View default_view(const SourceFigure& figure, const Points& marked, const Vector3& up) {

@@ -45,7 +45,8 @@ struct RenderOptions {
 void parse_picture_size(const std::string& text, RenderOptions& options);
 
 /// What points up if nothing is given: y, as in most files; z for closed meshes that stand on a broad base
-/// across z and not across y, as parts for printing do.
+/// across z and not across y, as parts for printing do; -y for those that stand on a base four times as broad
+/// at their other end. A guess.
 Vector3 default_up_direction(const Surface& surface);
 
 /// A direction "x,y,z" or "x", "-x", ... "-z". Throws ArgumentError.

@@ -16,6 +16,9 @@ constexpr int patience = 4;  // steps without gain
 // Changes of an edge relative to its length: where no further step is needed, and where rounding may end it.
 constexpr double converged_change = 1e-9, settled_change = 1e-3;
 
+// The same of all vertices together: triangles may be far flatter than their shortest edges.
+constexpr double placed_change = 1e-14;
+
 }  // namespace
 
 // The directions tangent to the space in which a vertex may move, orthonormal.
@@ -128,12 +131,12 @@ bool LocalMinimum::settle_in_place(MovablePositions& positions) const {
   constexpr int most_steps_in_place = 150, patience_in_place = 12;
   if (factor_.info() != Eigen::Success) return false;
   // What all edges together may miss must not show in the place of the shortest ones.
-  const double error = 1e-3 * converged_change * shortest_edge(positions);
+  const double error = 1e-3 * placed_change * shortest_edge(positions);
   double best = std::numeric_limits<double>::infinity();
   for (int k = 0, without_gain = 0; k < most_steps_in_place && without_gain < patience_in_place; ++k) {
     const double shift = step(positions, error).shift;
     if (!std::isfinite(shift)) return false;
-    if (shift < converged_change) return true;
+    if (shift < placed_change) return true;
     without_gain = shift < 0.9 * best ? 0 : without_gain + 1;
     best = std::min(best, shift);
   }

@@ -371,8 +371,10 @@ std::optional<SpreadMap> with_more_digits(const GluingProblem& problem, const Pl
 
 std::optional<SpreadMap> with_limbs_in_place(const GluingProblem& problem, const Placement& placed) {
   constexpr Eigen::Index most_vertices = 60000;
-  constexpr double misplaced =
-      1e-11;  // doubles put longer edges where they belong to some 1e-5 of themselves
+  // Doubles put longer edges where they belong to some 1e-5 of themselves; of few vertices, which take a
+  // second or two, to 1e-7.
+  constexpr Eigen::Index few_vertices = 2000;
+  const double misplaced = placed.minimum.positions.rows() <= few_vertices ? 1e-9 : 1e-11;
   const DirichletEnergy energy(glued_along(problem, placed.boundary), problem.weights, placed.boundary);
   if (!(energy.smallest_spot(placed.minimum.positions).second < misplaced)) return std::nullopt;
   if (placed.minimum.positions.rows() <= most_vertices) {
