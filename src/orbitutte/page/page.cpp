@@ -300,6 +300,12 @@ void require_match(const PageSubject& subject) {
                                 surface.colours.rows(), surface.V.rows()));
 }
 
+void require_a_value_each(const PageOptions& options, const Surface& surface) {
+  if (options.values && options.values->values.size() != surface.V.rows())
+    throw MeshError(fmt::format("there are values of {} vertices, but the mesh has {}",
+                                options.values->values.size(), surface.V.rows()));
+}
+
 /// The last part of the path that the report gives.
 std::string mesh_name(const Json& report) {
   const Json& path = at(report, "/mesh/path");
@@ -318,7 +324,7 @@ void add_view(const PageSubject& subject, const PageOptions& options,
   if (!is_interactive(options)) return;
   content["licences"] = std::string(page_licences);
   content["script"] = std::string(page_script);
-  content["scene"] = page_scene(subject.surface, subject.embedding, faces, options.limits);
+  content["scene"] = page_scene(subject, faces, options);
 }
 
 void add_judgement(const Judgement& judgement, const Embedding& embedding, Content& content) {
@@ -369,6 +375,7 @@ bool has_interactive_view() { return !page_script.empty(); }
 
 std::string report_page(const PageSubject& subject, const PageOptions& options) {
   require_match(subject);
+  require_a_value_each(options, subject.surface);
   const Json report = parse(subject.report);
   PageOptions possible = options;
   possible.interactive = options.interactive && subject.embedding.space().is_closed();
