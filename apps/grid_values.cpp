@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "orbitutte/errors.h"
+#include "orbitutte/io/compression.h"
 #include "orbitutte/io/file.h"
 #include "orbitutte/io/numpy_array.h"
 #include "orbitutte/io/png.h"
@@ -28,11 +29,11 @@ bool ends_with(const std::string& path, std::string_view ending) {
 
 // The array of an .npy, or `values` of an .npz; nothing for other files.
 std::optional<NumpyArray> read_array(const std::string& path) {
-  const bool is_archive = ends_with(path, ".npz");
-  if (!is_archive && !ends_with(path, ".npy")) return std::nullopt;
+  const bool is_archive = ends_with(path, ".npz"), is_packed = ends_with(path, ".npy.gz");
+  if (!is_archive && !is_packed && !ends_with(path, ".npy")) return std::nullopt;
   const std::string bytes = read_file(path);
   try {
-    if (!is_archive) return parse_numpy_array(bytes);
+    if (!is_archive) return parse_numpy_array(is_packed ? decompress(bytes) : bytes);
     for (auto& [name, array] : parse_numpy_archive(bytes))
       if (name == "values") return std::move(array);
   } catch (const MeshError& error) {
@@ -88,6 +89,7 @@ NumpyArray numpy(const GridValues& values, std::vector<int> shape) {
 }
 
 void add_table(const SparseTable& table, NumpyArchive& archive) {
+  if (table.rows() == 0) return;
   archive.emplace_back("indptr", numpy(table.start));
   archive.emplace_back("indices", numpy(table.index));
   archive.emplace_back("weights", NumpyArray{{static_cast<int>(table.weight.size())}, table.weight, false});
@@ -174,6 +176,15 @@ std::string png_of(const std::string& path, const Padded& image) {
   return serialize_png(pixels, is_label || pixels.channels == 3 ? PngDepth::eight : PngDepth::sixteen);
 }
 
+// Writes an .npy or, compressed, an .npy.gz; false for other files.
+bool write_array(const std::string& path, const GridValues& values, const std::vector<int>& shape) {
+  const bool is_packed = ends_with(path, ".npy.gz");
+  if (!is_packed && !ends_with(path, ".npy")) return false;
+  const std::string bytes = serialize_numpy_array(numpy(values, shape));
+  write_file(path, is_packed ? compress_to_gzip(bytes) : bytes);
+  return true;
+}
+
 void write_archive(const std::string& path, const NumpyArchive& archive) {
   write_file(path, serialize_numpy_archive(archive));
 }
@@ -216,8 +227,7 @@ void write_grid_values(const std::string& path, const ResampledOutput& output) {
   const Padded image = has_values ? padded(output) : Padded();
   if (!is_archive) {
     if (ends_with(path, ".png")) return write_file(path, png_of(path, image));
-    if (ends_with(path, ".npy"))
-      return write_file(path, serialize_numpy_array(numpy(image.values, image.shape)));
+    if (write_array(path, image.values, image.shape)) return;
     return write_as_asked(path, image.values);
   }
   const Grid& grid = output.grid;
@@ -249,7 +259,7 @@ void write_surface_values(const std::string& path, const ResampledOutput& output
                     "or .shape.gii",
                     path));
   const std::vector<int> shape = {static_cast<int>(output.values.values.rows())};
-  if (ends_with(path, ".npy")) return write_file(path, serialize_numpy_array(numpy(output.values, shape)));
+  if (write_array(path, output.values, shape)) return;
   if (!ends_with(path, ".npz")) return write_as_asked(path, output.values);
   NumpyArchive archive;
   archive.reserve(4);

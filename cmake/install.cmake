@@ -8,7 +8,7 @@ include(CheckLinkerFlag)
 # The public headers are these and what they include.
 set(ORBITUTTE_HEADERS choose distortion_floor embed embed_types errors memory options types
     map/alignment map/composed_map map/map_distortion map/overlay map/overlay_certificate map/point_map map/surface_map map/vertex_map resample/grid resample/resample resample/sparse_table geometry/barycentric_coordinates
-    io/corner_file io/image_file io/landmark_file io/texture_file io/curve_file io/manifest cones/extremities io/file io/numpy_array io/png io/vertex_data inspect/inspection inspect/mesh_repair inspect/recognition io/mesh_io samples/sample mesh/surface mesh/triangulation inspect/weak_places weights/weights
+    io/corner_file io/image_file io/landmark_file io/texture_file io/curve_file io/manifest cones/extremities io/compression io/file io/numpy_array io/png io/vertex_data inspect/inspection inspect/mesh_repair inspect/recognition io/mesh_io samples/sample mesh/surface mesh/triangulation inspect/weak_places weights/weights
     cones/cone_wishes cones/marked_cones orbifold/cone_target orbifold/families orbifold/polygon orbifold/signature orbifold/symmetry_group orbifold/target_words orbifold/tile
     report/choices report/comparison export/cut_triangles report/embedding_file export/carried_files export/export export/map_files export/overlay_pieces export/sphere_surface export/stored_map export/texture_bake export/value_colours report/inspection_json report/map_report page/batch_page page/map_page page/page report/batch_record report/report export/tiling
     report/verification
