@@ -37,6 +37,14 @@ Mesh awkward_mesh() {
   return mesh;
 }
 
+// STL has no zero with a sign, numbers vertices in the order of their first use, and computes normals: what
+// it keeps is known once a mesh was in one.
+Mesh mesh_for(MeshFormat format) {
+  const Mesh mesh = awkward_mesh();
+  if (format != MeshFormat::stl) return mesh;
+  return to_triangle_mesh(parse_mesh(serialize_mesh(mesh, format), format));
+}
+
 bool has_doubles(MeshFormat format) {
   const MeshFormat all[] = {MeshFormat::obj, MeshFormat::off, MeshFormat::ply, MeshFormat::vtk,
                             MeshFormat::vtp};
@@ -47,15 +55,11 @@ class EveryMeshFormat : public testing::TestWithParam<NamedValue<MeshFormat>> {}
 
 TEST_P(EveryMeshFormat, ComesBackByteByByte) {
   const MeshFormat format = GetParam().value;
-  const Mesh mesh = awkward_mesh();
+  const Mesh mesh = mesh_for(format);
   const std::string once = serialize_mesh(mesh, format);
   const PolygonMesh again = parse_mesh(once, format);
-  EXPECT_EQ(serialize_mesh(again, format), once);
+  EXPECT_TRUE(serialize_mesh(again, format) == once);
   EXPECT_TRUE(again.warnings.empty());
-  if (format == MeshFormat::stl) {  // which numbers vertices in the order of their first use
-    EXPECT_EQ(again.face_count(), mesh.F.rows());
-    return;
-  }
   EXPECT_EQ(to_triangle_mesh(again).F, mesh.F);
   const Points expected = has_doubles(format) ? mesh.V : Points(mesh.V.cast<float>().cast<double>());
   ASSERT_EQ(again.V.rows(), expected.rows());
@@ -72,7 +76,7 @@ struct Folder {
 
 TEST_P(EveryMeshFormat, IsTheSameCompressed) {
   const Folder folder;
-  const Mesh mesh = awkward_mesh();
+  const Mesh mesh = mesh_for(GetParam().value);
   for (const std::string& ending : mesh_endings()) {
     if (mesh_format("x" + ending) != GetParam().value) continue;
     const std::string plain = folder.path / ("x" + ending), packed = plain + ".gz",
@@ -82,7 +86,7 @@ TEST_P(EveryMeshFormat, IsTheSameCompressed) {
     EXPECT_LT(read_file(packed).size(), read_file(plain).size());
     EXPECT_EQ(read_file(packed).substr(0, 2), "\x1F\x8B");
     write_mesh(again, read_mesh(packed));
-    EXPECT_EQ(read_file(again), read_file(packed));
+    EXPECT_TRUE(read_file(again) == read_file(packed));
     return;
   }
   FAIL() << "no ending names this format";
@@ -101,7 +105,7 @@ TEST_P(EveryMeshFormat, KeepsPolygonsByteByByteOrRefusesThem) {
   }
   EXPECT_TRUE(has_doubles(format));
   const PolygonMesh again = parse_mesh(once, format);
-  EXPECT_EQ(serialize_mesh(again, format), once);
+  EXPECT_TRUE(serialize_mesh(again, format) == once);
   EXPECT_EQ(again.corners, mesh.corners);
   EXPECT_EQ(again.face_start, mesh.face_start);
   EXPECT_EQ(again.V, mesh.V);
@@ -157,7 +161,7 @@ TEST_P(EveryValueFormat, ComesBackByteByByte) {
   const VertexData data = awkward_values(row);
   const std::string once = serialize_vertex_data(data, row.format);
   const VertexData again = parse_vertex_data(once, row.format);
-  EXPECT_EQ(serialize_vertex_data(again, row.format), once);
+  EXPECT_TRUE(serialize_vertex_data(again, row.format) == once);
   EXPECT_EQ(again.names, data.names);
   EXPECT_EQ(again.labels.size(), data.labels.size());
   const Eigen::MatrixXd expected =
@@ -175,9 +179,9 @@ TEST_P(EveryValueFormat, IsTheSameCompressed) {
   write_vertex_data(plain, data);
   write_vertex_data(packed, data);
   EXPECT_EQ(read_file(packed).substr(0, 2), "\x1F\x8B");
-  EXPECT_EQ(serialize_vertex_data(read_vertex_data(packed), row.format), read_file(plain));
+  EXPECT_TRUE(serialize_vertex_data(read_vertex_data(packed), row.format) == read_file(plain));
   write_vertex_data(again, read_vertex_data(packed));
-  EXPECT_EQ(read_file(again), read_file(packed));
+  EXPECT_TRUE(read_file(again) == read_file(packed));
 }
 
 INSTANTIATE_TEST_SUITE_P(Rows, EveryValueFormat, testing::ValuesIn(value_rows));
