@@ -36,7 +36,7 @@ function connectControls(view) {
   control('colouring', 'change', () => {
     const colouring = element('colouring').value;
     element('squares-label').hidden = colouring !== 'checkerboard';
-    showLegend(view.scene.scales[colouring], colouring === 'vertex' ? 'values beyond the ends have their colours' : 'mean of the faces around each vertex');
+    showLegend(view.scene.scales[colouring], colouring === 'vertex' ? 'values beyond an end have its colour' : 'mean of the faces around each vertex');
     view.setColouring(colouring);
   });
   control('squares', 'input', () => {
