@@ -134,27 +134,45 @@ int dearest_label(const SparseTable& shares, const Eigen::VectorXd& prices, int 
   return best;
 }
 
-// By how much of itself each label is too large: (area - wanted) / wanted; 0 for labels without area.
-Eigen::VectorXd excess_of_labels(const SparseTable& shares, const Eigen::VectorXd& prices,
-                                 const Eigen::VectorXd& row_areas, const Eigen::VectorXd& wanted) {
-  Eigen::VectorXd areas = Eigen::VectorXd::Zero(wanted.size());
-  for (int r = 0; r < shares.rows(); ++r)
-    if (const int label = dearest_label(shares, prices, r); label >= 0) areas[label] += row_areas[r];
-  return (wanted.array() > 0).select((areas - wanted).cwiseQuotient(wanted), 0);
-}
+// Rows with one label have it whatever the prices; the others choose.
+struct LabelChoices {
+  const SparseTable& shares;
+  const Eigen::VectorXd &row_areas, &wanted;
+  std::vector<int> choosing = {};
+  Eigen::VectorXd settled = {};
+
+  LabelChoices(const SparseTable& of_rows, const Eigen::VectorXd& areas, const Eigen::VectorXd& of_labels)
+      : shares(of_rows),
+        row_areas(areas),
+        wanted(of_labels),
+        settled(Eigen::VectorXd::Zero(of_labels.size())) {
+    choosing.reserve(static_cast<std::size_t>(shares.rows()));
+    for (int r = 0; r < shares.rows(); ++r) {
+      const int labels = shares.start[r + 1] - shares.start[r];
+      if (labels == 1) settled[shares.index[shares.start[r]]] += row_areas[r];
+      if (labels > 1) choosing.push_back(r);
+    }
+  }
+
+  // By how much of itself each label is too large: (area - wanted) / wanted; 0 for labels without area.
+  Eigen::VectorXd excess(const Eigen::VectorXd& prices) const {
+    Eigen::VectorXd areas = settled;
+    for (const int r : choosing) areas[dearest_label(shares, prices, r)] += row_areas[r];
+    return (wanted.array() > 0).select((areas - wanted).cwiseQuotient(wanted), 0);
+  }
+};
 
 // The prices with the least excess that were found. A label that is too large becomes dearer, by steps that
 // grow while that is so, and halve where it changes (M. Riedmiller, H. Braun, 1993).
-Eigen::VectorXd prices_of_labels(const SparseTable& shares, const Eigen::VectorXd& row_areas,
-                                 const Eigen::VectorXd& wanted) {
+Eigen::VectorXd prices_of_labels(const LabelChoices& choices) {
   constexpr double enough = 1e-3, first_step = 0.02, longest_step = 0.2;
   constexpr int most_steps = 300;
-  const Eigen::Index count = wanted.size();
+  const Eigen::Index count = choices.wanted.size();
   Eigen::VectorXd prices = Eigen::VectorXd::Zero(count), best = prices, before = prices,
                   step = Eigen::VectorXd::Constant(count, first_step);
   double least = std::numeric_limits<double>::infinity();
   for (int k = 0; k < most_steps && least > enough; ++k) {
-    const Eigen::VectorXd excess = excess_of_labels(shares, prices, row_areas, wanted);
+    const Eigen::VectorXd excess = choices.excess(prices);
     if (const double largest = excess.cwiseAbs().maxCoeff(); largest < least) least = largest, best = prices;
     for (Eigen::Index label = 0; label < count; ++label) {
       const double same = excess[label] * before[label];
@@ -292,7 +310,7 @@ Eigen::MatrixXd labels_keeping_areas(const SparseTable& table, const Eigen::Matr
       wanted[numbers[static_cast<std::size_t>(c)]] += areas.columns[c];
     }
     const SparseTable shares = labels_of_rows(table, numbers, known.count());
-    const Eigen::VectorXd prices = prices_of_labels(shares, areas.rows, wanted);
+    const Eigen::VectorXd prices = prices_of_labels({shares, areas.rows, wanted});
     for (int r = 0; r < table.rows(); ++r) {
       const int label = dearest_label(shares, prices, r);
       result(r, map) = label < 0 ? no_value : known.label(label);
