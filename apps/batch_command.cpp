@@ -24,6 +24,7 @@
 #include "orbitutte/io/file.h"
 #include "orbitutte/io/manifest.h"
 #include "orbitutte/io/mesh_io.h"
+#include "orbitutte/memory.h"
 #include "orbitutte/page/batch_page.h"
 #include "orbitutte/report/batch_record.h"
 #include "run.h"
@@ -310,7 +311,9 @@ struct Attempt {
 
 class JobPool {
  public:
-  JobPool(std::size_t at_once, const JobLimits& limits) : at_once_(at_once), limits_(limits) {}
+  JobPool(std::size_t at_once, const JobLimits& limits) : at_once_(at_once), limits_(limits) {
+    use_one_blas_thread();
+  }
 
   // Calls `ended` with the record of each job, in the order in which they end. What may end otherwise if it
   // is run again is run again, once, behind all others.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "orbitutte/memory.h"
 
+#include <dlfcn.h>
+
 #include <cstdint>
 #include <cstdlib>
 
@@ -49,6 +51,13 @@ void use_huge_pages() {
   advise_huge_pages(heap, size);
   std::free(heap);  // it stays malloc's
 #endif
+}
+
+// In a process that was forked, already the call that sets the number starts threads.
+void use_one_blas_thread() {
+  const auto get = reinterpret_cast<int (*)()>(dlsym(RTLD_DEFAULT, "openblas_get_num_threads"));
+  const auto set = reinterpret_cast<void (*)(int)>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"));
+  if (get && set && get() != 1) set(1);
 }
 
 }  // namespace orbitutte

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Advice to the allocator for programs that embed large meshes.
+// Advice to allocator and BLAS for programs that embed large meshes, or many.
 #pragma once
 
 namespace orbitutte {
@@ -14,5 +14,10 @@ void keep_freed_memory();
 /// who ask: pages are touched for the first time 512 at a time. For a program to call in its main, before it
 /// starts threads: they all share the one heap from then on.
 void use_huge_pages();
+
+/// Makes BLAS calls run on the calling thread: two BLAS threads gain little on small fronts and lose much on
+/// a busy machine. The library does so when it factorises. A program that forks processes that embed may call
+/// it before: otherwise OpenBLAS starts its threads anew in each of them, to wait for work in a busy loop.
+void use_one_blas_thread();
 
 }  // namespace orbitutte
