@@ -347,7 +347,7 @@ class JobPool {
 
   void start(const Attempt& attempt) {
     const auto work = [embed = &attempt.job->embed] {
-      return run_guarded([&] { return embed_command(*embed); });
+      return on_one_thread([&] { return run_guarded([&] { return embed_command(*embed); }); });
     };
     running_.push_back({attempt, JobProcess(work, limits_)});
   }
@@ -551,6 +551,7 @@ int run_batch(const std::vector<PreparedJob>& all, const BatchArguments& argumen
     records.insert_or_assign(record.name, record);
     progress.show(record);
   });
+  log.sync();
 
   const std::vector<JobRecord> done = records_of(jobs, records);
   const std::size_t missing = jobs.size() - done.size();

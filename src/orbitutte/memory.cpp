@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "orbitutte/parallel.h"
+
 #ifdef __GLIBC__
 #include <malloc.h>
 #include <sys/mman.h>
@@ -59,5 +61,7 @@ void use_one_blas_thread() {
   const auto set = reinterpret_cast<void (*)(int)>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"));
   if (get && set && get() != 1) set(1);
 }
+
+int on_one_thread(const std::function<int()>& work) { return with_threads(1, work); }
 
 }  // namespace orbitutte

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Advice to allocator and BLAS for programs that embed large meshes, or many.
+// Advice to allocator, BLAS and oneTBB for programs that embed large meshes, or many.
 #pragma once
+
+#include <functional>
 
 namespace orbitutte {
 
@@ -19,5 +21,9 @@ void use_huge_pages();
 /// a busy machine. The library does so when it factorises. A program that forks processes that embed may call
 /// it before: otherwise OpenBLAS starts its threads anew in each of them, to wait for work in a busy loop.
 void use_one_blas_thread();
+
+/// Calls `work`, in which all loops run on the calling thread, also those outside of an embedding, such as
+/// reading, and returns what it returns. For a program that has work for every core already.
+int on_one_thread(const std::function<int()>& work);
 
 }  // namespace orbitutte
