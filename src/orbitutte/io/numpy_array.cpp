@@ -85,13 +85,16 @@ NpyType npy_type(std::string_view entry) {
 
 // How many numbers a shape has, of which so many are there.
 std::size_t npy_count(const std::vector<int>& shape, std::size_t room) {
+  const auto refuse = [&](const std::string& numbers) {
+    refuse_npy(fmt::format("the header promises {} numbers, but only {} follow", numbers, room));
+  };
   std::size_t count = 1;
   for (const int size : shape) {
     if (size > 0 && count > room / static_cast<std::size_t>(size))
-      refuse_npy(
-          fmt::format("the header promises {} numbers, but only {} follow", fmt::join(shape, " x "), room));
+      refuse(fmt::format("{}", fmt::join(shape, " x ")));
     count *= static_cast<std::size_t>(size);
   }
+  if (count > room) refuse("1");  // a scalar, which has no sizes
   return count;
 }
 
