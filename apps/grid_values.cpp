@@ -9,6 +9,7 @@
 #include <cmath>
 #include <optional>
 
+#include "command_arguments.h"
 #include "orbitutte/errors.h"
 #include "orbitutte/io/compression.h"
 #include "orbitutte/io/file.h"
