@@ -24,6 +24,7 @@
 #include "orbitutte/io/file.h"
 #include "orbitutte/io/manifest.h"
 #include "orbitutte/io/mesh_io.h"
+#include "orbitutte/memory.h"
 #include "orbitutte/page/batch_page.h"
 #include "orbitutte/report/batch_record.h"
 #include "run.h"
@@ -310,7 +311,9 @@ struct Attempt {
 
 class JobPool {
  public:
-  JobPool(std::size_t at_once, const JobLimits& limits) : at_once_(at_once), limits_(limits) {}
+  JobPool(std::size_t at_once, const JobLimits& limits) : at_once_(at_once), limits_(limits) {
+    use_one_blas_thread();
+  }
 
   // Calls `ended` with the record of each job, in the order in which they end. What may end otherwise if it
   // is run again is run again, once, behind all others.
@@ -344,7 +347,7 @@ class JobPool {
 
   void start(const Attempt& attempt) {
     const auto work = [embed = &attempt.job->embed] {
-      return run_guarded([&] { return embed_command(*embed); });
+      return on_one_thread([&] { return run_guarded([&] { return embed_command(*embed); }); });
     };
     running_.push_back({attempt, JobProcess(work, limits_)});
   }
@@ -548,6 +551,7 @@ int run_batch(const std::vector<PreparedJob>& all, const BatchArguments& argumen
     records.insert_or_assign(record.name, record);
     progress.show(record);
   });
+  log.sync();
 
   const std::vector<JobRecord> done = records_of(jobs, records);
   const std::size_t missing = jobs.size() - done.size();

@@ -9,6 +9,7 @@
 
 #include "orbitutte/errors.h"
 #include "orbitutte/io/file.h"
+#include "orbitutte/io/mesh_io.h"
 #include "orbitutte/names.h"
 
 namespace orbitutte::cli {
@@ -36,9 +37,11 @@ bool is_stream(const std::string& path) {
 
 void require_right_ending(const OutputFile& output) {
   const std::vector<std::string>& endings = output.endings;
-  if (std::find(endings.begin(), endings.end(), ending_of(output.path)) != endings.end()) return;
+  const bool is_packed = output.may_be_compressed && is_compressed(output.path);
+  const std::string name = is_packed ? fs::path(output.path).stem().string() : output.path;
+  if (std::find(endings.begin(), endings.end(), ending_of(name)) != endings.end()) return;
   throw ArgumentError(fmt::format("{} is '{}', but {} is written as {}; change the ending of the name",
-                                  output.option, output.path, output.content, listed_choices(endings)));
+                                  output.option, output.path, output.content, output.listed_endings()));
 }
 
 void require_inputs_kept(const OutputFile& output, const std::vector<InputFile>& inputs) {
@@ -49,6 +52,10 @@ void require_inputs_kept(const OutputFile& output, const std::vector<InputFile>&
 }
 
 }  // namespace
+
+std::string OutputFile::listed_endings() const {
+  return listed_choices(endings) + (may_be_compressed ? ", each also with .gz" : "");
+}
 
 bool is_same_file(const std::string& first, const std::string& second) {
   std::error_code error;

@@ -24,6 +24,11 @@ struct OutputFile {
   std::string path;
   /// The endings that its name may have, in lower case with the dot.
   std::vector<std::string> endings;
+  /// May `.gz` follow them? Then the file is compressed.
+  bool may_be_compressed = false;
+
+  /// ".obj, .off or .ply", for messages and help.
+  std::string listed_endings() const;
 };
 
 /// Do both paths lead to one file? Links of both kinds are followed, and neither file has to exist.

@@ -9,7 +9,9 @@
 #include <cmath>
 #include <optional>
 
+#include "command_arguments.h"
 #include "orbitutte/errors.h"
+#include "orbitutte/io/compression.h"
 #include "orbitutte/io/file.h"
 #include "orbitutte/io/numpy_array.h"
 #include "orbitutte/io/png.h"
@@ -26,11 +28,19 @@ NumpyArray values_in(std::string_view archive) {
   throw MeshError("there is no array 'values' in it");
 }
 
+// ".npy", ".npy.gz", ".npz": what arrays come in. Other endings as they are.
+std::string array_ending(const std::string& path) {
+  const std::string ending = ending_of(path);
+  return ending == ".gz" ? ending_of(path.substr(0, path.size() - ending.size())) + ending : ending;
+}
+
 // The array of an .npy, or `values` of an .npz; nothing for other files.
 std::optional<NumpyArray> read_array(const std::string& path) {
-  const std::string ending = ending_of(path);
-  if (ending == ".npy") return parse_file(path, parse_numpy_array);
+  const std::string ending = array_ending(path);
   if (ending == ".npz") return parse_file(path, values_in);
+  if (ending == ".npy") return parse_file(path, parse_numpy_array);
+  if (ending == ".npy.gz")
+    return parse_file(path, [](std::string_view bytes) { return parse_numpy_array(decompress(bytes)); });
   return std::nullopt;
 }
 
@@ -81,6 +91,7 @@ NumpyArray numpy(const GridValues& values, std::vector<int> shape) {
 }
 
 void add_table(const SparseTable& table, NumpyArchive& archive) {
+  if (table.rows() == 0) return;
   archive.emplace_back("indptr", numpy(table.start));
   archive.emplace_back("indices", numpy(table.index));
   archive.emplace_back("weights", NumpyArray{{static_cast<int>(table.weight.size())}, table.weight, false});
@@ -167,6 +178,14 @@ std::string png_of(const std::string& path, const Padded& image) {
   return serialize_png(pixels, is_label || pixels.channels == 3 ? PngDepth::eight : PngDepth::sixteen);
 }
 
+// Writes an .npy or, compressed, an .npy.gz; false for other files.
+bool write_array(const std::string& path, const GridValues& values, const std::vector<int>& shape) {
+  const std::string ending = array_ending(path);
+  if (ending != ".npy" && ending != ".npy.gz") return false;
+  write_compressed_as_named(path, serialize_numpy_array(numpy(values, shape)));
+  return true;
+}
+
 void write_archive(const std::string& path, const NumpyArchive& archive) {
   write_file(path, serialize_numpy_archive(archive));
 }
@@ -204,8 +223,7 @@ void write_grid_values(const std::string& path, const ResampledOutput& output) {
   const Padded image = has_values ? padded(output) : Padded();
   if (!is_archive) {
     if (ending_of(path) == ".png") return write_file(path, png_of(path, image));
-    if (ending_of(path) == ".npy")
-      return write_file(path, serialize_numpy_array(numpy(image.values, image.shape)));
+    if (write_array(path, image.values, image.shape)) return;
     return write_as_asked(path, image.values);
   }
   const Grid& grid = output.grid;
@@ -237,7 +255,7 @@ void write_surface_values(const std::string& path, const ResampledOutput& output
                     "or .shape.gii",
                     path));
   const std::vector<int> shape = {static_cast<int>(output.values.values.rows())};
-  if (ending_of(path) == ".npy") return write_file(path, serialize_numpy_array(numpy(output.values, shape)));
+  if (write_array(path, output.values, shape)) return;
   if (ending_of(path) != ".npz") return write_as_asked(path, output.values);
   NumpyArchive archive;
   archive.reserve(4);

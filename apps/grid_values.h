@@ -27,6 +27,8 @@ GridValues read_grid_values(const std::string& path, const Grid& grid);
 /// What is written.
 struct ResampledOutput {
   const Grid& grid;
+
+  /// Empty where values are no product with a table.
   const SparseTable& table;
 
   /// Of conservative tables.

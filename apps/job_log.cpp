@@ -19,6 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr auto pause_between_syncs = std::chrono::milliseconds(100);
 constexpr mode_t mode_of_logs = 0666;  // the user's umask takes away from it
 
 [[noreturn]] void refuse_log(const std::string& path, std::string_view problem) {
@@ -68,8 +69,13 @@ void JobLog::append(const JobRecord& record) {
   const std::string line = record_line(record);
   const ssize_t written = ::write(descriptor_, line.data(), line.size());
   if (written >= 0 && static_cast<std::size_t>(written) < line.size()) errno = ENOSPC;
-  if (written != static_cast<ssize_t>(line.size()) || ::fsync(descriptor_) != 0)
-    refuse_log(path_, "cannot be written");
+  if (written != static_cast<ssize_t>(line.size())) refuse_log(path_, "cannot be written");
+  if (std::chrono::steady_clock::now() - synced_ >= pause_between_syncs) sync();
+}
+
+void JobLog::sync() {
+  if (::fsync(descriptor_) != 0) refuse_log(path_, "cannot be written");
+  synced_ = std::chrono::steady_clock::now();
 }
 
 bool is_locked(const std::string& path) {

@@ -2,6 +2,7 @@
 // The file to which a batch appends a record for each job as it ends.
 #pragma once
 
+#include <chrono>
 #include <string>
 #include <vector>
 
@@ -19,12 +20,18 @@ class JobLog {
   JobLog& operator=(const JobLog&) = delete;
   ~JobLog();
 
-  /// Adds a line in one piece; it is on the disk when this returns. Throws FileError.
+  /// Adds a line in one piece. It outlives this process at once, and a power cut if the file was brought to
+  /// the disk, which this does ten times a second at most: to wait for the disk takes as long as a small job.
+  /// Throws FileError.
   void append(const JobRecord& record);
+
+  /// Brings the file to the disk. Throws FileError.
+  void sync();
 
  private:
   std::string path_;
   int descriptor_;
+  std::chrono::steady_clock::time_point synced_ = {};
 };
 
 /// Is a process at work on this file?

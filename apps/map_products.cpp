@@ -167,6 +167,7 @@ VertexData carried_labels(const VertexMap& a_to_b, VertexData data) {
 VertexData carried_values(const VertexMap& a_to_b, VertexData data) {
   if (data.labels.empty()) {
     data.values = transfer(a_to_b, data.values);
+    data.is_whole = false;
     return data;
   }
   return carried_labels(a_to_b, std::move(data));

@@ -56,7 +56,7 @@ class Command {
   CLI::Option* output(const std::string& names, std::string& path, const OutputFile& file,
                       const std::string& description) {
     outputs_.push_back({file, &path});
-    return command_->add_option(names, path, with_endings(description, file.endings));
+    return command_->add_option(names, path, with_endings(description, file));
   }
 
   // Runs before the command itself.
@@ -74,8 +74,8 @@ class Command {
   }
 
  private:
-  static std::string with_endings(const std::string& description, const std::vector<std::string>& endings) {
-    return endings.size() < 2 ? description : description + ": " + orbitutte::listed_choices(endings);
+  static std::string with_endings(const std::string& description, const OutputFile& file) {
+    return file.endings.size() < 2 ? description : description + ": " + file.listed_endings();
   }
 
   // A file, and where its path will be once the command line is parsed.
@@ -363,7 +363,7 @@ void add_export(CLI::App& app, int& code) {
       app, "export", "Write the mesh with its embedding as texture coordinates, for other programs");
   read_embedding_and_mesh_of(command);
   command
-      .output("-o,--output", command->output, {"-o", "the model", "", written_models()},
+      .output("-o,--output", command->output, {"-o", "the model", "", written_models(), true},
               "Write the model here; .gii, .sphere and .reg are the sphere alone, as a surface")
       ->required();
   command.option(
@@ -381,7 +381,7 @@ void add_measure(CLI::App& app, int& code) {
       "Measure how an embedding deforms the surface, at every vertex, as programs for the cortex do");
   read_embedding_and_mesh_of(command);
   command.output("-o,--output", command->output,
-                 {"-o", "the file of measures", "", {".gii", ".curv", ".csv", ".txt", ".npy"}},
+                 {"-o", "the file of measures", "", {".gii", ".curv", ".csv", ".txt", ".npy"}, true},
                  "Write the measures here: .shape.gii, .func.gii, .curv (one measure), .csv, .txt or .npy");
   command
       .option("--measure", command->measure,
@@ -469,7 +469,7 @@ void add_repair(CLI::App& app, int& code) {
       app, "repair", "Weld, clean, cut apart and close a mesh, so that it can be embedded; says what it did");
   read_mesh_of(command);
   command
-      .output("-o,--output", command->output, {"-o", "the mesh", "", orbitutte::mesh_endings()},
+      .output("-o,--output", command->output, {"-o", "the mesh", "", orbitutte::mesh_endings(), true},
               "Write the repaired mesh here")
       ->required();
   command.output("--report", command->report, {"--report", "the report", "", {".json"}},
@@ -594,9 +594,11 @@ void add_resample(CLI::App& app, int& code) {
               "equirectangular:512x256, octahedral:256, cube:128; a sphere's file, for its vertices; of "
               "orbifolds of the plane periodic:256 (the torus that covers it) or tile:256")
       ->required();
-  command.option("--kind", command->kind,
-                 "linear, nearest, or conservative, which keeps the integral over the surface; if it is not "
-                 "given, nearest for labels, linear for other values");
+  command.option(
+      "--kind", command->kind,
+      "linear; nearest; conservative, which keeps the integral over the surface; or least-squares, "
+      "values of which --back makes those of the surface again as nearly as can be; if it is not "
+      "given, nearest for labels, linear for other values");
   command.flag("--back", command->back, "From the grid to the vertices");
   command
       .option("--pad", command->pad, "Give images a margin of so many pixels, whose values the symmetry has")
@@ -607,7 +609,8 @@ void add_resample(CLI::App& app, int& code) {
           {"-o",
            "the file of values",
            "",
-           {".npy", ".npz", ".txt", ".csv", ".gii", ".png", ".curv", ".annot"}},
+           {".npy", ".npz", ".txt", ".csv", ".gii", ".png", ".curv", ".annot"},
+           true},
           "Write the values here: .npy, .npz (with the table of weights), .txt, .csv, .shape.gii, .func.gii, "
           ".label.gii or, of images, .png")
       ->required();
@@ -617,7 +620,7 @@ void add_resample(CLI::App& app, int& code) {
 void add_sample(CLI::App& app, int& code) {
   Command<SampleArguments> command(app, "sample", "Make a mesh to try things on");
   command
-      .output("-o,--output", command->output, {"-o", "the mesh", "", orbitutte::mesh_endings()},
+      .output("-o,--output", command->output, {"-o", "the mesh", "", orbitutte::mesh_endings(), true},
               "Write the mesh here")
       ->required();
   command

@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <filesystem>
+#include <functional>
+#include <numeric>
 
 #include "command_arguments.h"
 #include "command_files.h"
@@ -12,6 +14,7 @@
 #include "orbitutte/inspect/recognition.h"
 #include "orbitutte/io/file.h"
 #include "orbitutte/io/mesh_io.h"
+#include "orbitutte/io/png.h"
 #include "orbitutte/report/embedding_file.h"
 #include "orbitutte/report/report.h"
 #include "orbitutte/resample/resample.h"
@@ -38,23 +41,50 @@ Grid grid_from(const std::string& text, const Embedding& embedding) {
   return naming_file(text, [&] { return sphere_grid(sphere.V, sphere.triangles); });
 }
 
+enum class Direction { to_grid, to_surface };
+
 // The table in the direction that is asked for.
 struct Table {
-  SparseTable weights;
+  Direction direction;
 
-  /// Of conservative ones: the areas of the surface that the grid's cells have.
-  Eigen::VectorXd cell_areas;
+  /// None of least squares to the grid, for which there are the linear ones, both ways.
+  SparseTable weights = {}, linear = {}, linear_back = {};
+
+  /// Of conservative ones: the areas of the surface that vertices and cells of the grid have.
+  Eigen::VectorXd vertex_areas = {}, cell_areas = {};
+
+  bool is_back() const { return direction == Direction::to_surface; }
+  TableAreas areas() const {
+    return is_back() ? TableAreas{vertex_areas, cell_areas} : TableAreas{cell_areas, vertex_areas};
+  }
 };
-
-enum class Direction { to_grid, to_surface };
 
 Table make_table(const Surface& surface, const Embedding& embedding, const Grid& grid, ResampleKind kind,
                  Direction direction) {
-  const bool back = direction == Direction::to_surface;
-  if (kind != ResampleKind::conservative)
-    return {back ? table_to_surface(embedding, grid, kind) : table_to_grid(embedding, grid, kind), {}};
-  ConservativeTables tables = conservative_tables(embedding, grid, surface.vertex_areas());
-  return {back ? std::move(tables.to_surface) : std::move(tables.to_grid), std::move(tables.cell_areas)};
+  Table table = {direction};
+  if (kind == ResampleKind::conservative) {
+    table.vertex_areas = surface.vertex_areas();
+    ConservativeTables tables = conservative_tables(embedding, grid, table.vertex_areas);
+    table.weights = table.is_back() ? std::move(tables.to_surface) : std::move(tables.to_grid);
+    table.cell_areas = std::move(tables.cell_areas);
+  } else if (table.is_back()) {
+    table.weights = table_to_surface(embedding, grid, kind);
+  } else if (kind == ResampleKind::least_squares) {
+    table.linear = table_to_grid(embedding, grid, ResampleKind::linear);
+    table.linear_back = table_to_surface(embedding, grid, ResampleKind::linear);
+  } else {
+    table.weights = table_to_grid(embedding, grid, kind);
+  }
+  return table;
+}
+
+// Values in the direction of the table.
+Eigen::MatrixXd resampled(const Table& table, const GridValues& values) {
+  if (values.is_label && table.cell_areas.size() > 0)
+    return labels_keeping_areas(table.weights, values.values, table.areas());
+  if (values.is_label) return apply_to_labels(table.weights, values.values);
+  if (table.linear.rows() > 0) return least_squares_values(table.linear_back, table.linear, values.values);
+  return apply(table.weights, values.values);
 }
 
 // What is not given follows from the values.
@@ -76,8 +106,31 @@ void tell_integrals(const Eigen::VectorXd& from_areas, const Eigen::MatrixXd& fr
          to_areas.dot(to.col(map)));
 }
 
+// A picture of the grid, with its margin, that may be read again.
+void require_picture_size(const Grid& grid, int margin) {
+  const std::vector<int> shape = padded_shape(grid, margin);
+  const int width = shape.back();
+  const long long height = std::accumulate(shape.begin(), shape.end() - 1, 1LL, std::multiplies<>());
+  if (width > longest_picture_side || height > longest_picture_side)
+    throw ArgumentError(
+        fmt::format("a PNG has at most {0} x {0} pixels, and this one would have {1} x {2}; write .npy",
+                    longest_picture_side, width, height));
+}
+
+// Least squares are of numbers alone.
+void require_values(const ResampleArguments& arguments, ResampleKind kind, const GridValues& values) {
+  if (kind != ResampleKind::least_squares || arguments.back) return;
+  if (arguments.values.empty())
+    throw ArgumentError("least-squares has no table that could be written: give --values, or take linear");
+  if (!values.labels.empty())
+    throw ArgumentError("--values has labels, which least-squares cannot add; take nearest");
+}
+
 void require_output(const ResampleArguments& arguments, const Grid& grid) {
   const bool is_archive = ending_of(arguments.output) == ".npz";
+  if (arguments.output.ends_with(".npz.gz") || arguments.output.ends_with(".png.gz"))
+    throw ArgumentError(fmt::format("-o is '{}', but such files are compressed by themselves; leave out .gz",
+                                    arguments.output));
   if (arguments.values.empty() && !is_archive)
     throw ArgumentError("without --values there is only the table to write: give -o the ending .npz");
   if (arguments.pad > 0 && arguments.back)
@@ -85,6 +138,7 @@ void require_output(const ResampleArguments& arguments, const Grid& grid) {
   if (ending_of(arguments.output) == ".png" && !grid.is_image())
     throw ArgumentError(
         fmt::format("-o is '{}', but the points of this grid are no image; write .npy", arguments.output));
+  if (ending_of(arguments.output) == ".png") require_picture_size(grid, arguments.pad);
   if (arguments.pad > 0) padded_shape(grid, arguments.pad);
 }
 
@@ -118,19 +172,19 @@ int resample_command(const ResampleArguments& arguments) {
 
   const Stopwatch making_table;
   const ResampleKind kind = kind_of(arguments, arguments.values.empty() ? nullptr : &values);
+  require_values(arguments, kind, values);
   const Table table =
       make_table(surface, embedding, grid, kind, arguments.back ? Direction::to_surface : Direction::to_grid);
   const double table_seconds = making_table.seconds();
-  if (const int missing = empty_rows(table.weights); missing > 0)
-    tell("orbitutte: warning: {} of {} {} get no value (NaN): no triangle lies there\n", missing,
-         table.weights.rows(), arguments.back ? "vertices" : "points of the grid");
+  const int rows = arguments.back ? surface.vertex_count() : grid.count();
+  if (const int missing = empty_rows(table.weights) + empty_rows(table.linear); missing > 0)
+    tell("orbitutte: warning: {} of {} {} get no value (NaN): no triangle lies there\n", missing, rows,
+         arguments.back ? "vertices" : "points of the grid");
 
   const Stopwatch applying;
   GridValues result = values;
   result.is_label = !arguments.values.empty() && are_labels(arguments, values);
-  if (!arguments.values.empty())
-    result.values =
-        result.is_label ? apply_to_labels(table.weights, values.values) : apply(table.weights, values.values);
+  if (!arguments.values.empty()) result.values = resampled(table, result);
   const double apply_seconds = applying.seconds();
   const ResampledOutput output = {grid, table.weights, table.cell_areas, result, arguments.pad};
   if (arguments.back) {
@@ -138,13 +192,10 @@ int resample_command(const ResampleArguments& arguments) {
   } else {
     write_grid_values(arguments.output, output);
   }
-  tell("{}: {} {}, {}; grid {:.2f} s, table {:.2f} s, values {:.3f} s\n", arguments.output,
-       table.weights.rows(), arguments.back ? "vertices" : "points", name_of(kind), grid_seconds,
-       table_seconds, apply_seconds);
+  tell("{}: {} {}, {}; grid {:.2f} s, table {:.2f} s, values {:.3f} s\n", arguments.output, rows,
+       arguments.back ? "vertices" : "points", name_of(kind), grid_seconds, table_seconds, apply_seconds);
   if (kind == ResampleKind::conservative && !result.is_label && result.values.size() > 0) {
-    const Eigen::VectorXd areas = surface.vertex_areas();
-    tell_integrals(arguments.back ? table.cell_areas : areas, values.values,
-                   arguments.back ? areas : table.cell_areas, result.values);
+    tell_integrals(table.areas().columns, values.values, table.areas().rows, result.values);
   }
   return succeeded;
 }

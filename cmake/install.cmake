@@ -8,7 +8,7 @@ include(CheckLinkerFlag)
 # The public headers are these and what they include.
 set(ORBITUTTE_HEADERS choose distortion_floor embed embed_types errors memory options types
     mesh/intrinsic_triangulation mesh/surface mesh/triangulation
-    io/corner_file io/curve_file io/file io/image_file io/landmark_file io/manifest io/mesh_io io/numpy_array io/png io/texture_file io/vertex_data
+    io/compression io/corner_file io/curve_file io/file io/image_file io/landmark_file io/manifest io/mesh_io io/numpy_array io/png io/texture_file io/vertex_data
     inspect/inspection inspect/mesh_repair inspect/recognition
     samples/sample
     weights/weights

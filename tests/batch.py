@@ -190,6 +190,22 @@ class Limits(Batch):
         self.assertEqual({record['outcome'] for record in self.by_name().values()}, {'certified'})
 
     @unittest.skipUnless(sys.platform == 'linux', 'finds the processes in /proc')
+    def test_a_process_has_one_thread(self):
+        self.many(2, 'large')
+        threads, seen = set(), set()
+        with subprocess.Popen([PROGRAM, 'batch', 'jobs.csv', '-o', 'out', '--jobs', '2'], cwd=self.folder, stderr=subprocess.DEVNULL) as batch:
+            while batch.poll() is None:
+                for child in children_of(batch.pid):
+                    try:
+                        threads.add(len(list(pathlib.Path(f'/proc/{child}/task').iterdir())))
+                        seen.add(child)
+                    except OSError:
+                        continue  # it has just ended
+                time.sleep(0.005)
+        self.assertEqual((batch.returncode, len(seen)), (0, 2))
+        self.assertEqual(threads, {1})
+
+    @unittest.skipUnless(sys.platform == 'linux', 'finds the processes in /proc')
     def test_a_process_that_is_killed_takes_only_its_job_with_it(self):
         self.many(2, 'large')
         with subprocess.Popen([PROGRAM, 'batch', 'jobs.csv', '-o', 'out', '--jobs', '1'], cwd=self.folder, stderr=subprocess.DEVNULL) as batch:

@@ -149,6 +149,16 @@ class Files(CommandLine):
         for arguments in (self.embed('no.obj', '-o', 'out.PLY', '--report', 'out.Json'), ['tile', 'no.ply', 'no.json', '-o', 'out.GLB']):
             self.expect(IS_A_FILE, *arguments, says='cannot be read')
 
+    def test_meshes_and_models_may_be_compressed(self):
+        for command, name in ((['repair', 'figure.obj'], 'whole.off'), (['sample', '--faces', '500'], 'sample.stl'),
+                              (['export', 'map.ply', 'map.json', 'figure.obj'], 'model.obj'), (['export', 'map.ply', 'map.json', 'figure.obj'], 'sphere.gii')):
+            with self.subTest(name):
+                for ending in ('', '.gz'):
+                    self.expect(0, *command, '-o', name + ending)
+                self.assertEqual(gzip.decompress((self.folder / f'{name}.gz').read_bytes()), (self.folder / name).read_bytes())
+        self.expect(IS_WRONG, 'repair', 'figure.obj', '-o', 'no.txt.gz', says='each also with .gz')
+        self.expect(IS_WRONG, 'embed', 'figure.obj', '-o', 'no.ply.gz', says='written as .ply; change')
+
     def test_devices_and_pipes_may_have_any_name(self):
         done = self.expect(0, *self.embed('figure.obj', '-o', '/dev/null', '--report', '/dev/stdout', '--quiet'))
         self.assertEqual(json.loads(done.stdout)['schema'], 'orbitutte.report/1')
@@ -254,6 +264,9 @@ class Maps(CommandLine):
         for a, b in ((1, 1), (60, 60), (120, 120), (200, 200)):
             self.assertEqual(values[a], [b, -b])
             self.assertEqual((folder / 'labels_on_a.txt').read_text().splitlines()[a], str(b % 7))
+        write_whole_numbers(self.folder / 'labels.npy', [v % 7 for v in range(len(V))])
+        self.expect(0, *self.map('--from', 'carried', '--labels', 'labels.npy', b=mesh))
+        self.assertIn(b"'<i4'", (folder / 'labels_on_a.npy').read_bytes()[:128])
         self.assertTrue((folder / 'curves_on_a.obj').read_text().rstrip().splitlines()[-1].startswith('l 1 2'))
         self.assertIn('map_Kd texture.png', (folder / 'textured_a.mtl').read_text())
         self.assertIn('mtllib textured_a.mtl', (folder / 'textured_a.obj').read_text())
@@ -332,6 +345,13 @@ class Maps(CommandLine):
         self.assertGreater(sum(timings.values()), 0.8 * total)
 
 
+def write_whole_numbers(path, numbers):
+    """An .npy of 64-bit whole numbers, or an .npy.gz, as NumPy writes it."""
+    header = f"{{'descr': '<i8', 'fortran_order': False, 'shape': ({len(numbers)},), }}".ljust(117).encode() + b'\n'
+    content = b'\x93NUMPY\x01\x00' + struct.pack('<H', len(header)) + header + struct.pack(f'<{len(numbers)}q', *numbers)
+    path.write_bytes(gzip.compress(content) if path.suffix == '.gz' else content)
+
+
 class Resampling(CommandLine):
     def resample(self, *options, grid='ico:5', embedding='map'):
         return ['resample', f'{embedding}.ply', f'{embedding}.json', 'figure.obj', '--grid', grid, *options]
@@ -358,6 +378,17 @@ class Resampling(CommandLine):
         before, after = map(float, re.search(r'the integral is (\S+) before and (\S+) after', done.stderr).groups())
         self.assertAlmostEqual(before, after, delta=1e-9 * abs(before) + 1e-10)
 
+    def test_least_squares_come_back_better(self):
+        off = {}
+        for kind in ('linear', 'least-squares'):
+            self.expect(0, *self.resample('--values', 'height.txt', '--kind', kind, '-o', 'there.npy', grid='ico:6'), says=f'40962 points, {kind}')
+            self.expect(0, *self.resample('--values', 'there.npy', '--kind', kind, '--back', '-o', 'back.txt', grid='ico:6'), says=f'vertices, {kind}')
+            off[kind] = math.dist(self.heights, self.numbers('back.txt'))
+        self.assertLess(off['least-squares'], 0.5 * off['linear'])
+        self.expect(0, *self.resample('--values', 'height.txt', '--kind', 'least-squares', '-o', 'there.npz'))
+        self.assertNotIn(b'indptr', (self.folder / 'there.npz').read_bytes())
+        self.expect(IS_WRONG, *self.resample('--kind', 'least-squares', '-o', 'no.npz'), says='least-squares has no table')
+
     def test_images_are_written_and_read(self):
         self.expect(0, *self.resample('--values', 'height.txt', '-o', 'picture.png', grid='octahedral:64'), says='black is .*, white is ')
         self.assertTrue((self.folder / 'picture.png').read_bytes().startswith(b'\x89PNG'))
@@ -369,6 +400,27 @@ class Resampling(CommandLine):
         for grid in ('periodic:64', 'tile:64'):
             self.expect(0, *self.resample('--values', 'height.txt', '--pad', '2', '-o', 'image.npz', grid=grid, embedding='flat'))
         self.expect(IS_WRONG, *self.resample('--values', 'height.txt', '-o', 'no.txt', embedding='flat'), says='take periodic or tile')
+
+    def test_what_is_compressed_is_the_same(self):
+        for name in ('there.npy', 'there.txt', 'there.shape.gii'):
+            with self.subTest(name):
+                for ending in ('', '.gz'):
+                    self.expect(0, *self.resample('--values', 'height.txt', '-o', name + ending, grid='octahedral:40'))
+                    self.expect(0, *self.resample('--values', name + ending, '--back', '-o', f'back.npy{ending}', grid='octahedral:40'))
+                self.assertEqual(gzip.decompress((self.folder / f'{name}.gz').read_bytes()), (self.folder / name).read_bytes())
+                self.assertEqual(gzip.decompress((self.folder / 'back.npy.gz').read_bytes()), (self.folder / 'back.npy').read_bytes())
+
+    def test_labels_in_an_array_stay_whole_numbers(self):
+        labels = [1000 * (height > 0) + 3 for height in self.heights]
+        for name in ('labels.npy', 'labels.npy.gz'):
+            with self.subTest(name):
+                write_whole_numbers(self.folder / name, labels)
+                self.expect(0, *self.resample('--values', name, '-o', 'there.npy', grid='ico:6'), says='nearest')
+                self.expect(0, *self.resample('--values', 'there.npy', '--back', '-o', 'back.npy', grid='ico:6'), says='nearest')
+                for written in ('there.npy', 'back.npy'):
+                    self.assertIn(b"'<i4'", (self.folder / written).read_bytes()[:128])
+                numbers = (self.folder / 'back.npy').read_bytes()[128:]
+                self.assertEqual(set(struct.unpack(f'<{len(labels)}i', numbers)), {3, 1003})
 
     def test_a_sphere_is_a_grid(self):
         self.expect(0, 'embed', 'figure.obj', '--orbifold', 'sphere', '-o', 'sphere.ply', '--report', 'sphere.json', '--quiet')
@@ -386,6 +438,11 @@ class Resampling(CommandLine):
                 (IS_WRONG, 'power of two', ['--values', 'height.txt', '-o', 'no.npy'], 'healpix-nested:5'),
                 (IS_WRONG, 'only images can have a margin', ['--values', 'height.txt', '--pad', '1', '-o', 'no.npy'], 'ico:3'),
                 (IS_WRONG, 'are no image; write .npy', ['--values', 'height.txt', '-o', 'no.png'], 'ico:3'),
+                (IS_WRONG, 'at most 32768 x 32768 pixels', ['--values', 'height.txt', '-o', 'no.png'], 'equirectangular:40000x20'),
+                (IS_WRONG, 'at most 32768 x 32768 pixels', ['--values', 'height.txt', '--pad', '20', '-o', 'no.png'], 'equirectangular:32740x20'),
+                (IS_WRONG, 'leave out .gz', ['--values', 'height.txt', '-o', 'no.npz.gz'], 'ico:3'),
+                (IS_WRONG, 'leave out .gz', ['--values', 'height.txt', '-o', 'no.png.gz'], 'cube:8'),
+                (IS_WRONG, 'each also with .gz', ['--values', 'height.txt', '-o', 'no.word.gz'], 'ico:3'),
                 (IS_WRONG, 'without --values', ['-o', 'no.npy'], 'ico:3'),
                 (IS_WRONG, '--kind is .cubic.; it may be linear', ['--values', 'height.txt', '--kind', 'cubic', '-o', 'no.npy'], 'ico:3'),
                 (IS_A_FILE, 'cannot be read', ['--values', 'height.txt', '-o', 'no.npy'], 'none.ply')):

@@ -32,6 +32,14 @@ TEST(NumpyArrays, OfAnyShapeReadBack) {
     }
 }
 
+TEST(NumpyArrays, ThatAreCutShortAreRefused) {
+  for (const std::vector<int>& shape : {std::vector<int>{}, {5}, {2, 3}}) {
+    const std::string bytes = serialize_numpy_array(counted(shape, false));
+    for (std::size_t size = 0; size < bytes.size(); ++size)
+      EXPECT_THROW(parse_numpy_array(std::string_view(bytes).substr(0, size)), MeshError) << size;
+  }
+}
+
 // "'fortran_order': False" becomes True, of the same length.
 TEST(NumpyArrays, ByColumnsAreTransposed) {
   const NumpyArray array = counted({4, 3, 2}, false);

@@ -8,12 +8,14 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "base64_text.h"
 #include "orbitutte/export/html_text.h"
 #include "orbitutte/export/palette.h"
+#include "orbitutte/export/value_colours.h"
 #include "orbitutte/io/base64.h"
 #include "orbitutte/io/bytes.h"
 #include "orbitutte/mesh/triangulation.h"
@@ -32,10 +34,12 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using Json = nlohmann::json;
 
-std::string scene_of(const test::SampleEmbedding& sample, const Points& colours = Points(0, 3)) {
+std::string scene_of(const test::SampleEmbedding& sample, const Points& colours = Points(0, 3),
+                     const PageOptions& options = {}) {
   Surface surface = test::unjudged(sample.mesh);
   surface.colours = colours;
-  return page_scene(surface, sample.embedding(), measure_triangles(surface, sample.embedding()));
+  return page_scene({surface, sample.embedding(), ""}, measure_triangles(surface, sample.embedding()),
+                    options);
 }
 
 constexpr const char* hostile =
@@ -216,6 +220,52 @@ TEST(PageScene, HoldsTheColoursOfTheVerticesWhereTheMeshHasThem) {
       EXPECT_NEAR(colour[i] / 255.0, colours(vertex[i / 3], static_cast<Eigen::Index>(i % 3)), 0.5 / 255);
     EXPECT_FALSE(Json::parse(scene_of(sample)).contains("colour"));
   }
+}
+
+// Each drawn vertex has its value, and the scale the value's colour at each end.
+TEST(Page, ShowsValuesWithTheirScale) {
+  const test::SampleEmbedding& sample = test::sample_embedding("432");
+  VertexData data;
+  data.values = sample.mesh.V.col(1);
+  data.values(0, 0) = std::numeric_limits<double>::quiet_NaN();
+  const ValueColours colours = value_colours(data, 0);
+  PageOptions options;
+  options.values = {hostile, data.values.col(0), {}, colours.low, colours.high};
+  const std::string text = scene_of(sample, colours.colours, options);
+  EXPECT_EQ(text.find('<'), std::string::npos);
+  const Json scene = Json::parse(text);
+  EXPECT_EQ(scene["values"]["name"], hostile);
+  EXPECT_FALSE(scene["values"].contains("labels"));
+  const auto value = numbers<float>(scene["values"]["numbers"]);
+  const auto vertex = numbers<std::uint32_t>(scene["source_vertex"]);
+  ASSERT_EQ(value.size(), vertex.size());
+  for (std::size_t i = 0; i < value.size(); ++i)
+    EXPECT_TRUE(std::isnan(value[i]) ? vertex[i] == 0
+                                     : value[i] == static_cast<float>(data.values(vertex[i], 0)));
+  const Json& scale = scene["scales"]["vertex"];
+  EXPECT_EQ(scale["low"], colours.low);
+  EXPECT_EQ(scale["high"], colours.high);
+  Eigen::Index lowest = 0;
+  data.values.col(0).tail(data.values.rows() - 1).minCoeff(&lowest);
+  const Eigen::RowVector3d shown = 255 * colours.colours.row(lowest + 1);
+  EXPECT_EQ(scale["colours"].front(), hexadecimal(Rgb{static_cast<std::uint8_t>(std::lround(shown[0])),
+                                                      static_cast<std::uint8_t>(std::lround(shown[1])),
+                                                      static_cast<std::uint8_t>(std::lround(shown[2]))}));
+  EXPECT_EQ(scale["ticks"].size(), 5U);
+
+  options.values->values.conservativeResize(3);
+  const std::string report = sample_report("432");
+  EXPECT_THROW(report_page({test::unjudged(sample.mesh), sample.embedding(), report}, options), MeshError);
+}
+
+TEST(Page, ShowsLabelsByTheirNames) {
+  const test::SampleEmbedding& sample = test::sample_embedding("432");
+  PageOptions options;
+  options.values = {"regions", Eigen::VectorXd::Ones(sample.mesh.V.rows()), {{1, "front", {}}}, 0, 0};
+  const Json scene = Json::parse(scene_of(sample, Points::Zero(sample.mesh.V.rows(), 3), options));
+  EXPECT_EQ(scene["values"]["labels"], Json({{1, "front"}}));
+  EXPECT_FALSE(scene["scales"].contains("vertex"));
+  EXPECT_FALSE(Json::parse(scene_of(sample)).contains("values"));
 }
 
 TEST(PageScene, BringsTheColoursOfPicturesAlong) {

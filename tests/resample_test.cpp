@@ -8,10 +8,12 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <random>
 #include <set>
+#include <utility>
 
 #include "orbitutte/inspect/recognition.h"
 #include "orbitutte/io/mesh_io.h"
@@ -244,6 +246,77 @@ TEST(Conservative, SmoothFunctionsStay) {
   EXPECT_LT((apply(tables.to_grid, embedding.positions) - grid.points).cwiseAbs().maxCoeff(), 0.02);
 }
 
+// ---- Least squares ----
+
+struct LinearTables {
+  SparseTable to_grid, to_surface;
+};
+
+LinearTables linear_tables(const Embedding& embedding, const Grid& grid) {
+  return {table_to_grid(embedding, grid, ResampleKind::linear),
+          table_to_surface(embedding, grid, ResampleKind::linear)};
+}
+
+// Where the grid is finer than the surface, even values that change from vertex to vertex come back, and
+// smooth ones much better than those that are linear both ways.
+TEST(LeastSquares, ComeBackFromAFinerGrid) {
+  const Embedding embedding = round_sphere();
+  const LinearTables tables = linear_tables(embedding, make_grid(parse_grid("ico:6")));
+  const Points& V = embedding.positions;
+  const auto off = [&](const Eigen::MatrixXd& on_grid, const Eigen::MatrixXd& values) {
+    return (apply(tables.to_surface, on_grid) - values).cwiseAbs().maxCoeff();
+  };
+  const Eigen::MatrixXd fitted = least_squares_values(tables.to_surface, tables.to_grid, V);
+  EXPECT_LT(off(fitted, V), 0.05 * off(apply(tables.to_grid, V), V));
+  EXPECT_LT((fitted - apply(tables.to_grid, V)).cwiseAbs().maxCoeff(), 2e-3);
+  const Eigen::MatrixXd noise = random_values(static_cast<int>(V.rows()), 2);
+  EXPECT_LT(off(least_squares_values(tables.to_surface, tables.to_grid, noise, {60, 1e-12}), noise), 1e-3);
+}
+
+// Where it is coarser, the residual is orthogonal to all that the grid can make: P^T (f - P g) = 0.
+TEST(LeastSquares, AreNearestFromACoarserGrid) {
+  const Embedding embedding = round_sphere();
+  const LinearTables tables = linear_tables(embedding, make_grid(parse_grid("ico:2")));
+  const Eigen::MatrixXd values = random_values(static_cast<int>(embedding.positions.rows()), 2);
+  const Eigen::MatrixXd fitted =
+      least_squares_values(tables.to_surface, tables.to_grid, values, {1000, 1e-12});
+  const Eigen::MatrixXd residual = values - apply(tables.to_surface, fitted),
+                        linear = values - apply(tables.to_surface, apply(tables.to_grid, values));
+  EXPECT_LT(apply(transposed(tables.to_surface), residual).norm(), 1e-9 * values.norm());
+  EXPECT_LT(residual.norm(), linear.norm());
+}
+
+TEST(LeastSquares, KeepConstantsAndLeaveOutWhatIsMissing) {
+  const Embedding embedding = round_sphere();
+  const LinearTables tables = linear_tables(embedding, make_grid(parse_grid("ico:5")));
+  Eigen::MatrixXd values = Eigen::MatrixXd::Constant(embedding.positions.rows(), 1, 0.3);
+  const auto fitted = [&] { return least_squares_values(tables.to_surface, tables.to_grid, values); };
+  EXPECT_LT((fitted().array() - 0.3).abs().maxCoeff(), 1e-13);
+  values(17) = std::numeric_limits<double>::quiet_NaN();
+  const Eigen::MatrixXd with_gap = fitted(), linear = apply(tables.to_grid, values);
+  for (Eigen::Index k = 0; k < linear.size(); ++k) {
+    EXPECT_EQ(std::isnan(with_gap(k)), std::isnan(linear(k)));
+    EXPECT_TRUE(std::isnan(linear(k)) || std::abs(with_gap(k) - 0.3) < 1e-13);
+  }
+  EXPECT_GT(with_gap.array().isNaN().count(), 0);
+}
+
+TEST(LeastSquares, AreNoProductWithATable) {
+  const Embedding embedding = round_sphere();
+  const Grid grid = make_grid(parse_grid("ico:2"));
+  EXPECT_THAT([&] { table_to_grid(embedding, grid, ResampleKind::least_squares); },
+              ThrowsMessage<ArgumentError>(HasSubstr("least_squares_values")));
+  EXPECT_EQ(table_to_surface(embedding, grid, ResampleKind::least_squares).weight,
+            table_to_surface(embedding, grid, ResampleKind::linear).weight);
+  const SparseTable other = table_to_grid(embedding, make_grid(parse_grid("ico:1")), ResampleKind::linear);
+  EXPECT_THAT(
+      [&] {
+        least_squares_values(table_to_surface(embedding, grid, ResampleKind::linear), other,
+                             embedding.positions);
+      },
+      ThrowsMessage<ArgumentError>(HasSubstr("one surface and one grid")));
+}
+
 // Eight labels of octants.
 Eigen::VectorXd octants(const Points& points) {
   Eigen::VectorXd labels(points.rows());
@@ -267,6 +340,55 @@ TEST(Labels, KeepTheirAreas) {
   }
 }
 
+// The areas of labels, those that are wanted over those that are there; 1 for all that are kept.
+std::map<double, double> kept_shares(const Eigen::VectorXd& from, const Eigen::VectorXd& from_areas,
+                                     const Eigen::VectorXd& to, const Eigen::VectorXd& to_areas) {
+  std::map<double, double> before, share;
+  for (Eigen::Index k = 0; k < from.size(); ++k) before[from[k]] += from_areas[k];
+  for (const auto& [label, area] : before)
+    share[label] = (to.array() == label).select(to_areas, 0).sum() / area;
+  return share;
+}
+
+// Even on a grid of which a cell holds many vertices.
+TEST(Labels, KeepTheirAreasNearlyExactlyIfThatIsAskedFor) {
+  const Embedding embedding = round_sphere();
+  const Eigen::VectorXd labels = octants(embedding.positions), areas = surface_of(embedding).vertex_areas();
+  for (const auto& [grid, within] : {std::pair("ico:3", 0.02), std::pair("ico:6", 0.002)}) {
+    const ConservativeTables tables = conservative_tables(embedding, make_grid(parse_grid(grid)), areas);
+    const Eigen::VectorXd there = labels_keeping_areas(tables.to_grid, labels, {tables.cell_areas, areas}),
+                          back = labels_keeping_areas(tables.to_surface, there, {areas, tables.cell_areas});
+    for (const auto& [label, share] : kept_shares(labels, areas, there, tables.cell_areas))
+      EXPECT_NEAR(share, 1, within) << grid << " " << label;
+    for (const auto& [label, share] : kept_shares(there, tables.cell_areas, back, areas))
+      EXPECT_NEAR(share, 1, within) << grid << " " << label;
+    // A label is taken only by cells that have a part of it.
+    const Eigen::MatrixXd one_hot = (labels.array() == 3).cast<double>();
+    const Eigen::VectorXd part = apply(tables.to_grid, one_hot);
+    for (Eigen::Index k = 0; k < there.size(); ++k) EXPECT_TRUE(there[k] != 3 || part[k] > 0);
+  }
+}
+
+TEST(Labels, WithoutAreasToTradeAreThoseOfTheLargestWeight) {
+  SparseTable table;
+  table.columns = 3;
+  table.start = {0, 2, 3, 3, 4};
+  table.index = {0, 1, 1, 2};
+  table.weight = {0.6, 0.4, 1, 1};
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const Eigen::VectorXd labels = Eigen::Vector3d(4, 7, none), rows = Eigen::Vector4d(1, 1, 1, 1),
+                        columns = Eigen::Vector3d(1, 1, 1);
+  const Eigen::MatrixXd result = labels_keeping_areas(table, labels, {rows, columns});
+  EXPECT_EQ(result(0), 4);
+  EXPECT_EQ(result(1), 7);
+  EXPECT_TRUE(std::isnan(result(2)) && std::isnan(result(3)));
+  EXPECT_THAT(
+      [&] {
+        labels_keeping_areas(table, labels, {columns, rows});
+      },
+      ThrowsMessage<ArgumentError>(HasSubstr("areas of 3 rows and 4 columns")));
+}
+
 TEST(Labels, AreNeverMixed) {
   SparseTable table;
   table.columns = 4;
@@ -281,6 +403,19 @@ TEST(Labels, AreNeverMixed) {
   EXPECT_EQ(result(2, 0), 5);
   EXPECT_THAT([&] { apply(table, labels.topRows(2)); },
               ThrowsMessage<ArgumentError>(HasSubstr("2 values for 4")));
+}
+
+// For each point, which of so many of the points, spread over their list, is the nearest.
+Eigen::VectorXd nearest_of(const Points& points, int count) {
+  Eigen::VectorXd nearest(points.rows());
+  for (Eigen::Index v = 0; v < points.rows(); ++v) {
+    double least = std::numeric_limits<double>::infinity();
+    for (int c = 0; c < count; ++c) {
+      const double distance = (points.row(v) - points.row(points.rows() * c / count)).squaredNorm();
+      if (distance < least) least = distance, nearest[v] = c;
+    }
+  }
+  return nearest;
 }
 
 // What a cortex keeps on the icosphere of the field, and back.
@@ -300,21 +435,52 @@ TEST(Cortex, KeepsPositionsIntegralAndLabels) {
   EXPECT_GT((off.array() < 1e-3).cast<double>().mean(), 0.99);
   EXPECT_LT(off.maxCoeff(), 5e-3);  // in folds that the map shrinks below the grid
 
+  // The same by least squares; some vertices lie where many share a point of the grid.
+  const LinearTables linear = linear_tables(embedding, grid);
+  const Eigen::VectorXd left =
+      (apply(linear.to_surface, least_squares_values(linear.to_surface, linear.to_grid, surface.V)) -
+       surface.V)
+          .rowwise()
+          .norm() /
+      size;
+  EXPECT_LT(std::sqrt(left.squaredNorm() / static_cast<double>(left.size())), 1e-4);
+  EXPECT_LT((left.array() > 1e-3).count(), 40);
+  EXPECT_LT(left.maxCoeff(), 2.5e-3);
+
   const Eigen::VectorXd areas = surface.vertex_areas();
   const ConservativeTables tables = conservative_tables(embedding, grid, areas);
   const Eigen::MatrixXd on_grid = apply(tables.to_grid, surface.V);
   for (int c = 0; c < 3; ++c)
     EXPECT_NEAR(tables.cell_areas.dot(on_grid.col(c)), areas.dot(surface.V.col(c)),
                 1e-12 * areas.dot(surface.V.col(c).cwiseAbs()));
-  Eigen::VectorXd labels = octants(surface.V.rowwise() - surface.V.colwise().mean());
-  for (const SparseTable& table : {table_to_grid(embedding, grid, ResampleKind::nearest), tables.to_grid}) {
-    const Eigen::VectorXd moved = apply_to_labels(table, labels);
-    for (int label = 0; label < 8; ++label) {
-      const double before = (labels.array() == label).select(areas, 0).sum(),
-                   after = (moved.array() == label).select(tables.cell_areas, 0).sum();
-      EXPECT_NEAR(after, before, 0.01 * before) << label;
-    }
-  }
+
+  // Forty regions, there and back.
+  const Eigen::VectorXd labels = nearest_of(surface.V, 40);
+  const Eigen::VectorXd there = labels_keeping_areas(tables.to_grid, labels, {tables.cell_areas, areas}),
+                        again = labels_keeping_areas(tables.to_surface, there, {areas, tables.cell_areas});
+  for (const auto& [label, share] : kept_shares(labels, areas, there, tables.cell_areas))
+    EXPECT_NEAR(share, 1, 0.01) << label;
+  for (const auto& [label, share] : kept_shares(labels, areas, again, areas))
+    EXPECT_NEAR(share, 1, 0.01) << label;
+
+  // Eight large ones keep them by the nearest corner, too.
+  const Eigen::VectorXd large = octants(surface.V.rowwise() - surface.V.colwise().mean()),
+                        moved = apply_to_labels(table_to_grid(embedding, grid, ResampleKind::nearest), large);
+  for (const auto& [label, share] : kept_shares(large, areas, moved, tables.cell_areas))
+    EXPECT_NEAR(share, 1, 0.01) << label;
+}
+
+// At the next level there are points enough for all.
+TEST(Cortex, HasAllPositionsWithinAThousandthByLeastSquares) {
+  const std::string path = std::string(ORBITUTTE_SHARED_DIR) + "/meshes/cortex_icbm152_lh.off";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is missing";
+  const Surface surface = make_surface(read_mesh(path));
+  const Embedding embedding = embed(surface, parse_orbifold("1"), {}, {}).embedding;
+  const LinearTables tables = linear_tables(embedding, make_grid(parse_grid("ico:8")));
+  const Eigen::MatrixXd back =
+      apply(tables.to_surface, least_squares_values(tables.to_surface, tables.to_grid, surface.V));
+  const double size = (surface.V.colwise().maxCoeff() - surface.V.colwise().minCoeff()).norm();
+  EXPECT_LT((back - surface.V).rowwise().norm().maxCoeff() / size, 5e-4);
 }
 
 // ---- Through orbifolds ----

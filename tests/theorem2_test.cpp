@@ -12,6 +12,7 @@
 
 #include "hand_made.h"
 #include "orbitutte/export/tiling.h"
+#include "orbitutte/mesh/intrinsic_triangulation.h"
 #include "orbitutte/orbifold/cone_target.h"
 #include "orbitutte/solve/lbfgs.h"
 #include "sample_embeddings.h"

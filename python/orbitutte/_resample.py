@@ -40,7 +40,8 @@ class Resampler:
         "octahedral:256", "cube:128"; of orbifolds of the plane "periodic:256" (the torus that covers it) or "tile:256" (442, 2222,
         \\*2222); or a sphere, for its vertices, such as FreeSurfer's fsaverage.
     kind : str
-        "linear", "nearest" (labels) or "conservative": means over cells, which keep the integral over the surface; needs the mesh.
+        "linear"; "nearest" (labels); "conservative": means over cells, which keep the integral over the surface (needs the mesh); or
+        "least-squares": the values of which `back` makes those of the surface again as nearly as can be.
 
     Attributes
     ----------
@@ -63,8 +64,8 @@ class Resampler:
         if not isinstance(embedding, Embedding):
             raise TypeError("embedding must be an orbitutte.Embedding")
         self.embedding, self.kind = embedding, _options.text(kind, "kind")
-        if self.kind not in ("linear", "nearest", "conservative"):
-            raise ArgumentError(f"kind is '{self.kind}'; it may be linear, nearest or conservative")
+        if self.kind not in ("linear", "nearest", "conservative", "least-squares"):
+            raise ArgumentError(f"kind is '{self.kind}'; it may be linear, nearest, conservative or least-squares")
         embedding._warn_of_offsets()
         self._grid = _grid_of(embedding, grid)
         self._tables: dict[str, Any] = {}
@@ -79,8 +80,8 @@ class Resampler:
     def __call__(self, values: npt.ArrayLike) -> Array:
         """Values at the vertices, (n,) or (n, c), at the points of the grid: of the shape `shape`, or shape + (c,).
 
-        Whole numbers and truth values are labels, and stay what they are: each point gets the label of the largest weight. Other
-        values are added by their weights; NaN where the surface has no triangle.
+        Whole numbers and truth values are labels, and stay what they are: each point gets the label of the largest weight; of the kind
+        "conservative", so that each label keeps its area. Other values are added by their weights; NaN where the surface has no triangle.
         """
         values = np.asarray(values)
         rows, behind = _rows(values, len(self._columns("grid")), "values", "vertices")
@@ -98,7 +99,9 @@ class Resampler:
         return result.reshape((len(result),) + behind)
 
     def table(self) -> Table:
-        """The table of weights from the vertices to the points: k x n."""
+        """The table of weights from the vertices to the points: k x n; ArgumentError for "least-squares", which solves equations."""
+        if self.kind == "least-squares":
+            raise ArgumentError("values of the kind least-squares are no product with a table; call the resampler, or take linear")
         return self._table("grid")
 
     def back_table(self) -> Table:
@@ -128,7 +131,8 @@ class Resampler:
 
     def _core_table(self, side: str) -> Any:
         if side not in self._tables:
-            self._tables[side] = _orbitutte.resample_table(self.embedding._core, self._grid, self.kind, side)
+            kind = "linear" if self.kind == "least-squares" else self.kind
+            self._tables[side] = _orbitutte.resample_table(self.embedding._core, self._grid, kind, side)
         return self._tables[side]
 
     def _columns(self, side: str) -> range:
@@ -137,9 +141,18 @@ class Resampler:
     def _apply(self, side: str, rows: Array) -> Array:
         table = self._core_table(side)
         as_numbers = np.ascontiguousarray(rows, dtype=np.float64)
+        if self.kind == "least-squares" and side == "grid":
+            if rows.dtype.kind in "biu":
+                raise ArgumentError("values are whole numbers, and so labels, which least-squares cannot add; take nearest, or give floats")
+            return _orbitutte.least_squares_values(self._core_table("surface"), table, as_numbers)
         if rows.dtype.kind not in "biu":
             return table.apply(as_numbers)
-        result = table.apply_to_labels(as_numbers)
+        if self.kind == "conservative":
+            areas = (self.surface_areas, self.vertex_areas)
+            rows_and_columns = areas if side == "grid" else areas[::-1]
+            result = _orbitutte.labels_keeping_areas(table, as_numbers, *rows_and_columns)
+        else:
+            result = table.apply_to_labels(as_numbers)
         return result if np.isnan(result).any() else result.astype(rows.dtype)
 
     def _table(self, side: str) -> Table:

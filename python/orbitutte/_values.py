@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -24,7 +24,7 @@ class ValueLabel(NamedTuple):
 class VertexData(NamedTuple):
     """Some maps of a surface, each with a value at every vertex."""
 
-    values: npt.NDArray[np.float64]  #: (n, k), a column for each map
+    values: npt.NDArray[Any]  #: (n, k), a column for each map; int64 if an .npy has whole numbers, otherwise float64
     names: list[str] = []  #: of the maps; none, or one each
     labels: list[ValueLabel] = []  #: the table, if the values are labels; -1 from an .annot file is of no label
 
@@ -38,8 +38,8 @@ def read_vertex_data(path: str | os.PathLike) -> VertexData:
     FileError, MeshError, ArgumentError
         If the file cannot be read, makes no sense, or has an unknown ending.
     """
-    values, names, labels = _orbitutte.read_values(_arrays.path(path))
-    return VertexData(values, names, [ValueLabel(key, name, tuple(colour)) for key, name, colour in labels])
+    values, names, labels, is_whole = _orbitutte.read_values(_arrays.path(path))
+    return VertexData(values.astype(np.int64) if is_whole else values, names, [ValueLabel(key, name, tuple(colour)) for key, name, colour in labels])
 
 
 def write_vertex_data(path: str | os.PathLike, values: npt.ArrayLike, names: Sequence[str] = (), labels: Sequence[ValueLabel] = ()) -> None:
@@ -48,7 +48,7 @@ def write_vertex_data(path: str | os.PathLike, values: npt.ArrayLike, names: Seq
     Parameters
     ----------
     values : (n,) or (n, k) array_like
-        GIfTI and FreeSurfer keep single precision; `.label.gii` and `.annot` whole numbers.
+        GIfTI and FreeSurfer keep single precision; `.label.gii` and `.annot` whole numbers; `.npy` keeps whole numbers as such.
     names : sequence of str
         Of the k maps.
     labels : sequence of (key, name, colour)
@@ -59,10 +59,11 @@ def write_vertex_data(path: str | os.PathLike, values: npt.ArrayLike, names: Seq
     FileError, MeshError, ArgumentError
         If the file cannot be written, cannot hold the values, or has an unknown ending.
     """
+    is_whole = np.asarray(values).dtype.kind in "biu"
     array = np.asarray(values, dtype=np.float64)
     if array.ndim == 1:
         array = array[:, None]
     if array.ndim != 2:
         raise ArgumentError(f"values has the shape {array.shape}; it must be (n,) or (n, k)")
     table = [(int(key), str(name), tuple(float(channel) for channel in colour)) for key, name, colour in labels]
-    _orbitutte.write_values(_arrays.path(path), array, [str(name) for name in names], table)
+    _orbitutte.write_values(_arrays.path(path), array, [str(name) for name in names], table, is_whole)

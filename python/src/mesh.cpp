@@ -67,7 +67,7 @@ py::str text(const std::string& bytes) {
       PyUnicode_DecodeUTF8(bytes.data(), static_cast<Py_ssize_t>(bytes.size()), "replace"));
 }
 
-// (values, names, labels), as write_values takes them; a label is (key, name, colour).
+// (values, names, labels, whole), as write_values takes them; a label is (key, name, colour).
 py::tuple read_values(const std::string& path) {
   VertexData data;
   {
@@ -77,14 +77,14 @@ py::tuple read_values(const std::string& path) {
   py::list labels;
   for (const ValueLabel& label : data.labels)
     labels.append(py::make_tuple(label.key, text(label.name), label.colour));
-  return py::make_tuple(data.values, data.names, labels);
+  return py::make_tuple(data.values, data.names, labels, data.is_whole);
 }
 
 using Label = std::tuple<int, std::string, std::array<double, 4>>;
 
 void write_values(const std::string& path, const Eigen::MatrixXd& values,
-                  const std::vector<std::string>& names, const std::vector<Label>& labels) {
-  VertexData data = {values, names, {}};
+                  const std::vector<std::string>& names, const std::vector<Label>& labels, bool is_whole) {
+  VertexData data = {values, names, {}, is_whole};
   data.labels.reserve(labels.size());
   for (const auto& [key, name, colour] : labels) data.labels.push_back({key, name, colour});
   write_vertex_data(path, data);

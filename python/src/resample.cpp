@@ -2,6 +2,7 @@
 // Values from a surface to a grid and back.
 #include "orbitutte/resample/resample.h"
 
+#include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
 #include "arrays.h"
@@ -16,18 +17,22 @@ py::array array_of(const Eigen::VectorXd& values) {
 
 using ByRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
+py::array as_array(const ByRows& values) {
+  py::array_t<double> array({values.rows(), values.cols()});
+  std::copy(values.data(), values.data() + values.size(), array.mutable_data());
+  return array;
+}
+
 // rows x maps, by a function such as `apply`.
 py::array applied(const SparseTable& table, const DoubleArray& values,
                   Eigen::MatrixXd (*function)(const SparseTable&, const Eigen::MatrixXd&)) {
   const Eigen::MatrixXd given = Eigen::Map<const ByRows>(values.data(), values.shape(0), values.shape(1));
-  ByRows result;
+  Eigen::MatrixXd result;
   {
     const py::gil_scoped_release release;
     result = function(table, given);
   }
-  py::array_t<double> array({result.rows(), result.cols()});
-  std::copy(result.data(), result.data() + result.size(), array.mutable_data());
-  return array;
+  return as_array(result);
 }
 
 Grid grid_by_name(const HeldEmbedding& held, const std::string& text) {
@@ -42,6 +47,30 @@ SparseTable resample_table(const HeldEmbedding& held, const Grid& grid, const st
   const py::gil_scoped_release release;
   return direction == "grid" ? table_to_grid(held.embedding, grid, choice)
                              : table_to_surface(held.embedding, grid, choice);
+}
+
+// rows x maps.
+py::array labels_by_areas(const SparseTable& table, const DoubleArray& labels, const Eigen::VectorXd& rows,
+                          const Eigen::VectorXd& columns) {
+  const Eigen::MatrixXd given = Eigen::Map<const ByRows>(labels.data(), labels.shape(0), labels.shape(1));
+  Eigen::MatrixXd result;
+  {
+    const py::gil_scoped_release release;
+    result = labels_keeping_areas(table, given, {rows, columns});
+  }
+  return as_array(result);
+}
+
+// k x maps; the tables are linear.
+py::array least_squares(const SparseTable& to_surface, const SparseTable& to_grid,
+                        const DoubleArray& values) {
+  const Eigen::MatrixXd given = Eigen::Map<const ByRows>(values.data(), values.shape(0), values.shape(1));
+  Eigen::MatrixXd result;
+  {
+    const py::gil_scoped_release release;
+    result = least_squares_values(to_surface, to_grid, given);
+  }
+  return as_array(result);
 }
 
 // (to the grid, to the surface, areas of cells, areas of vertices)
@@ -84,6 +113,8 @@ void bind_resample(py::module_& module) {
              [](const DoubleArray& V, const IntArray& F) { return sphere_grid(to_points(V), to_faces(F)); });
   module.def("resample_table", &resample_table);
   module.def("conservative_tables", &conservative);
+  module.def("least_squares_values", &least_squares);
+  module.def("labels_keeping_areas", &labels_by_areas);
 }
 
 }  // namespace orbitutte::python

@@ -139,6 +139,16 @@ def test_the_first_steps_of_a_new_user(tmp_path, monkeypatch, capsys):
     assert {path.name for path in tmp_path.iterdir()} == {"tiling.obj", "map.ply", "map.json", "map.png"}
 
 
+@pytest.mark.parametrize("ending", ["npy", "npy.gz"])
+def test_whole_numbers_stay_whole_in_an_array(tmp_path, ending):
+    path = tmp_path / f"labels.{ending}"
+    orbitutte.write_vertex_data(path, np.array([3, 0, 7], dtype=np.uint8))
+    read = orbitutte.read_vertex_data(path).values
+    assert read.dtype == np.int64 and read[:, 0].tolist() == [3, 0, 7]
+    orbitutte.write_vertex_data(path, np.array([3.0, 0.0, 7.0]))
+    assert orbitutte.read_vertex_data(path).values.dtype == np.float64
+
+
 @pytest.mark.parametrize("ending", ["shape.gii", "func.gii.gz", "csv", "txt", "npy"])
 def test_values_at_vertices_come_back(ending, tmp_path):
     values = np.random.default_rng(5).normal(size=(50, 2)).astype(np.float32)

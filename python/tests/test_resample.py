@@ -44,6 +44,33 @@ def test_conservative_values_keep_the_integral(sphere, grid):
     assert np.abs(resampler(np.ones(len(V))) - 1).max() < 1e-13
 
 
+def test_least_squares_come_back_better_than_linear_values(sphere):
+    V = sphere.mesh[0]
+    linear, fitted = (orbitutte.Resampler(sphere, "ico:6", kind) for kind in ("linear", "least-squares"))
+
+    off = {resampler.kind: np.linalg.norm(resampler.back(resampler(V)) - V, axis=1) for resampler in (linear, fitted)}
+    assert np.linalg.norm(off["least-squares"]) < np.linalg.norm(off["linear"])  # most of it in limbs, below the distance of the points
+    assert np.median(off["least-squares"]) < 0.1 * np.median(off["linear"])
+    assert np.abs(fitted(np.ones(len(V))) - 1).max() < 1e-12
+    with pytest.raises(orbitutte.ArgumentError, match="no product with a table"):
+        fitted.table()
+    assert (fitted.back_table().weights == linear.back_table().weights).all()
+    with pytest.raises(orbitutte.ArgumentError, match="take nearest"):
+        fitted(np.zeros(len(V), dtype=int))
+
+
+def test_conservative_labels_keep_their_areas(sphere):
+    V = sphere.mesh[0]
+    resampler = orbitutte.Resampler(sphere, "ico:6", "conservative")
+    labels = (V[:, 1] > V[:, 1].mean()) + 2 * (V[:, 0] > V[:, 0].mean())
+    there = resampler(labels)
+    back = resampler.back(there)
+    wanted = np.bincount(labels, resampler.vertex_areas)
+    assert there.dtype == labels.dtype
+    assert np.abs(np.bincount(there, resampler.surface_areas) / wanted - 1).max() < 0.01
+    assert np.abs(np.bincount(back, resampler.vertex_areas) / wanted - 1).max() < 0.02
+
+
 def test_the_table_is_all_that_a_loop_needs(sphere):
     pytest.importorskip("scipy")
     V = sphere.mesh[0]

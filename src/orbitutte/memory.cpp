@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "orbitutte/memory.h"
 
+#include <dlfcn.h>
+
 #include <cstdint>
 #include <cstdlib>
+
+#include "orbitutte/parallel.h"
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -50,5 +54,14 @@ void use_huge_pages() {
   std::free(heap);  // it stays malloc's
 #endif
 }
+
+// In a process that was forked, already the call that sets the number starts threads.
+void use_one_blas_thread() {
+  const auto get = reinterpret_cast<int (*)()>(dlsym(RTLD_DEFAULT, "openblas_get_num_threads"));
+  const auto set = reinterpret_cast<void (*)(int)>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"));
+  if (get && set && get() != 1) set(1);
+}
+
+int on_one_thread(const std::function<int()>& work) { return with_threads(1, work); }
 
 }  // namespace orbitutte

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Advice to the allocator for programs that embed large meshes.
+// Advice to allocator, BLAS and oneTBB for programs that embed large meshes, or many.
 #pragma once
+
+#include <functional>
 
 namespace orbitutte {
 
@@ -14,5 +16,14 @@ void keep_freed_memory();
 /// who ask: pages are touched for the first time 512 at a time. For a program to call in its main, before it
 /// starts threads: they all share the one heap from then on.
 void use_huge_pages();
+
+/// Makes BLAS calls run on the calling thread: two BLAS threads gain little on small fronts and lose much on
+/// a busy machine. The library does so when it factorises. A program that forks processes that embed may call
+/// it before: otherwise OpenBLAS starts its threads anew in each of them, to wait for work in a busy loop.
+void use_one_blas_thread();
+
+/// Calls `work`, in which all loops run on the calling thread, also those outside of an embedding, such as
+/// reading, and returns what it returns. For a program that has work for every core already.
+int on_one_thread(const std::function<int()>& work);
 
 }  // namespace orbitutte

@@ -12,13 +12,20 @@ const grouped = (count) => count.toLocaleString('en');
 // A ratio, to about three digits: 0.52, 1.07, 312.
 const ratio = (log2) => Number((2 ** log2).toPrecision(3)).toString();
 
+// ", thickness 2.41", or the name of a label; nothing where there is no value.
+function valueText({values}, drawn) {
+  const number = values?.numbers[drawn];
+  if (!Number.isFinite(number)) return '';
+  return `, ${values.name} ${values.labels ? values.labels.get(number) ?? 'none' : Number(number.toPrecision(4))}`;
+}
+
 function showReadout(view, point) {
   if (!point) return;
   const {scene, points} = view;
-  const vertex = scene.sourceVertex[points.nearestVertex(point)];
+  const drawn = points.nearestVertex(point), vertex = scene.sourceVertex[drawn];
   const copy = scene.copies.length > 1 ? `, copy ${point.copy + 1} of ${scene.copies.length}` : '';
   element('readout').textContent = `Vertex ${vertex}: area ratio ${ratio(points.value(scene.area, point))}, ` +
-    `angle distortion ${ratio(points.value(scene.angle, point))}${copy}`;
+    `angle distortion ${ratio(points.value(scene.angle, point))}${valueText(scene, drawn)}${copy}`;
 }
 
 function connectControls(view) {
@@ -29,7 +36,7 @@ function connectControls(view) {
   control('colouring', 'change', () => {
     const colouring = element('colouring').value;
     element('squares-label').hidden = colouring !== 'checkerboard';
-    showLegend(view.scene.scales[colouring], 'mean of the faces around each vertex');
+    showLegend(view.scene.scales[colouring], colouring === 'vertex' ? 'values beyond an end have its colour' : 'mean of the faces around each vertex');
     view.setColouring(colouring);
   });
   control('squares', 'input', () => {
@@ -58,7 +65,9 @@ function start() {
   const scene = readScene(JSON.parse(element('scene').textContent));
   let marks = null;
   element('view-body').hidden = false;
-  if (scene.colour) element('colouring').append(new Option('Vertex colours', 'vertex'));
+  // A page of values opens with them.
+  const {values} = scene;
+  if (scene.colour) element('colouring').append(new Option(values?.name ?? 'Vertex colours', 'vertex', Boolean(values), Boolean(values)));
   const view = new View(scene, {
     canvas: element('canvas'),
     stages: {source: element('source'), tile: element('tile'), tiling: element('tiling')},

@@ -43,7 +43,7 @@ const matrixOf = ([a, b, c, d, e, f, g, h, i]) => new Matrix4().set(a, b, c, 0, 
 
 /**
  * The scene as typed arrays: three numbers per vertex for source, image, normal and colour (null if there is none), one for
- * the others.
+ * the others; and the values for which the colours stand (null if there are none).
  */
 export function readScene(json) {
   return {
@@ -57,6 +57,7 @@ export function readScene(json) {
     area: between(...json.area_range, json.area),
     angle: between(...json.angle_range, json.angle),
     colour: json.colour ? numbers(Uint8Array, json.colour) : null,
+    values: json.values ? {name: json.values.name, numbers: numbers(Float32Array, json.values.numbers), labels: json.values.labels && new Map(json.values.labels)} : null,
     fine: level(json.fine),
     coarse: level(json.coarse),
     copies: json.copies.map(({transform, colour}) => ({matrix: matrixOf(transform), colour})),

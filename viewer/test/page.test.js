@@ -80,6 +80,30 @@ test('vertex colours are offered where the mesh has them, and shown as they are 
   await withPage(figure.page, async (page) => assert.equal(await page.locator('#colouring option[value=vertex]').count(), 0));
 });
 
+test('a page of values opens with them, their scale, and the value under the pointer', async () => {
+  const name = 'sub-01_space-fsaverage_hemisphere-left_desc-smoothed_height.txt', values = workshop.path(name);
+  workshop.embed('valued', {faces: 500});
+  const heights = readFileSync(workshop.path('valued.obj'), 'utf8').split('\n').filter((row) => row.startsWith('v ')).map((row) => Number(row.split(' ')[2]));
+  writeFileSync(values, heights.map((height) => `${height}\n`).join(''));
+  const {page: file} = workshop.makePage('valued', {faces: 500, options: ['--values', values]});
+  await withPage(file, async (page) => {
+    assert.equal(await page.inputValue('#colouring'), 'vertex');
+    assert.equal(await page.textContent('#colouring option:checked'), name);
+    assert.equal(await page.isVisible('#legend'), true);
+    assert.ok((await page.textContent('#legend-title')).startsWith(name));
+    const opened = await pixels(page, 'source');
+    await page.selectOption('#colouring', 'tile');
+    assert.notEqual((await pixels(page, 'source')).sum, opened.sum);
+    const vertex = await visibleVertex(page), place = await placeOf(page, 'source', vertex);
+    await page.mouse.move(place.x, place.y);
+    await drawn(page);
+    const value = Number((await page.textContent('#readout')).match(/_height.txt (-?[0-9.e-]+)/)[1]);
+    assert.ok(Math.abs(value - heights[vertex]) < 1e-3 * Math.max(...heights.map(Math.abs)), `${value}, not ${heights[vertex]}`);
+  });
+  await withPage(file, async (page) => assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 390), {viewport: {width: 390, height: 844}});
+  await withPage(figure.page, async (page) => assert.equal(await page.inputValue('#colouring'), 'tile'));
+});
+
 test('a click on a vertex marks it in all panels and names it in the --cones line', () => withPage(figure.page, async (page) => {
   const vertex = await visibleVertex(page), place = await placeOf(page, 'source', vertex);
   await page.mouse.click(place.x, place.y);

@@ -33,12 +33,12 @@ export class Workshop {
     return [map, json, mesh];
   }
 
-  /** Embeds a sample and writes its page; `editReport` may change the report in between. */
-  makePage(name, {editReport = (report) => report, ...sample} = {}) {
+  /** Embeds a sample and writes its page, with further options; `editReport` may change the report in between. */
+  makePage(name, {editReport = (report) => report, options = [], ...sample} = {}) {
     const [map, json, mesh] = this.embed(name, sample), page = this.path(`${name}.html`);
     const report = editReport(JSON.parse(readFileSync(json, 'utf8')));
     writeFileSync(json, JSON.stringify(report));
-    this.run('report', map, json, mesh, '-o', page);
+    this.run('report', map, json, mesh, '-o', page, ...options);
     return {page, report};
   }
 

@@ -12,7 +12,9 @@
 #include "orbitutte/export/cut_triangles.h"
 #include "orbitutte/export/export_files.h"
 #include "orbitutte/export/gltf_model.h"
+#include "orbitutte/io/compression.h"
 #include "orbitutte/io/file.h"
+#include "orbitutte/io/file_ending.h"
 #include "orbitutte/io/obj_lines.h"
 #include "orbitutte/io/ply.h"
 #include "orbitutte/io/ply_triangles.h"
@@ -207,9 +209,12 @@ std::vector<std::string> model_endings() {
 }
 
 void write_model(const std::string& path, const ExportedModel& model) {
-  const std::string ending = ending_of(path);
-  for (const ModelFormat& format : model_formats)
-    if (ending == format.ending) return write_file(path, format.bytes(model));
+  const std::string plain = without_gz(path), ending = ending_of(plain);
+  for (const ModelFormat& format : model_formats) {
+    if (ending != format.ending) continue;
+    const std::string bytes = format.bytes(model);
+    return write_file(path, plain == path ? bytes : compress_to_gzip(bytes));
+  }
   throw ArgumentError(fmt::format("{}: a model is written as {}", path, listed_choices(model_endings())));
 }
 

@@ -40,8 +40,8 @@ std::vector<std::string> model_endings();
 /// - VTP (XML, base64): the cut mesh in space, with its sphere positions, texture coordinates and source
 ///   vertices as point arrays, and area and angle distortion as cell arrays.
 ///
-/// The file appears whole or not at all. Throws ArgumentError for another ending or if the model is too
-/// large for the format, and FileError.
+/// Compressed if `.gz` follows. The file appears whole or not at all. Throws ArgumentError for another ending
+/// or if the model is too large for the format, and FileError.
 void write_model(const std::string& path, const ExportedModel& model);
 
 }  // namespace orbitutte

@@ -16,8 +16,12 @@ namespace {
 
 const Eigen::RowVector3d no_value_grey(0.6, 0.6, 0.6);
 
-Eigen::RowVector3d shown_colour(const Colour& colour) {
-  const Rgb rgb = srgb(colour);
+// At the share t, 0 .. 1, of the scale between two values. Where zero lies between them, it is in the middle.
+Rgb value_colour(double low, double high, double t) {
+  return srgb(low < 0 && high > 0 ? diverging_colour(2 * t - 1) : sequential_colour(t));
+}
+
+Eigen::RowVector3d shown_colour(const Rgb& rgb) {
   return Eigen::RowVector3d(rgb.red, rgb.green, rgb.blue) / 255;
 }
 
@@ -50,8 +54,7 @@ std::pair<double, double> inner_range(const VertexData& data, Eigen::Index map) 
 ValueColours measure_colours(const VertexData& data, Eigen::Index map) {
   ValueColours result;
   std::tie(result.low, result.high) = inner_range(data, map);
-  const bool contains_zero = result.low < 0 && result.high > 0;
-  if (contains_zero) {
+  if (result.low < 0 && result.high > 0) {
     result.high = std::max(-result.low, result.high);
     result.low = -result.high;
   }
@@ -59,9 +62,8 @@ ValueColours measure_colours(const VertexData& data, Eigen::Index map) {
   const double size = result.high > result.low ? result.high - result.low : 1;
   for (Eigen::Index v = 0; v < data.values.rows(); ++v) {
     const double t = (data.values(v, map) - result.low) / size;
-    result.colours.row(v) = !std::isfinite(t) ? no_value_grey
-                            : contains_zero   ? shown_colour(diverging_colour(2 * t - 1))
-                                              : shown_colour(sequential_colour(t));
+    result.colours.row(v) =
+        std::isfinite(t) ? shown_colour(value_colour(result.low, result.high, t)) : no_value_grey;
   }
   return result;
 }
@@ -81,6 +83,13 @@ Eigen::Index find_map(const VertexData& data, const std::string& name_or_number)
 
 ValueColours value_colours(const VertexData& data, Eigen::Index map) {
   return data.labels.empty() ? measure_colours(data, map) : label_colours(data, map);
+}
+
+std::vector<Rgb> value_scale_colours(double low, double high, int count) {
+  std::vector<Rgb> colours;
+  colours.reserve(static_cast<std::size_t>(count));
+  for (int k = 0; k < count; ++k) colours.push_back(value_colour(low, high, k / std::max(count - 1.0, 1.0)));
+  return colours;
 }
 
 }  // namespace orbitutte

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "orbitutte/export/colour.h"
 #include "orbitutte/io/vertex_data.h"
 #include "orbitutte/types.h"
 
@@ -26,5 +28,8 @@ Eigen::Index find_map(const VertexData& data, const std::string& name_or_number)
 /// each end: from pale yellow to dark violet; or, if it would contain zero, from blue through white, at zero,
 /// to red. Vertices without a label or a finite value are grey.
 ValueColours value_colours(const VertexData& data, Eigen::Index map);
+
+/// `count` colours in equal steps along the scale of measures that has these values at its ends.
+std::vector<Rgb> value_scale_colours(double low, double high, int count);
 
 }  // namespace orbitutte

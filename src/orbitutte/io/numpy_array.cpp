@@ -85,13 +85,16 @@ NpyType npy_type(std::string_view entry) {
 
 // How many numbers a shape has, of which so many are there.
 std::size_t npy_count(const std::vector<int>& shape, std::size_t room) {
+  const auto refuse = [&](const std::string& numbers) {
+    refuse_npy(fmt::format("the header promises {} numbers, but only {} follow", numbers, room));
+  };
   std::size_t count = 1;
   for (const int size : shape) {
     if (size > 0 && count > room / static_cast<std::size_t>(size))
-      refuse_npy(
-          fmt::format("the header promises {} numbers, but only {} follow", fmt::join(shape, " x "), room));
+      refuse(fmt::format("{}", fmt::join(shape, " x ")));
     count *= static_cast<std::size_t>(size);
   }
+  if (count > room) refuse("1");  // a scalar, which has no sizes
   return count;
 }
 
@@ -185,6 +188,17 @@ std::vector<ZipEntry> zip_directory(std::string_view bytes) {
   return entries;
 }
 
+// The type in which numbers are written.
+std::string_view written_type(const NumpyArray& array) {
+  constexpr double least = std::numeric_limits<std::int32_t>::min(),
+                   most = std::numeric_limits<std::int32_t>::max();
+  if (!array.is_whole) return "<f8";
+  return std::all_of(array.values.begin(), array.values.end(),
+                     [](double value) { return value >= least && value <= most; })
+             ? "<i4"
+             : "<i8";
+}
+
 }  // namespace
 
 NumpyArray parse_numpy_array(std::string_view bytes) {
@@ -205,9 +219,9 @@ NumpyArray parse_numpy_array(std::string_view bytes) {
 
 std::string serialize_numpy_array(const NumpyArray& array) {
   constexpr std::size_t before_header = 10, alignment = 64;
-  std::string header = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}{}), }}",
-                                   array.is_whole ? "<i4" : "<f8", fmt::join(array.shape, ", "),
-                                   array.shape.size() == 1 ? "," : "");
+  const std::string_view type = written_type(array);
+  std::string header = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}{}), }}", type,
+                                   fmt::join(array.shape, ", "), array.shape.size() == 1 ? "," : "");
   header.append(alignment - 1 - (before_header + header.size()) % alignment, ' ');
   header += '\n';
   std::string bytes(npy_start);
@@ -216,8 +230,10 @@ std::string serialize_numpy_array(const NumpyArray& array) {
   bytes += header;
   bytes.reserve(bytes.size() + sizeof(double) * array.values.size());
   for (const double value : array.values) {
-    if (array.is_whole) {
+    if (type == "<i4") {
       append_little_endian(bytes, static_cast<std::int32_t>(value));
+    } else if (type == "<i8") {
+      append_little_endian(bytes, static_cast<std::int64_t>(value));
     } else {
       append_little_endian(bytes, value);
     }

@@ -16,7 +16,8 @@ struct NumpyArray {
   /// Row by row: the last index runs first.
   std::vector<double> values;
 
-  /// Are they whole numbers by their type? They are written as int32, others as float64.
+  /// Are they whole numbers by their type? They are written as int32, or as int64 if one of them needs it;
+  /// others as float64.
   bool is_whole = false;
 };
 

@@ -30,6 +30,9 @@ struct VertexData {
   /// If the values are labels: the table of their keys. A value that is not in it, such as -1 from an .annot
   /// file, is of no label. Empty if the values are measures.
   std::vector<ValueLabel> labels;
+
+  /// Are the values whole numbers by the type that the file has? Only an .npy tells, and is written so again.
+  bool is_whole = false;
 };
 
 enum class VertexDataFormat { curv, annot, shape_gifti, func_gifti, label_gifti, text, csv, npy };
@@ -63,9 +66,10 @@ bool is_vertex_data_path(const std::string& path);
 VertexData parse_vertex_data(std::string_view bytes, VertexDataFormat format);
 
 /// The text or bytes of a file. GIfTI and FreeSurfer keep single precision, .label.gii and .annot whole
-/// numbers; text, csv and npy are exact. Tables of labels are kept by .label.gii and .annot, names by GIfTI
-/// and csv. Throws MeshError naming map, vertex or label if the format cannot hold the data: .curv and .annot
-/// have one map, and .annot tells labels by their colours alone.
+/// numbers; text, csv and npy are exact. Labels, and values that are whole by their type, are whole numbers
+/// in an npy, too. Tables of labels are kept by .label.gii and .annot, names by GIfTI and csv. Throws
+/// MeshError naming map, vertex or label if the format cannot hold the data: .curv and .annot have one map,
+/// and .annot tells labels by their colours alone.
 std::string serialize_vertex_data(const VertexData& data, VertexDataFormat format);
 
 /// Reads a file in the format that the path's ending names; one that ends in `.gz` is decompressed first.

@@ -13,6 +13,7 @@
 
 #include "orbitutte/linear/dense_factor.h"
 #include "orbitutte/linear/multifrontal.h"
+#include "orbitutte/memory.h"
 
 namespace orbitutte {
 namespace {

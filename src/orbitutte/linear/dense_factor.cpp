@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "orbitutte/linear/dense_factor.h"
 
-#include <dlfcn.h>
-
 #include <algorithm>
 #include <vector>
 
@@ -198,11 +196,6 @@ void backward(const DenseColumns& L, float* y) {
   long j = L.columns;
   for (; j % 4 != 0; --j) ColumnBlock<1>(L, j - 1, y).backward();
   for (; j > 0; j -= 4) ColumnBlock<4>(L, j - 4, y).backward();
-}
-
-void use_one_blas_thread() {
-  using SetThreads = void (*)(int);
-  if (const auto set = reinterpret_cast<SetThreads>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"))) set(1);
 }
 
 }  // namespace orbitutte

@@ -40,8 +40,4 @@ void forward(const DenseColumns& L, float* y);
 /// y_O <- L_OO^-T (y_O - L_BO' y_B). y: rows x 3, column by column.
 void backward(const DenseColumns& L, float* y);
 
-/// Makes BLAS calls run on the calling thread: two BLAS threads gain little on small fronts and lose much on
-/// a busy machine.
-void use_one_blas_thread();
-
 }  // namespace orbitutte

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "orbitutte/linear/dense_factor.h"
+#include "orbitutte/memory.h"
 #include "orbitutte/parallel.h"
 
 namespace orbitutte {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -301,6 +302,12 @@ void require_match(const PageSubject& subject) {
                                 surface.colours.rows(), surface.V.rows()));
 }
 
+void require_a_value_each(const PageOptions& options, const Surface& surface) {
+  if (options.values && options.values->values.size() != surface.V.rows())
+    throw MeshError(fmt::format("there are values of {} vertices, but the mesh has {}",
+                                options.values->values.size(), surface.V.rows()));
+}
+
 /// The last part of the path that the report gives.
 std::string mesh_name(const Json& report) {
   const Json& path = at(report, "/mesh/path");
@@ -316,8 +323,7 @@ void add_view(const PageSubject& subject, const PageOptions& options,
   content["has_pictures"] = !options.pictures.empty();
   content["pictures"] = picture_list(options.pictures);
   std::optional<PageScene> scene;
-  if (is_interactive(options))
-    scene = {"scene", page_scene(subject.surface, subject.embedding, faces, options.limits)};
+  if (is_interactive(options)) scene = {"scene", page_scene(subject, faces, options)};
   add_frame(std::move(scene), content);
 }
 
@@ -365,6 +371,7 @@ bool has_interactive_view() { return !page_script.empty(); }
 
 std::string report_page(const PageSubject& subject, const PageOptions& options) {
   require_match(subject);
+  require_a_value_each(options, subject.surface);
   const Json report = parse(subject.report);
   PageOptions possible = options;
   possible.interactive = options.interactive && subject.embedding.space().is_closed();

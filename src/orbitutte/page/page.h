@@ -2,10 +2,12 @@
 // The report of an embedding as one HTML file that needs nothing else (docs/page.md).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "orbitutte/export/display_mesh.h"
+#include "orbitutte/io/vertex_data.h"
 
 namespace orbitutte {
 
@@ -14,6 +16,21 @@ struct PagePicture {
   std::string caption;
   /// The bytes.
   std::string png;
+};
+
+/// Values at the vertices of the surface, for which its colours stand.
+struct ShownValues {
+  /// As the page names them.
+  std::string name;
+
+  /// n: a value for each vertex; NaN where there is none.
+  Eigen::VectorXd values;
+
+  /// If they are labels, their table.
+  std::vector<ValueLabel> labels;
+
+  /// The values at both ends of the colours, as ValueColours has them.
+  double low = 0, high = 0;
 };
 
 /// What the page shows besides figures.
@@ -25,6 +42,8 @@ struct PageOptions {
   std::vector<PagePicture> pictures;
   /// How much of the mesh the interactive view draws.
   DisplayLimits limits;
+  /// With these the view opens, and has a scale for them.
+  std::optional<ShownValues> values = {};
 };
 
 /// The subject of the page. The surface is the one that was embedded; its colours are shown.
@@ -41,8 +60,8 @@ bool has_interactive_view();
 /// The page. The certificate is computed again from mesh and embedding, and the page says so if the report
 /// claims something else. The other figures are the report's; if the report lacks one, the page has a dash.
 /// The file contains everything that the page shows, and a content security policy keeps it from loading
-/// anything. Throws MeshError if mesh and embedding do not belong together, if the colours are those of
-/// other vertices, or if the report is not JSON; ArgumentError as weld_copies does.
+/// anything. Throws MeshError if mesh and embedding do not belong together, if the colours or values are
+/// those of other vertices, or if the report is not JSON; ArgumentError as weld_copies does.
 std::string report_page(const PageSubject& subject, const PageOptions& options = {});
 
 }  // namespace orbitutte

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "orbitutte/page/page_scene.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -11,6 +13,7 @@
 #include "orbitutte/export/html_text.h"
 #include "orbitutte/export/palette.h"
 #include "orbitutte/export/tiling.h"
+#include "orbitutte/export/value_colours.h"
 #include "orbitutte/page/scene_numbers.h"
 #include "orbitutte/report/colour_scale.h"
 
@@ -161,11 +164,44 @@ void add_colours(const Points& colours, const Embedding& embedding, const std::v
   });
 }
 
+Json values_json(const ShownValues& shown, const Embedding& embedding, const std::vector<int>& cut_vertex) {
+  Json json = {{"name", shown.name}};
+  json["numbers"] = packed(static_cast<Eigen::Index>(cut_vertex.size()), [&](Eigen::Index i) {
+    return static_cast<float>(shown.values[embedding.source_vertex[cut_vertex[i]]]);
+  });
+  if (shown.labels.empty()) return json;
+  json["labels"] = Json::array();
+  for (const ValueLabel& label : shown.labels) json["labels"].push_back({label.key, label.name});
+  return json;
+}
+
+// The scale of values, as scale_json has those of distortions.
+Json scale_of_values_json(const ShownValues& shown) {
+  constexpr int steps = 4, colours = 256;
+  Json json = {{"low", shown.low}, {"high", shown.high}, {"title", shown.name}};
+  json["ticks"] = json["colours"] = Json::array();
+  for (int k = 0; k <= steps; ++k) {
+    const double share = k / static_cast<double>(steps);
+    json["ticks"].push_back(
+        {{"at", share}, {"text", fmt::format("{:.3g}", shown.low + share * (shown.high - shown.low))}});
+  }
+  for (const Rgb& colour : value_scale_colours(shown.low, shown.high, colours))
+    json["colours"].push_back(hexadecimal(colour));
+  return json;
+}
+
+// A name may hold anything; within a string, \u003c is <.
+std::string within_script(std::string json) {
+  for (std::size_t at = 0; (at = json.find('<', at)) != std::string::npos;) json.replace(at, 1, "\\u003c");
+  return json;
+}
+
 }  // namespace
 
-std::string page_scene(const Surface& surface, const Embedding& embedding,
-                       const std::vector<FaceDistortion>& faces, const DisplayLimits& limits) {
-  const DisplayMesh display = display_mesh(surface, embedding, limits);
+std::string page_scene(const PageSubject& subject, const std::vector<FaceDistortion>& faces,
+                       const PageOptions& options) {
+  const auto& [surface, embedding, report] = subject;
+  const DisplayMesh display = display_mesh(surface, embedding, options.limits);
   Json scene = {{"faces", embedding.triangles.rows()},
                 {"shown_faces", display.fine.faces.rows()},
                 {"copy_faces", display.coarse.faces.rows()},
@@ -179,9 +215,14 @@ std::string page_scene(const Surface& surface, const Embedding& embedding,
   scene["cones"] = cones_json(embedding, display.cut_vertex);
   scene["scales"] = {{"area", scale_json(Measure::area, faces)},
                      {"angle", scale_json(Measure::angle, faces)}};
+  if (options.values) {
+    scene["values"] = values_json(*options.values, embedding, display.cut_vertex);
+    if (options.values->high > options.values->low)
+      scene["scales"]["vertex"] = scale_of_values_json(*options.values);
+  }
   scene["tile"] = hexadecimal(bold_colour);
   scene["ink"] = hexadecimal(ink::text);
-  return scene.dump();
+  return within_script(scene.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 }  // namespace orbitutte

@@ -94,6 +94,10 @@ Eigen::VectorXd target_areas(const Embedding& embedding) {
 
 SparseTable table_to_grid(const Embedding& embedding, const Grid& grid, ResampleKind kind) {
   require_kind(kind);
+  if (kind == ResampleKind::least_squares)
+    throw ArgumentError(
+        "values of the kind least-squares solve equations, and are no product with a table: "
+        "least_squares_values makes them");
   SparseTable table = linear_to_grid(embedding, grid);
   return kind == ResampleKind::nearest ? largest_weights(table) : table;
 }

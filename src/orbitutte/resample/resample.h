@@ -6,6 +6,7 @@
 #include "orbitutte/names.h"
 #include "orbitutte/orbifold/embedding.h"
 #include "orbitutte/resample/grid.h"
+#include "orbitutte/resample/least_squares.h"
 #include "orbitutte/resample/sparse_table.h"
 
 namespace orbitutte {
@@ -17,7 +18,10 @@ enum class ResampleKind {
   /// grid with the largest weight. For labels.
   nearest,
   /// Means over the cells of the grid that keep the integral over the surface: conservative_tables.
-  conservative
+  conservative,
+  /// To the grid: the values of which the surface's are made again as nearly as can be:
+  /// least_squares_values. Back: linear in the grid.
+  least_squares
 };
 
 /// Its names.
@@ -25,18 +29,19 @@ template <>
 struct NameTable<ResampleKind> {
   static constexpr NamedValue<ResampleKind> rows[] = {{ResampleKind::linear, "linear"},
                                                       {ResampleKind::nearest, "nearest"},
-                                                      {ResampleKind::conservative, "conservative"}};
+                                                      {ResampleKind::conservative, "conservative"},
+                                                      {ResampleKind::least_squares, "least-squares"}};
 };
 
 /// The table that takes values at the n vertices of the input (Embedding::source_vertex) to the k points of
 /// the grid: k x n, rows with the sum 1, empty where no triangle lies: outside of a polygon, or where an
 /// embedding is not certified. Points in any copy of the tile are found on the surface. `kind` is linear or
-/// nearest; ArgumentError otherwise.
+/// nearest; ArgumentError otherwise: values of the kind least_squares are no product with a table.
 SparseTable table_to_grid(const Embedding& embedding, const Grid& grid, ResampleKind kind);
 
 /// The table back: n x k; empty for vertices that no face uses. Linear: the mean over the copies of the
 /// vertex in the grid (over all elements of a finite group; over the sheets of a periodic image). Nearest:
-/// that of the first copy. `kind` is linear or nearest; ArgumentError otherwise.
+/// that of the first copy. Least squares: as linear. ArgumentError for conservative.
 SparseTable table_to_surface(const Embedding& embedding, const Grid& grid, ResampleKind kind);
 
 /// Tables that keep integrals. Let A_v be the areas of the vertices on the surface, a_v those on the target,

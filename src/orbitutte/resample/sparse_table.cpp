@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -87,6 +88,100 @@ double heaviest(std::vector<std::pair<double, double>>& labels) {
     double sum = 0;
     while (k < labels.size() && labels[k].first == label) sum += labels[k++].second;
     if (sum > most) most = sum, best = label;
+  }
+  return best;
+}
+
+// Labels as numbers 0 .. count - 1; NaN is the last one.
+class LabelNumbers {
+ public:
+  explicit LabelNumbers(const Eigen::VectorXd& labels) : values_(labels.begin(), labels.end()) {
+    std::erase_if(values_, [](double value) { return std::isnan(value); });
+    std::sort(values_.begin(), values_.end());
+    values_.erase(std::unique(values_.begin(), values_.end()), values_.end());
+  }
+
+  int count() const { return static_cast<int>(values_.size()) + 1; }
+  int number(double label) const {
+    if (std::isnan(label)) return count() - 1;
+    return static_cast<int>(std::lower_bound(values_.begin(), values_.end(), label) - values_.begin());
+  }
+  double label(int number) const {
+    return number + 1 < count() ? values_[static_cast<std::size_t>(number)] : no_value;
+  }
+
+ private:
+  std::vector<double> values_;
+};
+
+// The labels in the rows of a table: as a table from labels.
+SparseTable labels_of_rows(const SparseTable& table, const std::vector<int>& numbers, int count) {
+  return table_from_rows(table.rows(), count, [&](int r, std::vector<TableEntry>& entries) {
+    for (int k = table.start[r]; k < table.start[r + 1]; ++k)
+      entries.emplace_back(numbers[static_cast<std::size_t>(table.index[k])], table.weight[k]);
+    tidy_entries(entries);
+  });
+}
+
+// The label of a row with the largest share minus its price; -1 if there is none.
+int dearest_label(const SparseTable& shares, const Eigen::VectorXd& prices, int row) {
+  int best = -1;
+  double most = -std::numeric_limits<double>::infinity();
+  for (int k = shares.start[row]; k < shares.start[row + 1]; ++k) {
+    const double gain = shares.weight[k] - prices[shares.index[k]];
+    if (gain > most) most = gain, best = shares.index[k];
+  }
+  return best;
+}
+
+// Rows with one label have it whatever the prices; the others choose.
+struct LabelChoices {
+  const SparseTable& shares;
+  const Eigen::VectorXd &row_areas, &wanted;
+  std::vector<int> choosing = {};
+  Eigen::VectorXd settled = {};
+
+  LabelChoices(const SparseTable& of_rows, const Eigen::VectorXd& areas, const Eigen::VectorXd& of_labels)
+      : shares(of_rows),
+        row_areas(areas),
+        wanted(of_labels),
+        settled(Eigen::VectorXd::Zero(of_labels.size())) {
+    choosing.reserve(static_cast<std::size_t>(shares.rows()));
+    for (int r = 0; r < shares.rows(); ++r) {
+      const int labels = shares.start[r + 1] - shares.start[r];
+      if (labels == 1) settled[shares.index[shares.start[r]]] += row_areas[r];
+      if (labels > 1) choosing.push_back(r);
+    }
+  }
+
+  // By how much of itself each label is too large: (area - wanted) / wanted; 0 for labels without area.
+  Eigen::VectorXd excess(const Eigen::VectorXd& prices) const {
+    Eigen::VectorXd areas = settled;
+    for (const int r : choosing) areas[dearest_label(shares, prices, r)] += row_areas[r];
+    return (wanted.array() > 0).select((areas - wanted).cwiseQuotient(wanted), 0);
+  }
+};
+
+// The prices with the least excess that were found. A label that is too large becomes dearer, by steps that
+// grow while that is so, and halve where it changes (M. Riedmiller, H. Braun, 1993).
+Eigen::VectorXd prices_of_labels(const LabelChoices& choices) {
+  constexpr double enough = 1e-3, first_step = 0.02, longest_step = 0.2;
+  constexpr int most_steps = 300;
+  const Eigen::Index count = choices.wanted.size();
+  Eigen::VectorXd prices = Eigen::VectorXd::Zero(count), best = prices, before = prices,
+                  step = Eigen::VectorXd::Constant(count, first_step);
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < most_steps && least > enough; ++k) {
+    const Eigen::VectorXd excess = choices.excess(prices);
+    if (const double largest = excess.cwiseAbs().maxCoeff(); largest < least) least = largest, best = prices;
+    for (Eigen::Index label = 0; label < count; ++label) {
+      const double same = excess[label] * before[label];
+      step[label] = same > 0   ? std::min(1.2 * step[label], longest_step)
+                    : same < 0 ? step[label] / 2
+                               : step[label];
+      if (excess[label] != 0) prices[label] += std::copysign(step[label], excess[label]);
+    }
+    before = excess;
   }
   return best;
 }
@@ -196,6 +291,31 @@ Eigen::MatrixXd apply_to_labels(const SparseTable& table, const Eigen::MatrixXd&
         result(r, map) = heaviest(of_row);
       }
   });
+  return result;
+}
+
+Eigen::MatrixXd labels_keeping_areas(const SparseTable& table, const Eigen::MatrixXd& labels,
+                                     const TableAreas& areas) {
+  require_a_value_each(table, labels);
+  if (areas.rows.size() != table.rows() || areas.columns.size() != table.columns)
+    throw ArgumentError(fmt::format("there are areas of {} rows and {} columns, but the table is {} x {}",
+                                    areas.rows.size(), areas.columns.size(), table.rows(), table.columns));
+  Eigen::MatrixXd result(table.rows(), labels.cols());
+  for (Eigen::Index map = 0; map < labels.cols(); ++map) {
+    const LabelNumbers known(labels.col(map));
+    std::vector<int> numbers(static_cast<std::size_t>(table.columns));
+    Eigen::VectorXd wanted = Eigen::VectorXd::Zero(known.count());
+    for (int c = 0; c < table.columns; ++c) {
+      numbers[static_cast<std::size_t>(c)] = known.number(labels(c, map));
+      wanted[numbers[static_cast<std::size_t>(c)]] += areas.columns[c];
+    }
+    const SparseTable shares = labels_of_rows(table, numbers, known.count());
+    const Eigen::VectorXd prices = prices_of_labels({shares, areas.rows, wanted});
+    for (int r = 0; r < table.rows(); ++r) {
+      const int label = dearest_label(shares, prices, r);
+      result(r, map) = label < 0 ? no_value : known.label(label);
+    }
+  }
   return result;
 }
 

@@ -68,4 +68,19 @@ Eigen::MatrixXd apply(const SparseTable& table, const Eigen::MatrixXd& values);
 /// weights, the smallest of these.
 Eigen::MatrixXd apply_to_labels(const SparseTable& table, const Eigen::MatrixXd& labels);
 
+/// The areas of what the rows and the columns of a table stand for.
+struct TableAreas {
+  const Eigen::VectorXd &rows, &columns;
+};
+
+/// Labels that keep their areas: each row gets one of the labels in it, so that the area of the rows with a
+/// label is that of the columns with it, as nearly as whole rows can make it, and as much area as possible
+/// has its own label. This is a transport problem; its dual has a price for each label, and a row takes the
+/// label with the largest sum of weights minus its price (F. Aurenhammer, F. Hoffmann, B. Aronov,
+/// "Minkowski-type theorems and least-squares clustering", 1998; without prices it is apply_to_labels). The
+/// prices are sought until all areas are kept within 0.1 %, for 300 steps at most. Throws ArgumentError as
+/// `apply` does, and if there is not an area for each row and column.
+Eigen::MatrixXd labels_keeping_areas(const SparseTable& table, const Eigen::MatrixXd& labels,
+                                     const TableAreas& areas);
+
 }  // namespace orbitutte
