@@ -263,8 +263,8 @@ int map_command(const MapArguments& arguments) {
   const Surface &on_a = *a.input.surface, &on_b = *b.input.surface;
   const CarriedInputs carried(arguments, on_a, on_b);
   const double read_seconds = reading.seconds();
-  SurfaceMap map = arguments.from.empty() ? sought_map(arguments, on_a, on_b)
-                                          : stored_map(arguments, on_a, on_b);
+  SurfaceMap map =
+      arguments.from.empty() ? sought_map(arguments, on_a, on_b) : stored_map(arguments, on_a, on_b);
 
   const Stopwatch composing;
   const Mapped result = mapped(on_a, on_b, std::move(map));
