@@ -57,11 +57,12 @@ struct Overlay {
 /// each other as the list says; all others are where exact signs put them.
 ///
 /// Everything is decided by the signs of determinants of three points (and, of two crossings on one edge, by
-/// the order of such), which are exact: a filter in doubles, and numbers of 320 bits or, where positions have
-/// offsets, of 2304 bits. Points are the stored positions of the input vertices moved by precise elements of
-/// the group, so that nothing depends on which copy of a vertex a seam has; marks are the fixed points of
-/// their elements, and vertices on a mirror lie on its line. Edges of B are traced through A from a located
-/// end; across half-edge h of A the element G of the group that B is placed by becomes G_h^-1 G.
+/// the order of such), which are exact: a filter in doubles, another in two doubles, and numbers of 320 bits
+/// or, where positions have offsets, of 2304 bits. Points are the stored positions of the input vertices
+/// moved by precise elements of the group, so that nothing depends on which copy of a vertex a seam has;
+/// marks are the fixed points of their elements, and vertices on a mirror lie on its line. Edges of B are
+/// traced through A from a located end; across half-edge h of A the element G of the group that B is placed
+/// by becomes G_h^-1 G.
 ///
 /// Coincidences are no special case of the geometry and are not perturbed: a vertex on a vertex is one
 /// vertex, a vertex on an edge divides it, edges that run along each other are one edge. That is consistent

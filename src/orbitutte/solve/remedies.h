@@ -61,7 +61,8 @@ std::optional<SpreadMap> with_more_digits(const GluingProblem& problem, const Pl
 
 /// The same at the minimum over all vertices, to small parts of the shortest edges: limbs do not only have
 /// their shapes, but also lie where the whole map puts them, however small they are. with_more_digits if that
-/// does not come about, or if there are too many vertices; nothing if no edge is shorter than 1e-9.
+/// does not come about, or if there are too many vertices; nothing if no edge is shorter than 1e-11, of
+/// little meshes 1e-9.
 std::optional<SpreadMap> with_limbs_in_place(const GluingProblem& problem, const Placement& placed);
 
 }  // namespace orbitutte
