@@ -45,7 +45,7 @@ double largest_of(const Vector3Of<DoubleDouble>& v) {
 
 // A product of a matrix and a vector is off by what both are, and by 14 u^2 of the sum of its terms.
 FinePoint fine_point(const ElementTable& elements, const PlacedPoint& p) {
-  const FinePoint here = {p.sites->fine(p.site), p.sites->fine_error(p.site)};
+  FinePoint here = {p.sites->fine(p.site), p.sites->fine_error(p.site)};
   if (p.element == ElementTable::identity) return here;
   const double size = elements.rough(p.element).matrix().cwiseAbs().maxCoeff(),
                sum = p.sites->rough(p.site).cwiseAbs().sum();
