@@ -199,10 +199,14 @@ std::vector<int> united(const std::vector<int>& a, const std::vector<int>& b) {
   return result;
 }
 
-// The same where tips of limbs may have to be unrolled before.
-std::optional<std::vector<int>> unrolled_and_put_right(Site& site, MovablePositions& positions) {
-  const std::vector<int> unrolled =
-      unroll_tips({site.problem.surface, site.gluing, site.stars, site.may_move}, positions);
+// The tips of limbs that were unrolled; none if no cone of more than pi turns faces over.
+std::vector<int> unrolled_tips(const Site& site, MovablePositions& positions) {
+  return unroll_tips({site.problem.surface, site.gluing, site.stars, site.may_move}, positions);
+}
+
+// Puts the rest right. The vertices that moved for both; nothing if faces remain.
+std::optional<std::vector<int>> put_right_beside(const std::vector<int>& unrolled, Site& site,
+                                                 MovablePositions& positions) {
   const std::optional<std::vector<int>> moved = put_right(site, turned_faces(site, positions), positions);
   return moved ? std::optional(united(unrolled, *moved)) : std::nullopt;
 }
@@ -275,7 +279,7 @@ std::optional<SpreadMap> refined(const GluingProblem& problem, const Placement& 
   for (const int v : limbs) least = std::min(least, shortest_edge(site, positions, v));
   resolution.is_too_coarse = least < resolution.finest;
   if (!are_refined || resolution.is_too_coarse) return std::nullopt;
-  std::optional<std::vector<int>> moved = unrolled_and_put_right(site, positions);
+  std::optional<std::vector<int>> moved = put_right_beside(unrolled_tips(site, positions), site, positions);
   if (!moved) return std::nullopt;
   for (const int v : limbs) shortest[v] = shortest_edge(site, positions, v);
   for (const int v : of_gluing) shortest[v] = least;
@@ -326,8 +330,10 @@ std::optional<SpreadMap> with_tips_unrolled(const GluingProblem& problem, const 
   Placement result = placed;
   Site site(problem, placed);
   MovablePositions positions(site.gluing, result.minimum.positions);
-  std::optional<std::vector<int>> moved_vertices = unrolled_and_put_right(site, positions);
-  if (!moved_vertices || moved_vertices->empty()) return std::nullopt;
+  const std::vector<int> unrolled = unrolled_tips(site, positions);
+  if (unrolled.empty()) return std::nullopt;
+  std::optional<std::vector<int>> moved_vertices = put_right_beside(unrolled, site, positions);
+  if (!moved_vertices) return std::nullopt;
   return spread_map(problem, std::move(result), std::move(*moved_vertices));
 }
 
