@@ -40,20 +40,28 @@ void take(const GluingProblem& problem, const SpreadMap& map, EmbedResult& resul
   result.certificate = certify(problem.surface, result.embedding);
 }
 
-// Takes what the remedy finds if it is a bijection.
-bool helps(const Remedy& remedy, const GluingProblem& problem, const Placement& placed, EmbedResult& result) {
-  const std::optional<SpreadMap> map = remedy(problem, placed);
-  if (!map) return false;
-  EmbedResult mended;
-  take(problem, *map, mended);
-  if (!mended.certificate.bijective) return false;
-  result.embedding = std::move(mended.embedding);
-  result.moved_vertices = std::move(mended.moved_vertices);
-  result.certificate = std::move(mended.certificate);
-  result.minimum.positions = map->placed.minimum.positions;
-  result.minimum.energy = energy_of(problem, map->placed);
-  return true;
-}
+// A map that is to become a bijection, and where that is put.
+struct Mending {
+  const GluingProblem& problem;
+  const Placement& placed;
+  Stages& stage;
+  EmbedResult& result;
+
+  // Takes what the remedy finds, in the stage of that name, if it is a bijection.
+  bool succeeds(const char* name, const Remedy& remedy) const {
+    const std::optional<SpreadMap> map = stage(name, [&] { return remedy(problem, placed); });
+    if (!map) return false;
+    EmbedResult mended;
+    stage("certify", [&] { take(problem, *map, mended); });
+    if (!mended.certificate.bijective) return false;
+    result.embedding = std::move(mended.embedding);
+    result.moved_vertices = std::move(mended.moved_vertices);
+    result.certificate = std::move(mended.certificate);
+    result.minimum.positions = map->placed.minimum.positions;
+    result.minimum.energy = energy_of(problem, map->placed);
+    return true;
+  }
+};
 
 // What else is known of the map in the result.
 void judge(const EmbedRequest& request, EmbedResult& result) {
@@ -81,15 +89,16 @@ bool is_hopeless(const std::vector<int>& collapsing, const std::vector<Ear>& ear
 
 // The first remedy that makes the map a bijection is taken. Faces that must become arcs are beyond all
 // remedies; to look for them takes longer than to try the first.
-void mend(const EmbedRequest& request, const GluingProblem& problem, const PlacedMap& map,
-          EmbedResult& result) {
-  const auto is_mended = [&](const Remedy& remedy) { return helps(remedy, problem, map.placed, result); };
-  if (is_mended(map.remedies.front())) return;
-  std::vector<int> collapsing = faces_that_must_collapse(request, problem, map.placed);
-  if (is_hopeless(collapsing, ears_of(problem, map.placed)))
-    result.collapsing_faces = std::move(collapsing);
-  else
-    std::any_of(map.remedies.begin() + 1, map.remedies.end(), is_mended);
+void mend(const EmbedRequest& request, const std::vector<Remedy>& remedies, const Mending& mending) {
+  const auto is_mended = [&](const Remedy& remedy) { return mending.succeeds("mend", remedy); };
+  if (is_mended(remedies.front())) return;
+  const bool is_hopeful = mending.stage("mend", [&] {
+    std::vector<int> collapsing = faces_that_must_collapse(request, mending.problem, mending.placed);
+    if (!is_hopeless(collapsing, ears_of(mending.problem, mending.placed))) return true;
+    mending.result.collapsing_faces = std::move(collapsing);
+    return false;
+  });
+  if (is_hopeful) std::any_of(remedies.begin() + 1, remedies.end(), is_mended);
 }
 
 // Warnings about the map in the result.
@@ -131,20 +140,18 @@ void finish(const EmbedRequest& request, const GluingProblem& problem, const Pla
   const Placement& placed = map.placed;
   const bool has_converged = placed.minimum.termination == Termination::converged;
   const auto needs_mending = [&] { return has_converged && !result.certificate.bijective; };
-  const bool is_refined = has_converged && map.refinement &&
-                          stage("refine", [&] { return helps(map.refinement, problem, placed, result); });
+  const Mending mending = {problem, placed, stage, result};
+  const bool is_refined = has_converged && map.refinement && mending.succeeds("refine", map.refinement);
   stage("certify", [&] {
-    if (is_refined) {
-      judge(request, result);
-      return;
-    }
     // A map that turns faces over is mended before it is certified.
-    const SpreadMap spread = spread_map(problem, placed);
-    if (!has_converged || !turns_faces_over(problem, spread)) take(problem, spread, result);
+    if (!is_refined)
+      if (const SpreadMap spread = spread_map(problem, placed);
+          !has_converged || !turns_faces_over(problem, spread))
+        take(problem, spread, result);
     if (!needs_mending()) judge(request, result);
   });
   if (needs_mending()) {
-    stage("mend", [&] { mend(request, problem, map, result); });
+    mend(request, map.remedies, mending);
     stage("certify", [&] {
       if (result.certificate.checks.empty()) take(problem, spread_map(problem, placed), result);
       judge(request, result);

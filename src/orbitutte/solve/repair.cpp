@@ -7,42 +7,22 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <set>
 
 #include "orbitutte/solve/kernel.h"
+#include "orbitutte/solve/star_shape.h"
 
 namespace orbitutte {
 namespace {
 
-constexpr int most_sweeps = 60, sweeps_per_ring = 6, smoothing_sweeps = 8, halvings = 6, most_rounds = 60;
+constexpr int most_sweeps = 60, sweeps_per_ring = 6, smoothing_sweeps = 6;
 constexpr int most_rings = 7;
-constexpr double clamp = 0.01;  // in place of weights that are not positive
-constexpr double enough = 0.3;  // of the largest margin that a star allows
-constexpr double no_bound = std::numeric_limits<double>::infinity();
-constexpr double flattest = 1e-6;  // a source triangle's least height, relative to its base
+constexpr double clamp = 0.01;        // in place of weights that are not positive
+constexpr double enough = 0.3;        // of the largest margin that a star allows
+constexpr double enough_gain = 1e-3;  // of a star's distortion, for its vertex to be moved
+constexpr double flattest = 1e-6;     // twice the area of a source triangle, in squared edges
 
 enum class PatchWeights { cotan, mean_value };
-
-// A star at one moment: its triangles v, a, b in the tangent plane at v, and in the source.
-struct StarShape {
-  Eigen::Matrix<double, 3, 2> axes;  // of the tangent plane, counterclockwise from outside; on a mirror the
-                                     // first lies along it
-  bool on_mirror = false;
-  double radius = 0;  // the longest edge at v
-  struct Triangle {
-    Vector3 a, b;                  // from p_v
-    double value;                  // det[p_v a b]
-    Vector3 gradient;              // of the determinant by p_v
-    double height, base;           // in the source
-    bool is_flat;                  // there
-    std::array<double, 3> source;  // squared lengths of (v, a), (v, b), (a, b)
-    // In the source: half the cotangents of the angles opposite to (v, a) and (v, b); and that opposite to
-    // (a, b), times the squared length of the image of (a, b), which the star's vertex does not move.
-    double weight_a, weight_b, fixed_energy;
-  };
-  std::vector<Triangle> triangles;
-};
 
 class Repair {
  public:
@@ -51,16 +31,21 @@ class Repair {
 
   std::vector<int> run(const std::vector<int>& turned) {
     if (!open_stars(turned) && !relax_patches(turned)) return {};
-    const std::set<int> around = site_.stars.with_neighbours(vertices_of(turned));
-    for (int sweep = 0; sweep < smoothing_sweeps; ++sweep) {
-      bool any = false;
-      for (const int v : around) any = smooth(v) || any;
-      if (!any) break;
-    }
+    smooth_around(vertices_of(turned));
     return {moved_.begin(), moved_.end()};
   }
 
  private:
+  // Sweeps over the vertices and their neighbours. A vertex waits for its turn if something in its star has
+  // moved since the last one.
+  void smooth_around(const std::set<int>& vertices) {
+    const std::set<int> around = site_.stars.with_neighbours(vertices);
+    std::set<int> waiting = around;
+    for (int sweep = 0; sweep < smoothing_sweeps && !waiting.empty(); ++sweep)
+      for (const int v : around)
+        if (waiting.erase(v) == 1 && smooth(v)) waiting.merge(site_.stars.with_neighbours({v}));
+  }
+
   // Single vertices, sweep by sweep, in reach of the faces that are not positive.
   bool open_stars(const std::vector<int>& turned) {
     const std::size_t before = positions_.moves();
@@ -158,25 +143,11 @@ class Repair {
       triangle.value = p.dot(a.cross(b));
       triangle.gradient = p.cross(b - a) + a.cross(b);
       const Vector3 va = source(at.a) - source(v), vb = source(at.b) - source(v);
-      triangle.source = {va.squaredNorm(), vb.squaredNorm(), (vb - va).squaredNorm()};
-      triangle.base = std::sqrt(triangle.source[2]);
-      const double height = triangle.base > 0 ? va.cross(vb).norm() / triangle.base : 0.0,
-                   least = flattest * std::max(triangle.base, va.norm());
-      triangle.is_flat = !(height > least);
-      triangle.height = std::max(height, least);
-      set_weights(triangle);
+      set_source(va, vb, triangle);
       shape.radius = std::max({shape.radius, a.norm(), b.norm()});
     }
     set_axes(v, p, star, shape);
     return shape;
-  }
-
-  static void set_weights(StarShape::Triangle& triangle) {
-    const auto& [A2, B2, C2] = triangle.source;
-    const double scale = 1 / (8 * std::max(0.5 * triangle.height * triangle.base, 1e-300));
-    triangle.weight_a = scale * (B2 + C2 - A2);
-    triangle.weight_b = scale * (A2 + C2 - B2);
-    triangle.fixed_energy = scale * (A2 + B2 - C2) * (triangle.b - triangle.a).squaredNorm();
   }
 
   // The direction to the neighbour with the lowest number that does not coincide with the vertex: a choice
@@ -261,84 +232,21 @@ class Repair {
     return high;
   }
 
-  // s1/s2, were the star's vertex moved by a tangent step; infinite unless the triangle is positive then.
-  static double ratio_of_singular_values(const StarShape::Triangle& triangle, const Vector3& step) {
-    const double twice_area = triangle.value + triangle.gradient.dot(step);
-    if (!(twice_area > 0)) return std::numeric_limits<double>::infinity();
-    // s1/s2 + s2/s1 from the squared lengths of both triangles (U. Pinkall, K. Polthier 1993): the
-    // Dirichlet energy of the linear map over the area of its image.
-    const double energy = triangle.weight_a * (triangle.a - step).squaredNorm() +
-                          triangle.weight_b * (triangle.b - step).squaredNorm() + triangle.fixed_energy;
-    const double sum = std::max(energy / (0.5 * twice_area), 2.0);
-    return 0.5 * (sum + std::sqrt(std::max(sum * sum - 4, 0.0)));
-  }
-
-  // The sum over the star, without triangles that are flat in the source, which must be positive all the
-  // same. A sum that reaches the bound is not finished.
-  static double distortion(const StarShape& shape, const Vector3& step, double bound) {
-    double sum = 0;
-    for (const StarShape::Triangle& triangle : shape.triangles) {
-      const double ratio = ratio_of_singular_values(triangle, step);
-      if (!triangle.is_flat || !std::isfinite(ratio)) sum += ratio;
-      if (sum >= bound) break;
-    }
-    return sum;
-  }
-
-  // Eight, each with its opposite: the first two lie on one line, which may be a mirror.
-  static const std::array<Eigen::Vector2d, 8>& directions() {
-    static const auto all = [] {
-      std::array<Eigen::Vector2d, 8> result;
-      for (int line = 0; line < 4; ++line) {
-        const double angle = std::numbers::pi * line / 4;
-        result[2 * line] = {std::cos(angle), std::sin(angle)};
-        result[2 * line + 1] = -result[2 * line];
-      }
-      return result;
-    }();
-    return all;
-  }
-
   bool smooth(int v) {
     if (!site_.may_move[v]) return false;
     const std::vector<StarTriangle> star = site_.stars.around(v);
     const StarShape shape = shape_of(v, star);
-    const double at_first = distortion(shape, Vector3::Zero(), no_bound);
-    if (!std::isfinite(at_first)) return false;
-    Eigen::Vector2d best(0, 0);
-    double least = at_first, length = 0.25 * shape.radius;
-    const double shortest = 0x1p-6 * shortest_edge(shape);
-    const std::size_t count = shape.on_mirror ? 2 : 8;
-    for (int k = 0, round = 0; k < halvings && length > shortest && round < most_rounds; ++round) {
-      const Eigen::Vector2d from = best;
-      for (std::size_t d = 0; d < count; ++d) {
-        const Eigen::Vector2d tried = from + length * directions()[d];
-        if (const double there = distortion(shape, shape.axes * tried, least); there < least) {
-          least = there;
-          best = tried;
-        }
-      }
-      if (best == from) {
-        length /= 2;
-        if (least < at_first) ++k;
-      }
-    }
-    if (!(least < 0.999 * at_first)) return false;
+    const double at_first = distortion(shape, Vector3::Zero(), std::numeric_limits<double>::infinity());
+    const auto [step, least] = least_distortion(shape);
+    if (!(least < (1 - enough_gain) * at_first)) return false;
     const std::size_t before = positions_.moves();
-    positions_.move(v, shape.axes * best);
+    positions_.move(v, shape.axes * step);
     if (!are_positive(star)) {
       positions_.take_back(before);
       return false;
     }
     moved_.insert(v);
     return true;
-  }
-
-  static double shortest_edge(const StarShape& shape) {
-    double shortest = std::numeric_limits<double>::infinity();
-    for (const StarShape::Triangle& triangle : shape.triangles)
-      shortest = std::min({shortest, triangle.a.norm(), triangle.b.norm()});
-    return shortest;
   }
 
   const RepairSite& site_;
