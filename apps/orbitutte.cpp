@@ -598,7 +598,8 @@ void add_resample(CLI::App& app, int& code) {
       "--kind", command->kind,
       "linear; nearest; conservative, which keeps the integral over the surface; or least-squares, "
       "values of which --back makes those of the surface again as nearly as can be; if it is not "
-      "given, nearest for labels, linear for other values");
+      "given, conservative for labels of a table (.label.gii, .annot), nearest for other whole numbers, "
+      "linear for the rest");
   command.flag("--back", command->back, "From the grid to the vertices");
   command
       .option("--pad", command->pad, "Give images a margin of so many pixels, whose values the symmetry has")

@@ -87,10 +87,12 @@ Eigen::MatrixXd resampled(const Table& table, const GridValues& values) {
   return apply(table.weights, values.values);
 }
 
-// What is not given follows from the values.
+// What is not given follows from the values: labels of a table keep their areas; whole numbers may be
+// anything.
 ResampleKind kind_of(const ResampleArguments& arguments, const GridValues* values) {
   if (!arguments.kind.empty()) return parse_choice<ResampleKind>(arguments.kind, "--kind");
-  return values && values->is_label ? ResampleKind::nearest : ResampleKind::linear;
+  if (!values || !values->is_label) return ResampleKind::linear;
+  return values->labels.empty() ? ResampleKind::nearest : ResampleKind::conservative;
 }
 
 int empty_rows(const SparseTable& table) {

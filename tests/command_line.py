@@ -422,6 +422,17 @@ class Resampling(CommandLine):
                 numbers = (self.folder / 'back.npy').read_bytes()[128:]
                 self.assertEqual(set(struct.unpack(f'<{len(labels)}i', numbers)), {3, 1003})
 
+    def test_labels_of_a_table_keep_their_areas_if_nothing_else_is_asked_for(self):
+        labels = ' '.join(str(int(height > 0)) for height in self.heights)
+        (self.folder / 'halves.label.gii').write_text(
+            '<?xml version="1.0"?><GIFTI Version="1.0" NumberOfDataArrays="1"><LabelTable><Label Key="0"><![CDATA[low]]></Label>'
+            '<Label Key="1"><![CDATA[high]]></Label></LabelTable><DataArray Intent="NIFTI_INTENT_LABEL" DataType="NIFTI_TYPE_INT32" '
+            f'ArrayIndexingOrder="RowMajorOrder" Dimensionality="1" Dim0="{len(self.heights)}" Encoding="ASCII" Endian="LittleEndian" '
+            f'ExternalFileName="" ExternalFileOffset=""><Data>{labels}</Data></DataArray></GIFTI>')
+        self.expect(0, *self.resample('--values', 'halves.label.gii', '-o', 'there.label.gii', grid='ico:6'), says='conservative')
+        self.expect(0, *self.resample('--values', 'there.label.gii', '--back', '-o', 'back.label.gii', grid='ico:6'), says='conservative')
+        self.expect(0, *self.resample('--values', 'halves.label.gii', '--kind', 'nearest', '-o', 'near.label.gii', grid='ico:6'), says='nearest')
+
     def test_a_sphere_is_a_grid(self):
         self.expect(0, 'embed', 'figure.obj', '--orbifold', 'sphere', '-o', 'sphere.ply', '--report', 'sphere.json', '--quiet')
         self.expect(0, *self.resample('--values', 'height.txt', '-o', 'same.txt', grid='sphere.ply', embedding='sphere'))
