@@ -37,8 +37,7 @@ bool is_stream(const std::string& path) {
 
 void require_right_ending(const OutputFile& output) {
   const std::vector<std::string>& endings = output.endings;
-  const bool is_packed = output.may_be_compressed && ending_of(output.path) == ".gz";
-  const std::string name = is_packed ? fs::path(output.path).stem().string() : output.path;
+  const std::string name = output.may_be_compressed ? without_gz(output.path) : output.path;
   if (std::find(endings.begin(), endings.end(), ending_of(name)) != endings.end()) return;
   throw ArgumentError(fmt::format("{} is '{}', but {} is written as {}; change the ending of the name",
                                   output.option, output.path, output.content, output.listed_endings()));

@@ -28,20 +28,16 @@ NumpyArray values_in(std::string_view archive) {
   throw MeshError("there is no array 'values' in it");
 }
 
-// ".npy", ".npy.gz", ".npz": what arrays come in. Other endings as they are.
-std::string array_ending(const std::string& path) {
-  const std::string ending = ending_of(path);
-  return ending == ".gz" ? ending_of(path.substr(0, path.size() - ending.size())) + ending : ending;
-}
+// Is it an .npy, plain or compressed?
+bool is_array_file(const std::string& path) { return ending_of(without_gz(path)) == ".npy"; }
 
 // The array of an .npy, or `values` of an .npz; nothing for other files.
 std::optional<NumpyArray> read_array(const std::string& path) {
-  const std::string ending = array_ending(path);
-  if (ending == ".npz") return parse_file(path, values_in);
-  if (ending == ".npy") return parse_file(path, parse_numpy_array);
-  if (ending == ".npy.gz")
-    return parse_file(path, [](std::string_view bytes) { return parse_numpy_array(decompress(bytes)); });
-  return std::nullopt;
+  if (ending_of(path) == ".npz") return parse_file(path, values_in);
+  if (!is_array_file(path)) return std::nullopt;
+  return parse_file(path, [&](std::string_view bytes) {
+    return is_compressed(path) ? parse_numpy_array(decompress(bytes)) : parse_numpy_array(bytes);
+  });
 }
 
 [[noreturn]] void refuse_count(const std::string& path, std::size_t count, int rows, const char* what) {
@@ -180,8 +176,7 @@ std::string png_of(const std::string& path, const Padded& image) {
 
 // Writes an .npy or, compressed, an .npy.gz; false for other files.
 bool write_array(const std::string& path, const GridValues& values, const std::vector<int>& shape) {
-  const std::string ending = array_ending(path);
-  if (ending != ".npy" && ending != ".npy.gz") return false;
+  if (!is_array_file(path)) return false;
   write_compressed_as_named(path, serialize_numpy_array(numpy(values, shape)));
   return true;
 }

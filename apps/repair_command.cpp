@@ -48,14 +48,9 @@ int repair_command(const RepairArguments& arguments) {
   const PolygonMesh mesh = read_mesh(mesh_input(arguments.mesh, arguments.format));
   for (const std::string& warning : mesh.warnings) tell("orbitutte: warning: {}\n", warning);
   const RepairedMesh repaired = repair_mesh(mesh, options_of(arguments));
-  if (repaired.mesh.face_count() == 0)
-    throw MeshError(fmt::format(
-        "{}: no face is left after the repair; look at the mesh with `orbitutte info`", arguments.mesh));
-  if (2 * repaired.mesh.face_count() < mesh.face_count())
-    tell(
-        "orbitutte: warning: {} of {} faces are left; if vertices that belong together are apart, --weld "
-        "DISTANCE joins them\n",
-        repaired.mesh.face_count(), mesh.face_count());
+  if (const auto warning =
+          warning_of_lost_faces(arguments.mesh, mesh.face_count(), repaired.mesh.face_count()))
+    tell("orbitutte: warning: {}\n", *warning);
   const Inspection inspection = inspect(repaired.mesh);
   write_mesh(arguments.output, repaired.mesh);
   const nlohmann::ordered_json json = to_json(repaired, inspection);

@@ -130,7 +130,8 @@ void require_values(const ResampleArguments& arguments, ResampleKind kind, const
 
 void require_output(const ResampleArguments& arguments, const Grid& grid) {
   const bool is_archive = ending_of(arguments.output) == ".npz";
-  if (arguments.output.ends_with(".npz.gz") || arguments.output.ends_with(".png.gz"))
+  const std::string inner = ending_of(without_gz(arguments.output));
+  if (is_compressed(arguments.output) && (inner == ".npz" || inner == ".png"))
     throw ArgumentError(fmt::format("-o is '{}', but such files are compressed by themselves; leave out .gz",
                                     arguments.output));
   if (arguments.values.empty() && !is_archive)

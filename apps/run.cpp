@@ -95,20 +95,24 @@ Input read_input(const MeshInput& input, RunRecord& run) {
   return {std::move(surface), std::move(warnings)};
 }
 
+std::optional<std::string> warning_of_lost_faces(const std::string& path, int before, int left) {
+  if (left == 0)
+    throw MeshError(
+        fmt::format("{}: no face is left after the repair; look at the mesh with `orbitutte info`", path));
+  if (2 * left >= before) return std::nullopt;
+  return fmt::format(
+      "the repair left {} of {} faces; if vertices that belong together are apart, "
+      "'orbitutte repair --weld DISTANCE' joins them",
+      left, before);
+}
+
 Input read_and_repair(const MeshInput& input, RunRecord& run) {
   PolygonMesh mesh = read_recorded(input, run);
   std::vector<std::string> warnings = std::move(mesh.warnings);
   const Stopwatch judging;
   RepairInPlace repaired = repair_in_place(mesh);
-  if (repaired.mesh.face_count() == 0)
-    throw MeshError(fmt::format(
-        "{}: no face is left after the repair; look at the mesh with `orbitutte info`", input.path));
-  if (2 * repaired.mesh.face_count() < mesh.face_count())
-    warnings.push_back(
-        fmt::format("the repair left {} of {} faces; if vertices that belong together are apart, 'orbitutte "
-                    "repair --weld "
-                    "DISTANCE' joins them",
-                    repaired.mesh.face_count(), mesh.face_count()));
+  if (auto warning = warning_of_lost_faces(input.path, mesh.face_count(), repaired.mesh.face_count()))
+    warnings.push_back(std::move(*warning));
   run.repair = std::move(repaired.summary);
   std::shared_ptr<const Surface> surface =
       judged(std::move(repaired.mesh), fmt::format("{}, repaired", input.path));

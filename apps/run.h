@@ -54,6 +54,9 @@ class ProgressLine {
   bool shown_;
 };
 
+/// Of a repair that left less than half of the faces. Throws MeshError if it left none.
+std::optional<std::string> warning_of_lost_faces(const std::string& path, int before, int left);
+
 struct Input {
   std::shared_ptr<const Surface> surface;
   /// Of the reader.

@@ -15,7 +15,7 @@ namespace orbitutte {
 /// Where the computation is. `iteration`, `energy` and `gradient_norm` are only meaningful in the stage
 /// "optimize".
 struct Progress {
-  /// "validate", "weights", "cut", "factorize", "initialize", "optimize", "certify"
+  /// "validate", "weights", "cut", "factorize", "initialize", "optimize", "certify", "mend", ...
   std::string stage;
   int iteration = 0;
   double energy = 0;

@@ -14,7 +14,6 @@
 #include "orbitutte/export/gltf_model.h"
 #include "orbitutte/io/compression.h"
 #include "orbitutte/io/file.h"
-#include "orbitutte/io/file_ending.h"
 #include "orbitutte/io/obj_lines.h"
 #include "orbitutte/io/ply.h"
 #include "orbitutte/io/ply_triangles.h"

@@ -9,7 +9,6 @@
 #include <memory>
 
 #include "orbitutte/io/file.h"
-#include "orbitutte/io/file_ending.h"
 #include "orbitutte/types.h"
 
 namespace orbitutte {

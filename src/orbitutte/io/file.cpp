@@ -192,4 +192,10 @@ std::string ending_of(const std::string& path) {
   return ending;
 }
 
+bool is_compressed(const std::string& path) { return ending_of(path) == ".gz"; }
+
+std::string without_gz(const std::string& path) {
+  return is_compressed(path) ? path.substr(0, path.size() - 3) : path;
+}
+
 }  // namespace orbitutte

@@ -41,4 +41,10 @@ auto parse_file(const std::string& path, const Parse& parse) {
 /// The ending by which writers choose a format: ".ply" of "A Mesh.PLY".
 std::string ending_of(const std::string& path);
 
+/// Does the path end in `.gz` (any case)?
+bool is_compressed(const std::string& path);
+
+/// The path without `.gz` (any case) at its end.
+std::string without_gz(const std::string& path);
+
 }  // namespace orbitutte

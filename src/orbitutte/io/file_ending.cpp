@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "orbitutte/io/file.h"
-
 namespace orbitutte {
 
 bool has_word(std::string_view words, std::string_view word) {
@@ -19,12 +17,6 @@ bool has_word(std::string_view words, std::string_view word) {
 std::string lower_case(std::string text) {
   for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   return text;
-}
-
-bool is_compressed(const std::string& path) { return ending_of(path) == ".gz"; }
-
-std::string without_gz(const std::string& path) {
-  return is_compressed(path) ? path.substr(0, path.size() - 3) : path;
 }
 
 }  // namespace orbitutte

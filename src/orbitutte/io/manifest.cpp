@@ -11,7 +11,7 @@
 
 #include "orbitutte/errors.h"
 #include "orbitutte/io/csv.h"
-#include "orbitutte/io/file_ending.h"
+#include "orbitutte/io/file.h"
 #include "orbitutte/io/mesh_io.h"
 
 namespace orbitutte {

@@ -7,7 +7,6 @@
 
 #include "orbitutte/io/compression.h"
 #include "orbitutte/io/file.h"
-#include "orbitutte/io/file_ending.h"
 #include "orbitutte/io/mesh_io.h"
 #include "orbitutte/io/text_scanner.h"
 
