@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "orbitutte/orbifold/exact_positions.h"
+#include "orbitutte/parallel.h"
 #include "orbitutte/verify/distortion.h"
 #include "orbitutte/verify/flat_triangles.h"
 
@@ -14,42 +15,42 @@ namespace {
 
 using TriangleSides = std::array<double, 3>;
 
-// A triangle in the source and in the image, both flat.
+// A triangle in the source and in the image, both flat. Its areas are 0 if it is not measured.
 struct StrainedTriangle {
-  TriangleSides source, image;
+  TriangleSides source = {}, image = {};
   double source_area = 0, image_area = 0;
 
   // sigma_1/sigma_2; 0 if the triangle is not measured.
   double elongation = 0;
 };
 
-StrainedTriangle strained(const TriangleSides& source, const TriangleSides& image) {
-  StrainedTriangle result = {source, image};
+void measure(StrainedTriangle& triangle) {
+  const TriangleSides &source = triangle.source, &image = triangle.image;
   const auto p = lay_out(source[0], source[1], source[2]), q = lay_out(image[0], image[1], image[2]);
-  if (!p || !q) return result;
-  result.source_area = 0.5 * source[0] * source[0] * p->y;
-  result.image_area = 0.5 * image[0] * image[0] * q->y;
-  const double elongation = ratio_of_singular_values(*p, *q), ratio = result.image_area / result.source_area;
-  if (std::isfinite(elongation) && std::isfinite(ratio) && ratio > 0) result.elongation = elongation;
-  return result;
+  if (!p || !q) return;
+  triangle.source_area = 0.5 * source[0] * source[0] * p->y;
+  triangle.image_area = 0.5 * image[0] * image[0] * q->y;
+  const double elongation = ratio_of_singular_values(*p, *q),
+               ratio = triangle.image_area / triangle.source_area;
+  if (std::isfinite(elongation) && std::isfinite(ratio) && ratio > 0) triangle.elongation = elongation;
 }
 
+// With the lengths of all edges, be the triangle measured or not.
 std::vector<StrainedTriangle> strained_triangles(const Surface& surface, const Embedding& embedding) {
   const std::vector<FaceDistortion> faces = measure_triangles(surface, embedding);
   const ExactPositions positions(embedding);
   std::vector<StrainedTriangle> result(faces.size());
-  for (std::size_t t = 0; t < faces.size(); ++t) {
-    if (!(faces[t].area > 0)) continue;
-    TriangleSides source, image;
-    for (int k = 0; k < 3; ++k) {
-      const int a = embedding.triangles(static_cast<Eigen::Index>(t), k),
-                b = embedding.triangles(static_cast<Eigen::Index>(t), (k + 1) % 3);
-      source[k] =
-          (surface.V.row(embedding.source_vertex[b]) - surface.V.row(embedding.source_vertex[a])).norm();
-      image[k] = positions.chord(a, b);
+  parallel_ranges(static_cast<int>(faces.size()), [&](int begin, int end) {
+    for (int t = begin; t < end; ++t) {
+      for (int k = 0; k < 3; ++k) {
+        const int a = embedding.triangles(t, k), b = embedding.triangles(t, (k + 1) % 3);
+        result[t].source[k] =
+            (surface.V.row(embedding.source_vertex[b]) - surface.V.row(embedding.source_vertex[a])).norm();
+        result[t].image[k] = positions.chord(a, b);
+      }
+      if (faces[t].area > 0) measure(result[t]);
     }
-    result[t] = strained(source, image);
-  }
+  });
   return result;
 }
 
@@ -107,49 +108,26 @@ StrainMap strain_map(const std::vector<StrainSum>& sums, double scale) {
   return map;
 }
 
-// An edge of a face of the input, between input vertices a < b.
-struct StrainedEdge {
-  int a, b;
-  double doublings;  // log2 of its length, image over source
-
-  bool operator<(const StrainedEdge& other) const { return a != other.a ? a < other.a : b < other.b; }
-  bool is_same(const StrainedEdge& other) const { return a == other.a && b == other.b; }
-};
-
-// Of all faces, in their order: each edge inside occurs twice.
-std::vector<StrainedEdge> edges_of_faces(const Surface& surface, const Embedding& embedding, double scale) {
-  const ExactPositions positions(embedding);
-  const FaceView faces = embedding.faces();
-  std::vector<StrainedEdge> edges;
-  edges.reserve(static_cast<std::size_t>(faces.start(faces.count())));
-  for (int f = 0; f < faces.count(); ++f)
-    for (int k = 0; k < faces.degree(f); ++k) {
-      const int from = faces[f][k], to = faces[f][(k + 1) % faces.degree(f)];
-      const int a = embedding.source_vertex[from], b = embedding.source_vertex[to];
-      const double length = (surface.V.row(b) - surface.V.row(a)).norm();
-      edges.push_back(
-          {std::min(a, b), std::max(a, b), std::log2(scale * positions.chord(from, to) / length)});
-    }
-  return edges;
+// The edge of the surface along side k of a triangle of the cut mesh, which may be turned over (its second
+// and third vertex exchanged); -1 for a diagonal of a polygon.
+int edge_along(const Surface& surface, const Embedding& embedding, int t, int k) {
+  const bool is_turned = embedding.source_vertex[embedding.triangles(t, 1)] != surface.triangles(t, 1);
+  return surface.connectivity.edge_of[3 * t + (is_turned ? 2 - k : k)];
 }
 
-void add_edges_of_faces(const FaceView& faces, const std::vector<StrainedEdge>& edges,
-                        std::vector<StrainSum>& sums) {
-  for (int f = 0; f < faces.count(); ++f)
-    for (int k = faces.start(f); k < faces.start(f) + faces.degree(f); ++k)
-      if (std::isfinite(edges[k].doublings)) sums[f].add_edge(edges[k].doublings);
-}
-
-// Each edge once.
-void add_edges_of_vertices(std::vector<StrainedEdge> edges, std::vector<StrainSum>& sums) {
-  std::stable_sort(edges.begin(), edges.end());
-  const auto end = std::unique(edges.begin(), edges.end(),
-                               [](const StrainedEdge& x, const StrainedEdge& y) { return x.is_same(y); });
-  for (auto edge = edges.begin(); edge != end; ++edge) {
-    if (!std::isfinite(edge->doublings)) continue;
-    sums[edge->a].add_edge(edge->doublings);
-    sums[edge->b].add_edge(edge->doublings);
-  }
+// log2 of the length of every edge of the surface, image over source.
+std::vector<double> doublings_of_edges(const Surface& surface, const Embedding& embedding,
+                                       const std::vector<StrainedTriangle>& triangles, double scale) {
+  constexpr double unknown = -1;
+  std::vector<double> result(surface.connectivity.edges.size(), unknown);
+  for (int t = 0; t < static_cast<int>(triangles.size()); ++t)
+    for (int k = 0; k < 3; ++k)
+      if (const int edge = edge_along(surface, embedding, t, k); edge >= 0 && result[edge] == unknown)
+        result[edge] = scale * triangles[t].image[k] / triangles[t].source[k];
+  parallel_ranges(static_cast<int>(result.size()), [&](int begin, int end) {
+    for (int edge = begin; edge < end; ++edge) result[edge] = std::log2(result[edge]);
+  });
+  return result;
 }
 
 double percentile_of(const std::vector<double>& sorted, double percent) {
@@ -159,44 +137,55 @@ double percentile_of(const std::vector<double>& sorted, double percent) {
   return sorted[below] + (at - static_cast<double>(below)) * (sorted[above] - sorted[below]);
 }
 
+// Percentiles of a measure and its means.
+StrainStatistics statistics_of(std::vector<double> values) {
+  StrainStatistics result;
+  if (values.empty()) return result;
+  const auto count = static_cast<double>(values.size());
+  for (const double value : values) {
+    result.mean += value / count;
+    result.mean_absolute += std::abs(value) / count;
+  }
+  std::sort(values.begin(), values.end());
+  for (std::size_t p = 0; p < std::size(StrainStatistics::percents); ++p)
+    result.percentiles[p] = percentile_of(values, StrainStatistics::percents[p]);
+  return result;
+}
+
 }  // namespace
 
 SurfaceStrain measure_strain(const Surface& surface, const Embedding& embedding, double radius) {
   const std::vector<StrainedTriangle> triangles = strained_triangles(surface, embedding);
   const double scale = image_scale(triangles, radius);
+  const std::vector<double> doublings = doublings_of_edges(surface, embedding, triangles, scale);
   const FaceView faces = embedding.faces();
   std::vector<StrainSum> of_vertex(surface.V.rows()), of_face(faces.count());
-  std::size_t t = 0;
-  for (int f = 0; f < faces.count(); ++f)
-    for (int k = 0; k < faces.degree(f) - 2; ++k, ++t) {
-      of_face[f].add(triangles[t], triangles[t].source_area);
-      for (const int v : embedding.triangles.row(static_cast<Eigen::Index>(t)))
-        of_vertex[embedding.source_vertex[v]].add(triangles[t], 1);
+  const auto add_triangle = [&](int t, StrainSum& face) {
+    face.add(triangles[t], triangles[t].source_area);
+    for (int k = 0; k < 3; ++k) {
+      of_vertex[embedding.source_vertex[embedding.triangles(t, k)]].add(triangles[t], 1);
+      const int edge = edge_along(surface, embedding, t, k);
+      if (edge >= 0 && std::isfinite(doublings[edge])) face.add_edge(doublings[edge]);
     }
-  const std::vector<StrainedEdge> edges = edges_of_faces(surface, embedding, scale);
-  add_edges_of_faces(faces, edges, of_face);
-  add_edges_of_vertices(edges, of_vertex);
+  };
+  int t = 0;
+  for (int f = 0; f < faces.count(); ++f)
+    for (int k = 2; k < faces.degree(f); ++k) add_triangle(t++, of_face[f]);
+  for (std::size_t edge = 0; edge < doublings.size(); ++edge)
+    if (std::isfinite(doublings[edge]))
+      for (const int v : surface.connectivity.edges[edge]) of_vertex[v].add_edge(doublings[edge]);
   return {strain_map(of_vertex, scale), strain_map(of_face, scale)};
 }
 
 std::vector<StrainStatistics> strain_statistics(const StrainMap& map) {
   std::vector<StrainStatistics> result(strain_measures);
-  for (int measure = 0; measure < strain_measures; ++measure) {
+  parallel_for(strain_measures, [&](int measure) {
     std::vector<double> values;
     values.reserve(map.measured.size());
     for (std::size_t k = 0; k < map.measured.size(); ++k)
       if (map.measured[k]) values.push_back(map.values(static_cast<Eigen::Index>(k), measure));
-    if (values.empty()) continue;
-    StrainStatistics& statistics = result[measure];
-    const auto count = static_cast<double>(values.size());
-    for (const double value : values) {
-      statistics.mean += value / count;
-      statistics.mean_absolute += std::abs(value) / count;
-    }
-    std::sort(values.begin(), values.end());
-    for (std::size_t p = 0; p < std::size(StrainStatistics::percents); ++p)
-      statistics.percentiles[p] = percentile_of(values, StrainStatistics::percents[p]);
-  }
+    result[measure] = statistics_of(std::move(values));
+  });
   return result;
 }
 
