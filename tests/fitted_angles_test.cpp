@@ -11,6 +11,7 @@
 
 #include "orbitutte/cones/extremities.h"
 #include "orbitutte/cones/fitted_cones.h"
+#include "orbitutte/cones/marked_cones.h"
 #include "orbitutte/embed.h"
 #include "orbitutte/samples/sample.h"
 #include "orbitutte/weights/weights.h"
@@ -174,6 +175,57 @@ TEST(FittedAngles, AFreeAreaIsNoWorseThanAnyGivenOne) {
   const double best = fit_angles(figure().kernel, cones, {std::nullopt, 0.05, 0.99}).sigma;
   for (const double area : {-4.0, -1.0, 0.0, 1.0})
     EXPECT_LE(best, fit_angles(figure().kernel, cones, {area, 0.05, 0.99}).sigma + 1e-9);
+}
+
+// What the triangles around a cone get of the area of the map.
+double share_around(const Embedding& map, int vertex) {
+  double around = 0, all = 0;
+  for (Eigen::Index f = 0; f < map.triangles.rows(); ++f) {
+    const Vector3 a = map.positions.row(map.triangles(f, 0)), b = map.positions.row(map.triangles(f, 1)),
+                  c = map.positions.row(map.triangles(f, 2));
+    const double area = a.dot((b - a).cross(c - a));
+    all += area;
+    for (const int v : map.triangles.row(f))
+      if (map.source_vertex[v] == vertex) around += area;
+  }
+  return around / all;
+}
+
+TEST(FittedAngles, SharesOfTheTargetAreThoseOfTheMap) {
+  const std::vector<int> cones = figure().extremities(4);
+  const std::vector<double> angles = {0.2 * pi, 0.4 * pi, 1.8 * pi, 1.6 * pi};
+  Eigen::VectorXd curvatures(4);
+  for (int k = 0; k < 4; ++k) curvatures[k] = 2 * pi - angles[k];
+  const Eigen::VectorXd shares = figure().kernel.target_shares(cones, curvatures);
+  const Embedding map =
+      embed(figure().surface, marked_cones(figure().surface, "cones", cones, angles).target, cones).embedding;
+  for (int k = 0; k < 2; ++k) {  // of a cone that takes much; the others have less than is seen
+    const double around = share_around(map, cones[k]);
+    EXPECT_GT(shares[k], 0.5 * around) << k;
+    EXPECT_LT(shares[k], 2 * around) << k;
+  }
+}
+
+// The triangles around no corner get more of the target than they may, unless sigma would grow too much.
+TEST(FittedAngles, OfConesThatTakeTooMuchAreLarger) {
+  const std::vector<int> corners = mask().extremities(3);
+  const auto greatest_share = [&](const FittedAngles& fit) {
+    Eigen::VectorXd curvatures(3);
+    for (int k = 0; k < 3; ++k) curvatures[k] = pi - fit.angles[k];
+    return mask().kernel.target_shares(corners, curvatures).maxCoeff();
+  };
+  FitOptions options;
+  options.greatest_share = 1;
+  const FittedAngles least = fit_angles(mask().kernel, corners, options);
+  options.greatest_share = 0.85 * greatest_share(least);
+  options.sigma_for_shares = 1;
+  const FittedAngles spared = fit_angles(mask().kernel, corners, options);
+  EXPECT_LE(greatest_share(spared), options.greatest_share);
+  EXPECT_GT(spared.sigma, least.sigma);
+  options.sigma_for_shares = 0.5 * (spared.sigma / least.sigma - 1);
+  const FittedAngles between = fit_angles(mask().kernel, corners, options);
+  EXPECT_LE(between.sigma, (1 + options.sigma_for_shares) * least.sigma);
+  EXPECT_GT(greatest_share(between), options.greatest_share);
 }
 
 // With three equal cones the target is the orbifold 333, onto which the surface can be mapped.

@@ -23,6 +23,12 @@ struct FitOptions {
   double least_angle = 0.05;
   std::optional<double> greatest_angle = {};
 
+  /// The triangles around a cone are stretched as much as its angle differs from theirs. A small angle
+  /// is therefore made larger until they have no more than this share of the target's area, or until sigma
+  /// has grown by this part. A share of 1 keeps the angles of least sigma.
+  double greatest_share = 0.05;
+  double sigma_for_shares = 0.01;
+
   double greatest() const { return greatest_angle.value_or(area && *area == 0 ? 1.95 : 0.99); }
 };
 

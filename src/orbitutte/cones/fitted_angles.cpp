@@ -100,6 +100,45 @@ class ActiveSet {
   double multiplier_ = 0;
 };
 
+// Cones, and the fit and the bounds of their curvatures.
+struct AngleFit {
+  const ScaleKernel& kernel;
+  const std::vector<int>& cones;
+  CurvatureFit fit;
+  CurvatureBounds bounds;
+};
+
+// Bounds for the angles of cones that take too much of the target: a little above what they are. Nothing if
+// there are no such cones, or if no angles would be left.
+std::optional<CurvatureBounds> with_larger_angles(const AngleFit& at, const Eigen::VectorXd& curvatures,
+                                                  double greatest_share) {
+  constexpr double growth = 1.1;
+  const Eigen::VectorXd shares = at.kernel.target_shares(at.cones, curvatures);
+  CurvatureBounds result = at.bounds;
+  bool are_changed = false;
+  for (Eigen::Index i = 0; i < shares.size(); ++i) {
+    const double flat = at.kernel.flat_angle(at.cones[i]), own = at.kernel.curvature(at.cones[i]);
+    if (!(shares[i] > greatest_share && curvatures[i] > own)) continue;
+    result.greatest[i] = flat - growth * (flat - curvatures[i]);
+    are_changed = true;
+  }
+  const bool are_possible = result.can_be_met() && (result.greatest - result.least).minCoeff() > 0;
+  return are_changed && are_possible ? std::optional(result) : std::nullopt;
+}
+
+// The curvatures of least sigma, but for those of cones that would take too much of the target.
+Eigen::VectorXd with_spared_cones(AngleFit at, const FitOptions& options) {
+  Eigen::VectorXd curvatures = least_sigma(at.fit, at.bounds);
+  const double most = (1 + options.sigma_for_shares) * at.fit.sigma(curvatures);
+  while (const auto bounds = with_larger_angles(at, curvatures, options.greatest_share)) {
+    const Eigen::VectorXd spared = least_sigma(at.fit, *bounds);
+    if (!(at.fit.sigma(spared) <= most)) break;
+    at.bounds = *bounds;
+    curvatures = spared;
+  }
+  return curvatures;
+}
+
 void require_vertices(const ScaleKernel& kernel, const std::vector<int>& cones) {
   for (const int v : cones) {
     if (v < 0 || v >= kernel.surface().vertex_count() || !(kernel.flat_angle(v) > 0))
@@ -152,7 +191,7 @@ FittedAngles fit_angles(const ScaleKernel& kernel, const std::vector<int>& cones
   if (!bounds.can_be_met()) refuse_bounds(bounds);
   const CurvatureFit fit = {kernel.potentials(cones)(cones, Eigen::all), kernel.even_potential()(cones),
                             kernel.even_variance()};
-  const Eigen::VectorXd curvatures = least_sigma(fit, bounds);
+  const Eigen::VectorXd curvatures = with_spared_cones({kernel, cones, fit, bounds}, options);
   FittedAngles result = {{}, kernel.total_curvature() - curvatures.sum(), fit.sigma(curvatures)};
   for (std::size_t i = 0; i < cones.size(); ++i)
     result.angles.push_back(kernel.flat_angle(cones[i]) - curvatures[static_cast<Eigen::Index>(i)]);

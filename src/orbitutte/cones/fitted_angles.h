@@ -37,8 +37,9 @@ Eigen::VectorXd least_sigma(const CurvatureFit& fit, const CurvatureBounds& boun
 CurvatureBounds bounds_of(const ScaleKernel& kernel, const std::vector<int>& vertices,
                           const FitOptions& options);
 
-/// The angles at given cones. Throws MeshError if a cone is no vertex of a face or is given twice, and if no
-/// angles within the bounds have the area.
+/// The angles at given cones: those of least sigma, but for cones that would take too much of the target
+/// (FitOptions::greatest_share). Throws MeshError if a cone is no vertex of a face or is given twice, and if
+/// no angles within the bounds have the area.
 FittedAngles fit_angles(const ScaleKernel& kernel, const std::vector<int>& cones,
                         const FitOptions& options = {});
 

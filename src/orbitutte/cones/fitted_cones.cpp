@@ -280,7 +280,10 @@ FittedCones place_cones(const ScaleKernel& kernel, const ConeWishes& wishes) {
   for (const int place : choose_places(places, wishes).chosen) cones.push_back(places.vertex(place));
   ConePolish polish(kernel, wishes, std::move(cones));
   polish.run();
-  return in_order(kernel, polish, wishes.kept.size());
+  FittedCones found = in_order(kernel, polish, wishes.kept.size());
+  const FittedAngles spared = fit_angles(kernel, found.vertices, wishes.fit);
+  if (!wishes.sigma || spared.sigma <= *wishes.sigma) found.fit = spared;
+  return found;
 }
 
 FittedAngles fit_orders(const ScaleKernel& kernel, const std::vector<int>& cones, int highest_order) {

@@ -101,4 +101,13 @@ Eigen::MatrixXd ScaleKernel::potentials(const std::vector<int>& vertices) const 
   return result;
 }
 
+Eigen::VectorXd ScaleKernel::target_shares(const std::vector<int>& cones,
+                                           const Eigen::VectorXd& curvatures) const {
+  Eigen::VectorXd right = curvature_ - (curvature_.sum() - curvatures.sum()) * share_;
+  for (std::size_t k = 0; k < cones.size(); ++k) right[cones[k]] -= curvatures[static_cast<Eigen::Index>(k)];
+  const Eigen::ArrayXd u = solve(right).array();
+  const Eigen::VectorXd areas = share_.array() * (2 * (u.minCoeff() - u)).exp();
+  return areas(cones) / areas.sum();
+}
+
 }  // namespace orbitutte

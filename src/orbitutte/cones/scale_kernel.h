@@ -12,8 +12,7 @@
 
 namespace orbitutte {
 
-/// The logarithm u of the scale of lengths that gives a surface another curvature, whole curvatures of
-/// vertices being
+/// The scale exp(-u) of lengths that gives a surface another curvature, whole curvatures of vertices being
 ///     K_v = 2 pi - (the angles at v), on the boundary pi - (the angles at v):
 ///     L u = K - a M - sum over cones of kappa_v delta_v,
 /// with the Laplacian L of the weights, the shares M of the vertices in the surface's area, the curvature
@@ -37,11 +36,18 @@ class ScaleKernel {
   /// What the angles around a vertex add up to where it is no cone: 2 pi, on the boundary pi.
   double flat_angle(int vertex) const { return flat_angle_[vertex]; }
 
+  /// flat_angle less the angles around a vertex.
+  double curvature(int vertex) const { return curvature_[vertex]; }
+
   /// n x c: of each vertex, the mean of c_v c_w over the surface for all vertices w.
   Eigen::MatrixXd potentials(const std::vector<int>& vertices) const;
 
   /// n: the mean of u_0 c_w for all vertices w.
   const Eigen::VectorXd& even_potential() const { return even_potential_; }
+
+  /// Of each cone, about the part of the target's area that the triangles around it get: that of the vertex,
+  /// exp(-2u) M_v. The curvatures are those of the cones.
+  Eigen::VectorXd target_shares(const std::vector<int>& cones, const Eigen::VectorXd& curvatures) const;
 
   /// The mean of u_0^2: sigma^2 without cones.
   double even_variance() const { return even_variance_; }

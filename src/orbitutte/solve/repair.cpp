@@ -30,7 +30,7 @@ class Repair {
       : site_(site), positions_(positions), space_(site.gluing.boundary.space) {}
 
   std::vector<int> run(const std::vector<int>& turned) {
-    if (!open_stars(turned) && !relax_patches(turned)) return {};
+    if (!open_stars(turned) && !relax_patches(turned) && !repair_groups(turned)) return {};
     smooth_around(vertices_of(turned));
     return {moved_.begin(), moved_.end()};
   }
@@ -49,6 +49,7 @@ class Repair {
   // Single vertices, sweep by sweep, in reach of the faces that are not positive.
   bool open_stars(const std::vector<int>& turned) {
     const std::size_t before = positions_.moves();
+    const std::set<int> moved_before = moved_;
     std::vector<int> broken = turned;
     std::set<int> reached = vertices_of(turned);
     for (int sweep = 0; sweep < most_sweeps && !broken.empty(); ++sweep) {
@@ -61,12 +62,13 @@ class Repair {
     }
     if (broken.empty()) return true;
     positions_.take_back(before);
-    moved_.clear();
+    moved_ = moved_before;
     return false;
   }
 
   // Tutte's embedding of patches that grow, their rings held.
   bool relax_patches(const std::vector<int>& turned) {
+    const std::set<int> moved_before = moved_;
     std::set<int> patch = vertices_of(turned);
     for (int ring = 0; ring <= most_rings; ++ring, patch = site_.stars.with_neighbours(patch)) {
       for (const PatchWeights weights : {PatchWeights::cotan, PatchWeights::mean_value}) {
@@ -79,10 +81,51 @@ class Repair {
           LocalMinimum(site_.gluing, positions_, std::move(neighbourhoods)).settle(positions_);
         if (nonpositive_at(patch).empty()) return true;
         positions_.take_back(before);
-        moved_.clear();
+        moved_ = moved_before;
       }
     }
     return false;
+  }
+
+  // Faces that are no neighbours of each other apart, as long as one more group is repaired: what one needs
+  // may do harm to others.
+  bool repair_groups(const std::vector<int>& turned) {
+    const std::size_t before = positions_.moves();
+    std::vector<std::vector<int>> groups = groups_of(turned);
+    if (groups.size() < 2) return false;
+    std::size_t left = groups.size() + 1;
+    while (!groups.empty() && groups.size() < left) {
+      left = groups.size();
+      std::erase_if(groups, [&](const std::vector<int>& group) {
+        return nonpositive_at(vertices_of(group)).empty() || open_stars(group) || relax_patches(group);
+      });
+    }
+    if (groups.empty()) return true;
+    positions_.take_back(before);
+    moved_.clear();
+    return false;
+  }
+
+  // Faces whose neighbourhoods meet are in one group.
+  std::vector<std::vector<int>> groups_of(const std::vector<int>& faces) const {
+    std::vector<std::vector<int>> groups;
+    std::vector<std::set<int>> reaches;
+    for (const int f : faces) {
+      std::vector<int> group = {f};
+      std::set<int> reach = site_.stars.with_neighbours(vertices_of(group));
+      for (std::size_t k = groups.size(); k-- > 0;) {
+        const bool meet =
+            std::any_of(reach.begin(), reach.end(), [&](int v) { return reaches[k].contains(v); });
+        if (!meet) continue;
+        group.insert(group.end(), groups[k].begin(), groups[k].end());
+        reach.merge(reaches[k]);
+        groups.erase(groups.begin() + static_cast<std::ptrdiff_t>(k));
+        reaches.erase(reaches.begin() + static_cast<std::ptrdiff_t>(k));
+      }
+      groups.push_back(std::move(group));
+      reaches.push_back(std::move(reach));
+    }
+    return groups;
   }
 
   // The edges of the input at v, with positive weights that are symmetric.

@@ -2,7 +2,9 @@
 #include "orbitutte/solve/tips.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <Eigen/SparseCholesky>
+#include <Eigen/SparseLU>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -18,6 +20,13 @@ namespace {
 
 using std::numbers::pi;
 using RootNumber = std::complex<double>;
+using Roots = std::map<int, RootNumber>;
+
+// Of the vertices inside a patch, by neighbour.
+using TipWeights = std::map<int, std::map<int, double>>;
+
+// How the cone comes to lie at zero in the plane of roots.
+enum class Centring { shift, bias };
 
 constexpr int most_rings_around_tip = 40;
 constexpr double least_tip_weight = 0.01;  // in place of weights that are not positive
@@ -54,6 +63,7 @@ class Tip {
   // All faces positive, or, if no patch does that, the fewest not: thin ones are left for others to repair.
   std::vector<int> run() {
     std::optional<TipPatch> best;
+    Centring best_way = Centring::shift;
     int fewest = std::numeric_limits<int>::max();
     std::set<int> inside = {cone_};
     for (int rings = 0; rings < most_rings_around_tip && fewest > 0; ++rings) {
@@ -61,16 +71,20 @@ class Tip {
       if (!may_all_move(inside)) break;
       const std::optional<TipPatch> patch = patch_of(inside);
       if (!patch) continue;
-      const int turned_before = count_turned(patch->inside);
-      const std::size_t before = positions_.moves();
-      const int turned = place(*patch) ? count_turned(patch->inside) : turned_before;
-      positions_.take_back(before);
-      if (turned >= std::min(fewest, turned_before)) continue;
-      fewest = turned;
-      best = patch;
+      for (const Centring way : {Centring::shift, Centring::bias}) {
+        if (fewest == 0) break;
+        const int turned_before = count_turned(patch->inside);
+        const std::size_t before = positions_.moves();
+        const int turned = place(*patch, way) ? count_turned(patch->inside) : turned_before;
+        positions_.take_back(before);
+        if (turned >= std::min(fewest, turned_before)) continue;
+        fewest = turned;
+        best = patch;
+        best_way = way;
+      }
     }
     if (!best) return {};
-    place(*best);
+    place(*best, best_way);
     return moved(best->inside);
   }
 
@@ -227,14 +241,21 @@ class Tip {
     return weights;
   }
 
+  TipWeights weights_inside(const TipPatch& patch) const {
+    TipWeights result;
+    for (const int v : patch.inside) result.emplace(v, weights_at(v));
+    return result;
+  }
+
   // Tutte's embedding in the plane of roots: of all vertices inside, the ring being held.
-  std::map<int, RootNumber> embedded(const TipPatch& patch, std::map<int, RootNumber> held) const {
+  template <class Solver>
+  static Roots embedded(const TipPatch& patch, Roots held, const TipWeights& weights) {
     std::map<int, int> row;
     for (const int v : patch.inside) row.emplace(v, static_cast<int>(row.size()));
     std::vector<Eigen::Triplet<double>> entries;
     Eigen::MatrixXd right = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(row.size()), 2);
     for (const auto& [v, r] : row)
-      for (const auto& [u, weight] : weights_at(v)) {
+      for (const auto& [u, weight] : weights.at(v)) {
         entries.emplace_back(r, r, weight);
         if (const auto at = row.find(u); at != row.end()) {
           entries.emplace_back(r, at->second, -weight);
@@ -245,7 +266,7 @@ class Tip {
       }
     Eigen::SparseMatrix<double> matrix(right.rows(), right.rows());
     matrix.setFromTriplets(entries.begin(), entries.end());
-    const Eigen::MatrixXd solution = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(matrix).solve(right);
+    const Eigen::MatrixXd solution = Solver(matrix).solve(right);
     for (const auto& [v, r] : row) held[v] = {solution(r, 0), solution(r, 1)};
     return held;
   }
@@ -253,7 +274,7 @@ class Tip {
   // The cone has come to lie somewhere inside, and all of its limb beside it. The disk is moved so that it
   // lies at zero, step by step: by a short part of its distance from the ring, the limb as it is, and the
   // less the farther away, which keeps all in its order. False if it does not come there.
-  bool recentre(const TipPatch& patch, std::map<int, RootNumber>& roots) const {
+  bool recentre(const TipPatch& patch, Roots& roots) const {
     constexpr int most_moves = 40;
     constexpr double part = 0.4;  // the share that moves, (1 - t^2)^2, falls by less than 1.6
     for (int k = 0; k < most_moves; ++k) {
@@ -271,18 +292,54 @@ class Tip {
     return roots[cone_] == 0.0;
   }
 
+  // The weights w of edges from v to u times exp(b . (x_u - x_v)): vertices are drawn into the direction b.
+  static TipWeights biased(TipWeights weights, const Roots& x, const RootNumber& b) {
+    for (auto& [v, some] : weights)
+      for (auto& [u, weight] : some) weight *= std::exp((std::conj(b) * (x.at(u) - x.at(v))).real());
+    return weights;
+  }
+
+  // The same by weights that draw it there: not symmetric, but positive, which Tutte's embedding asks for (M.
+  // S. Floater, "One-to-one piecewise linear mappings over triangulations", 2003). Newton's method, with
+  // differences for derivatives. Where the triangles between limb and ring are large, to move their vertices
+  // would turn them over.
+  bool draw_to_centre(const TipPatch& patch, const Roots& ring, Roots& roots) const {
+    using Solver = Eigen::SparseLU<Eigen::SparseMatrix<double>>;
+    constexpr int most_steps = 20;
+    constexpr double probe = 0.02, longest = 1, near = 1e-14;
+    TipWeights weights = weights_inside(patch);
+    for (int step = 0; step < most_steps && std::abs(roots[cone_]) > near; ++step) {
+      const RootNumber centre = roots[cone_];
+      const auto change = [&](const RootNumber& b) {
+        return (embedded<Solver>(patch, ring, biased(weights, roots, b))[cone_] - centre) / probe;
+      };
+      Eigen::Matrix2d derivative;
+      for (int k = 0; k < 2; ++k) {
+        const RootNumber column = change(k == 0 ? RootNumber(probe, 0) : RootNumber(0, probe));
+        derivative.col(k) << column.real(), column.imag();
+      }
+      Eigen::Vector2d b = -derivative.inverse() * Eigen::Vector2d(centre.real(), centre.imag());
+      if (!b.allFinite()) return false;
+      b *= std::min(1.0, longest / b.norm());
+      weights = biased(std::move(weights), roots, {b.x(), b.y()});
+      roots = embedded<Solver>(patch, ring, weights);
+    }
+    return recentre(patch, roots);
+  }
+
   // Moves the vertices inside; false if that cannot be told.
-  bool place(const TipPatch& patch) {
+  bool place(const TipPatch& patch, Centring way) {
     std::optional<std::map<int, SeenFromTip>> ring = seen_ring(patch);
     if (!ring) return false;
     double farthest = 0;
     for (const auto& [v, at] : *ring) farthest = std::max(farthest, distance_from_tip(v, at.frame));
-    std::map<int, RootNumber> roots;
+    Roots roots;
     for (const auto& [v, at] : *ring)
       roots[v] =
           std::polar(std::pow(distance_from_tip(v, at.frame) / farthest, 1 / share_), at.angle / share_);
-    roots = embedded(patch, std::move(roots));
-    if (!recentre(patch, roots)) return false;
+    const Roots held = roots;
+    roots = embedded<Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>>(patch, held, weights_inside(patch));
+    if (!(way == Centring::shift ? recentre(patch, roots) : draw_to_centre(patch, held, roots))) return false;
     std::vector<int> reached = patch.ring;
     for (std::size_t k = 0; k < reached.size(); ++k) {
       const int v = reached[k];
