@@ -15,7 +15,7 @@ A row for each mesh: what `orbitutte.embed(V, F)` takes, its sigma, that of 432 
 that shrink by more than 64.
 A limb that doubles do not resolve has no place in the closed form here: its samples are left out of the ranking, not of the embeddings.
 --known TABLE.md ... takes the exhaustive search from earlier tables, since it does not depend on what `best` takes.
---join TABLE.md ... writes the tables of several runs as one, and what they say together.
+--join TABLE.md ... writes the tables of several runs as one: a row for each mesh, as in docs/choosing-cones.md, and all rows below.
 """
 import argparse
 import itertools
@@ -146,6 +146,7 @@ class Surface:
         boundary[lonely.ravel()] = True
         used = np.zeros(n, bool)
         used[self.F.ravel()] = True
+        self.is_outer = boundary
         return [self.spread(np.flatnonzero(used & side), count) for side in (~boundary, boundary)]
 
     def spread(self, among, count):
@@ -214,7 +215,8 @@ class Surface:
                 seen |= ring
                 if distance not in (1, 2, 4, 8):
                     continue
-                for v in sorted(ring)[::max(1, -(-len(ring) // around))]:
+                like = sorted(v for v in ring if self.is_outer[v] == self.is_outer[cone])
+                for v in like[::max(1, -(-len(like) // around))]:
                     moved = list(cones)
                     moved[k] = v
                     if len(set(moved)) == len(moved):
@@ -253,8 +255,19 @@ def table(head, rows):
     return ['| ' + ' | '.join(row) + ' |' for row in (head, ['---'] * len(head), *rows)]
 
 
+def summary(rows, whole):
+    """A row for each mesh: the least and the greatest quotient among its families."""
+    head = ['mesh', 'families', 'best / exhaustive', 'neighbours / best', *WHOLE_HEAD[1:]]
+    result = []
+    for row in whole:
+        numbers = [[float(text) for text in other[2:5]] for other in rows if other[0] == row[0]]
+        quotients = [f'{min(values):.3f} to {max(values):.3f}' for values in zip(*((b / e, n / b) for b, e, n in numbers))]
+        result.append([row[0].replace('_', '\\_'), str(len(numbers)), *quotients, row[1].replace('*', '\\*'), *row[2:]])
+    return table(head, result)
+
+
 def write(path, rows, whole):
-    text = table(ROWS_HEAD, [[cell.replace('*', '\\*') for cell in row] for row in rows]) + ['']
+    text = (summary(rows, whole) + [''] if whole else []) + table(ROWS_HEAD, [[cell.replace('*', '\\*') for cell in row] for row in rows]) + ['']
     if whole:
         text += table(WHOLE_HEAD, [[cell.replace('*', '\\*') for cell in row] for row in whole]) + ['']
     path.write_text('\n'.join(text), encoding='utf-8')
@@ -262,8 +275,9 @@ def write(path, rows, whole):
 
 def read(path):
     cells = [[cell.strip().replace('\\*', '*') for cell in line.strip('|').split('|')] for line in path.read_text().splitlines() if line]
+    first = cells.index(ROWS_HEAD)
     second = cells.index(WHOLE_HEAD) if WHOLE_HEAD in cells else len(cells)
-    return cells[2:second], cells[second + 2:]
+    return cells[first + 2:second], cells[second + 2:]
 
 
 def main():

@@ -220,11 +220,11 @@ void ScaleField::add_three_cones(const std::vector<Place>& cones, std::vector<do
 void ScaleField::add_two_cones(const MarkedTarget& choice, const std::vector<Place>& cones,
                                std::vector<double>& u) {
   const double a = cones[0].angle, m = choice.cones.size() == 1 ? 0 : scale_along_axis(cones),
-               all = std::log(a) + log_bracket(cones[0], cones[1]).real();
+               all = std::log(2 * a) + log_bracket(cones[0], cones[1]).real();
   const Column &c0 = column(cones[0]), &c1 = column(cones[1]);
   for (std::size_t s = 0; s < u.size(); ++s) {
     const double to_0 = c0[s].real(), to_1 = c1[s].real(), along = std::abs(a * (to_0 - to_1) + m);
-    u[s] += all - to_0 - to_1 - along - std::log1p(std::exp(-2 * along)) + std::log(2);
+    u[s] += all - to_0 - to_1 - along - std::log1p(std::exp(-2 * along));
   }
 }
 
@@ -263,8 +263,13 @@ double ScaleField::excess_at(const Place& cone, const Place& other) {
 // them are the linear elements at both cones: their energy exceeds the area by the square of their size times
 // what excess_at says, and the sum of both is least where they are equal.
 double ScaleField::scale_along_axis(const std::vector<Place>& cones) {
-  const double first = excess_at(cones[0], cones[1]), second = excess_at(cones[1], cones[0]);
-  return first > 0 && second > 0 ? 0.25 * std::log(second / first) : 0;
+  const auto [at, is_new] =
+      scales_along_axes_.try_emplace({cones[0].vertex, cones[1].vertex, cones[0].angle}, 0);
+  if (is_new) {
+    const double first = excess_at(cones[0], cones[1]), second = excess_at(cones[1], cones[0]);
+    if (first > 0 && second > 0) at->second = 0.25 * std::log(second / first);
+  }
+  return at->second;
 }
 
 double ScaleField::mean_over_samples(const std::vector<double>& u) const {
@@ -301,7 +306,8 @@ std::vector<double> ScaleField::log_scale(const MarkedTarget& choice) {
     add_three_cones(cones, u);
   const double area =
       choice.target.space.has_similarities() ? area_over_samples(u) : area_of_target(choice.target);
-  for (double& value : u) value -= 0.5 * std::log(area);
+  const double half_log_area = 0.5 * std::log(area);
+  for (double& value : u) value -= half_log_area;
   return u;
 }
 

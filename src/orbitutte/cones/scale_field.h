@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include "orbitutte/cones/chart.h"
@@ -121,6 +122,9 @@ class ScaleField {
   std::map<std::pair<int, bool>, ChartPoint> points_;
 
   std::map<std::pair<int, bool>, Column> columns_;
+
+  /// scale_along_axis of two vertices and the angle of both.
+  std::map<std::tuple<int, int, double>, double> scales_along_axes_;
   using Metrics = std::map<std::array<double, 3>, ConeMetric>;
   std::shared_ptr<Metrics> metrics_ = std::make_shared<Metrics>();
 };
