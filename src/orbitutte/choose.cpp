@@ -12,6 +12,7 @@
 #include "orbitutte/cones/extremities.h"
 #include "orbitutte/cones/search.h"
 #include "orbitutte/orbifold/families.h"
+#include "orbitutte/orbifold/signature.h"
 #include "orbitutte/orbifold/target_words.h"
 #include "orbitutte/parallel.h"
 #include "orbitutte/preparation.h"
@@ -414,6 +415,19 @@ class Choosing {
     return predicted(targets);
   }
 
+  // Where maps slide along an axis, the closed form estimates where they come to rest: what the search began
+  // with may be better, and is to be embedded, too.
+  void add_extremities(std::vector<Choice>& rows) const {
+    if (!options_.target || !are_opposite(options_.target->marks)) return;
+    if (options_.objective != Objective::sigma || !rows.front().predicted) return;
+    Candidates ends;
+    (options_.target->inner_marks > 0 ? ends.inside : ends.on_boundary) =
+        choose_cones(*surface_, *options_.target);
+    const auto cones = first_cones(*options_.target, options_.cones, ends);
+    if (cones && !std::is_permutation(cones->begin(), cones->end(), rows.front().cones.begin()))
+      rows.push_back({*options_.target, *cones, {}, {}, false, {}});
+  }
+
   // Embeds the row, and writes into it what is known then.
   EmbedResult solve(Choice& choice) {
     EmbedResult result = solver_.embed(choice.target, choice.cones);
@@ -515,6 +529,13 @@ void add_warnings(BestEmbedding& best) {
       best.result.warnings.push_back(warning_of_better(choice, best.choice()));
 }
 
+// Of rows that have the same symbol.
+void keep_what_was_taken(BestEmbedding& best) {
+  if (best.choices.size() != 2 || !best.choices.front().predicted) return;
+  best.choices = {best.choice()};
+  best.taken = 0;
+}
+
 // Of rows that had to be embedded to be compared, the best of each symbol, the best first.
 void keep_the_best_of_each(std::vector<Choice>& rows, Objective objective) {
   const auto rank = [&](const Choice& row) {
@@ -548,6 +569,7 @@ BestEmbedding embed_best(const std::shared_ptr<const Surface>& surface, const Ch
                                   options.target ? options.target->signature : "the best orbifold");
     Choosing choosing(surface, options, options.target ? Effort() : quick_effort);
     BestEmbedding best = {options.objective, choosing.table(), -1, {}};
+    choosing.add_extremities(best.choices);
     std::string first_refusal;
     double least = 0;
     for (std::size_t k = 0; k < best.choices.size(); ++k) {
@@ -573,6 +595,7 @@ BestEmbedding embed_best(const std::shared_ptr<const Surface>& surface, const Ch
     best.result.timings.insert(best.result.timings.begin(), choosing.timings().begin(),
                                choosing.timings().end());
     add_warnings(best);
+    if (options.target) keep_what_was_taken(best);
     return best;
   });
 }
