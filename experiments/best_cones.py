@@ -2,20 +2,26 @@
 # SPDX-License-Identifier: MIT
 """What `best` is worth: against an exhaustive search, against extremities, and against its own neighbours.
 
-  best_cones.py MESH ... [--families 432,223,...] [--solved 50] [--candidates 40] -o TABLE.md     (PYTHONPATH=build/python)
+  best_cones.py MESH ... [--families 432,223,...] [--solved 50] [--candidates 40] [--around 4] -o TABLE.md   (PYTHONPATH=build/python)
 
-A row for each mesh and family:
+Two tables, by one thread. A row for each mesh and family:
   best         sigma of the embedding that `orbitutte.embed(V, F, family, "best")` gives
   exhaustive   the least sigma of the embeddings of the `solved` best choices among all of the farthest-point candidates, every
                arrangement of the orders, as the closed form ranks them (here in NumPy, on its own)
-  neighbours   the least sigma when one cone is moved by one, two, four or eight rings and the surface embedded again
-  extremities  sigma of the family at extremities, and of 432 (*432) there
+  neighbours   the least sigma when one cone is moved by one, two, four or eight rings and the surface embedded again, `around`
+               vertices of each ring
+  extremities  sigma of the family at extremities
+A row for each mesh: what `orbitutte.embed(V, F)` takes, its sigma, that of 432 (*432) at extremities, and the shares of the surface
+that shrink by more than 64.
 A limb that doubles do not resolve has no place in the closed form here: its samples are left out of the ranking, not of the embeddings.
+--known TABLE.md ... takes the exhaustive search from earlier tables, since it does not depend on what `best` takes.
+--join TABLE.md ... writes the tables of several runs as one: a row for each mesh, as in docs/choosing-cones.md, and all rows below.
 """
 import argparse
 import itertools
 import math
 import pathlib
+import warnings
 
 import numpy as np
 
@@ -23,7 +29,9 @@ import orbitutte
 
 SPHERES = ['532', '432', '332', '222', '223', '22']
 DISKS = ['*532', '*432', '*332', '*222', '*223', '3*2', '2*2', '2*3', '2*', '3*']
-SAMPLES = 300
+SAMPLES, COARSE = 300, 100
+ROWS_HEAD = ['mesh', 'family', 'best', 'exhaustive', 'neighbours', 'extremities']
+WHOLE_HEAD = ['mesh', 'taken', 'sigma', '432 at extremities', 'below 1/64', '432: below 1/64']
 
 
 def chart(map222):
@@ -41,7 +49,7 @@ def bracket(p, q):
     return p[..., 0] * q[..., 1] - q[..., 0] * p[..., 1]
 
 
-def series(p, q, c, terms=24):
+def series(p, q, c, terms=16):
     """Coefficients of 2F1(p, q; c; z) in powers of w, z = 4 w/(1 + w)^2, from those in powers of z."""
     from fractions import Fraction as Q
     h, f = [Q(1)], [Q(0)] * terms
@@ -84,20 +92,30 @@ class Metric:
         return result
 
 
-def three_cones(metric, samples, cones):
-    k = [bracket(cones[(i + 1) % 3], cones[(i + 2) % 3]) for i in range(3)]
-    return metric.log_scale(np.stack([bracket(samples, cones[i]) * k[i] for i in range(3)], axis=1))
+class Ranking:
+    """sigma of many choices at once, by the closed form."""
 
+    def __init__(self, base, samples, places):
+        """base: the part of u that no choice changes; places: the chart's points of all cones that may be chosen."""
+        self.base = base
+        self.to_samples = bracket(places[:, None], samples[None, :])
+        self.between = bracket(places[:, None], places[None, :])
 
-def two_cones(angle, samples, cones, shift):
-    to = [np.log(np.abs(bracket(samples, cone))) for cone in cones]
-    return -to[0] - to[1] - np.log(np.cosh(angle * (to[0] - to[1]) + shift))
+    def three_cones(self, metric, cones):
+        """cones: m x 3, rows of places."""
+        P = [self.to_samples[cones[:, i]] * self.between[cones[:, (i + 1) % 3], cones[:, (i + 2) % 3]][:, None] for i in range(3)]
+        u = metric.log_scale(np.stack(P, axis=-1).reshape(-1, 3)).reshape(len(cones), -1)
+        return (self.base + u).std(axis=1)
+
+    def two_cones(self, angle, cones, shifts):
+        to = [np.log(np.abs(self.to_samples[cones[:, i]])) for i in range(2)]
+        return np.min([(self.base - to[0] - to[1] - np.log(np.cosh(angle * (to[0] - to[1]) + shift))).std(axis=1) for shift in shifts], axis=0)
 
 
 class Surface:
     def __init__(self, path, candidates):
         self.V, self.F = orbitutte.read_mesh(path)
-        self.solver = orbitutte.Solver(self.V, self.F)
+        self.solver = orbitutte.Solver(self.V, self.F, threads=1)
         self.is_disk = orbitutte.info(self.V, self.F)['topology'] == 'disk'
         base = self.solver.embed('*222' if self.is_disk else '222', 'extremities')
         Z = chart(base)
@@ -128,6 +146,7 @@ class Surface:
         boundary[lonely.ravel()] = True
         used = np.zeros(n, bool)
         used[self.F.ravel()] = True
+        self.is_outer = boundary
         return [self.spread(np.flatnonzero(used & side), count) for side in (~boundary, boundary)]
 
     def spread(self, among, count):
@@ -147,26 +166,32 @@ class Surface:
         kinds = [self.inside] * star + [self.outside] * (len(family) - star - 1)
         return (cones for cones in itertools.product(*kinds) if len(set(cones)) == len(cones))
 
-    def rank(self, family):
-        """The choices, those of least sigma first, by the closed form."""
+    def rank(self, family, count):
+        """The `count` choices of least sigma by the closed form, the best first: by few samples and then by more."""
         star, orders = family.find('*'), [int(n) for n in family if n != '*']
         angles = [1 / n for k, n in enumerate(orders) for _ in range(2 if k < star else 1)]
         metric = Metric(tuple(angles)) if len(angles) == 3 else None
-        found, seen = [], set()
-        for cones in self.choices(family):
-            key = tuple(sorted(zip(orders, cones)))
-            if key in seen:
-                continue
-            seen.add(key)
-            places = [Z for k, v in enumerate(cones) for Z in ((self.Z[v], self.Z[v].conj()) if k < star else (self.Z[v],))]
-            with np.errstate(all='ignore'):
-                if metric:
-                    sigma = (self.base + three_cones(metric, self.samples, places)).std()
-                else:
-                    shifts = [0] if star > 0 else np.linspace(-4, 4, 17)
-                    sigma = min((self.base + two_cones(angles[0], self.samples, places, shift)).std() for shift in shifts)
-            found.append((sigma if np.isfinite(sigma) else np.inf, cones))
-        return [cones for _, cones in sorted(found)]
+        different = {tuple(sorted(zip(orders, cones))): cones for cones in self.choices(family)}
+        choices = np.array(list(different.values()))
+        used, number = np.unique(choices, return_inverse=True)
+        number = number.reshape(choices.shape)
+        Z = self.Z[used]
+        doubled = np.concatenate([Z, Z.conj()])
+        cones = np.stack([column + (len(used) if mirrored else 0) for k, column in enumerate(number.T)
+                          for mirrored in ((False, True) if k < star else (False,))], axis=1)
+
+        def sigmas(rows, samples):
+            ranking = Ranking(self.base[samples], self.samples[samples], doubled)
+            result = []
+            for part in np.array_split(cones[rows], 1 + len(rows) // 2000):
+                with np.errstate(all='ignore'):
+                    result.append(ranking.three_cones(metric, part) if metric else
+                                  ranking.two_cones(angles[0], part, [0] if star > 0 else np.linspace(-4, 4, 17)))
+            return np.nan_to_num(np.concatenate(result), nan=np.inf)
+
+        every = np.arange(len(cones))
+        coarse = every[np.argsort(sigmas(every, slice(None, None, SAMPLES // COARSE)), kind='stable')[:20 * count]]
+        return choices[coarse[np.argsort(sigmas(coarse, slice(None)), kind='stable')[:count]]].tolist()
 
     def sigma(self, family, cones):
         try:
@@ -175,8 +200,8 @@ class Surface:
             return math.inf
         return embedding.distortion['sigma'] if embedding.bijective else math.inf
 
-    def neighbours(self, family, cones):
-        """The least sigma when a cone moves by one, two, four or eight rings: four vertices of each."""
+    def neighbours(self, family, cones, around):
+        """The least sigma when a cone moves by one, two, four or eight rings: `around` vertices of each."""
         graph = {}
         for k in range(3):
             for v, w in zip(self.F[:, k].tolist(), self.F[:, (k + 1) % 3].tolist()):
@@ -190,7 +215,8 @@ class Surface:
                 seen |= ring
                 if distance not in (1, 2, 4, 8):
                     continue
-                for v in sorted(ring)[::max(1, len(ring) // 4)]:
+                like = sorted(v for v in ring if self.is_outer[v] == self.is_outer[cone])
+                for v in like[::max(1, -(-len(like) // around))]:
                     moved = list(cones)
                     moved[k] = v
                     if len(set(moved)) == len(moved):
@@ -198,34 +224,88 @@ class Surface:
         return least
 
 
-def row(surface, family, arguments):
-    best = surface.solver.embed(family, 'best')
+def family_row(name, surface, family, arguments, known):
+    best = orbitutte.embed(surface.V, surface.F, family, 'best', threads=1)
     cones = [cone.vertex for cone in best.cones]
-    exhaustive = min(surface.sigma(family, choice) for choice in surface.rank(family)[:arguments.solved])
-    usual = '*432' if surface.is_disk else '432'
-    at_extremities = [surface.solver.embed(symbol, 'extremities').distortion for symbol in (family, usual)]
-    return [family, f"{best.distortion['sigma']:.4f}", f'{exhaustive:.4f}', f'{surface.neighbours(family, cones):.4f}',
-            *(f"{distortion['sigma']:.4f}" for distortion in at_extremities), f"{best.distortion['below_64']:.2%}",
-            f"{at_extremities[1]['below_64']:.2%}"]
+    exhaustive = known.get((name, family)) or min(surface.sigma(family, choice) for choice in surface.rank(family, arguments.solved))
+    values = [best.distortion['sigma'], exhaustive, surface.neighbours(family, cones, arguments.around),
+              surface.solver.embed(family, 'extremities').distortion['sigma']]
+    return [name, family, *(f'{value:.4f}' for value in values)]
+
+
+def whole_row(name, surface):
+    best = orbitutte.embed(surface.V, surface.F, threads=1)
+    usual = surface.solver.embed('*432' if surface.is_disk else '432', 'extremities').distortion
+    return [name, best.signature, f"{best.distortion['sigma']:.4f}", f"{usual['sigma']:.4f}",
+            f"{best.distortion['below_64']:.2%}", f"{usual['below_64']:.2%}"]
+
+
+def said(rows, whole):
+    """What the tables say, a line each."""
+    numbers = [[float(text) for text in row[2:]] for row in rows]
+    gains = [1 - float(row[2]) / float(row[3]) for row in whole]
+    lost = [(float(row[4][:-1]), float(row[5][:-1])) for row in whole if float(row[5][:-1]) > 1]
+    return [f'within 2 % of the exhaustive search: {sum(r[0] <= 1.02 * r[1] for r in numbers)} of {len(rows)} rows',
+            f'no neighbour more than 2 % better: {sum(r[2] >= 0.98 * r[0] for r in numbers)} of {len(rows)} rows',
+            f'against 432 at extremities: {min(gains):.1%} to {max(gains):.1%} less, {np.median(gains):.1%} in the median of {len(whole)} meshes',
+            f'below 1/64 at least halved: {sum(2 * now <= before for now, before in lost)} of {len(lost)} meshes above 1 %']
+
+
+def table(head, rows):
+    return ['| ' + ' | '.join(row) + ' |' for row in (head, ['---'] * len(head), *rows)]
+
+
+def summary(rows, whole):
+    """A row for each mesh: the least and the greatest quotient among its families."""
+    head = ['mesh', 'families', 'best / exhaustive', 'neighbours / best', *WHOLE_HEAD[1:]]
+    result = []
+    for row in whole:
+        numbers = [[float(text) for text in other[2:5]] for other in rows if other[0] == row[0]]
+        quotients = [f'{min(values):.3f} to {max(values):.3f}' for values in zip(*((b / e, n / b) for b, e, n in numbers))]
+        result.append([row[0].replace('_', '\\_'), str(len(numbers)), *quotients, row[1].replace('*', '\\*'), *row[2:]])
+    return table(head, result)
+
+
+def write(path, rows, whole):
+    text = (summary(rows, whole) + [''] if whole else []) + table(ROWS_HEAD, [[cell.replace('*', '\\*') for cell in row] for row in rows]) + ['']
+    if whole:
+        text += table(WHOLE_HEAD, [[cell.replace('*', '\\*') for cell in row] for row in whole]) + ['']
+    path.write_text('\n'.join(text), encoding='utf-8')
+
+
+def read(path):
+    cells = [[cell.strip().replace('\\*', '*') for cell in line.strip('|').split('|')] for line in path.read_text().splitlines() if line]
+    first = cells.index(ROWS_HEAD)
+    second = cells.index(WHOLE_HEAD) if WHOLE_HEAD in cells else len(cells)
+    return cells[first + 2:second], cells[second + 2:]
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument('meshes', nargs='+', type=pathlib.Path)
+    parser.add_argument('meshes', nargs='*', type=pathlib.Path)
     parser.add_argument('--families', help='separated by commas; all if not given')
     parser.add_argument('--solved', type=int, default=50)
     parser.add_argument('--candidates', type=int, default=40)
+    parser.add_argument('--around', type=int, default=4)
+    parser.add_argument('--join', nargs='+', type=pathlib.Path, default=[])
+    parser.add_argument('--known', nargs='+', type=pathlib.Path, default=[])
     parser.add_argument('-o', '--output', type=pathlib.Path, required=True)
     arguments = parser.parse_args()
-    head = ['mesh', 'family', 'best', 'exhaustive', 'neighbours', 'extremities', '432 there', 'below 1/64', '432: below 1/64']
-    lines = ['| ' + ' | '.join(head) + ' |', '| ' + ' | '.join(['---'] * len(head)) + ' |']
+    warnings.simplefilter('ignore', orbitutte.EmbeddingWarning)
+    rows, whole = [], []
+    known = {(row[0], row[1]): float(row[3]) for path in arguments.known for row in read(path)[0]}
+    for path in arguments.join:
+        rows, whole = (old + new for old, new in zip((rows, whole), read(path)))
     for path in arguments.meshes:
         surface = Surface(path, arguments.candidates)
+        whole.append(whole_row(path.stem, surface))
         families = arguments.families.split(',') if arguments.families else DISKS if surface.is_disk else SPHERES
         for family in families:
-            lines.append('| ' + ' | '.join([path.stem, *row(surface, family, arguments)]) + ' |')
-            print(lines[-1], flush=True)
-            arguments.output.write_text('\n'.join(lines) + '\n', encoding='utf-8')
+            rows.append(family_row(path.stem, surface, family, arguments, known))
+            print('| ' + ' | '.join(rows[-1]) + ' |', flush=True)
+            write(arguments.output, rows, whole)
+    write(arguments.output, rows, whole)
+    print('\n'.join(said(rows, whole)))
 
 
 main()

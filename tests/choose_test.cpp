@@ -2,8 +2,11 @@
 #include "orbitutte/choose.h"
 
 #include <algorithm>
+#include <cmath>
+#include <random>
 #include <set>
 
+#include "orbitutte/cones/search.h"
 #include "orbitutte/orbifold/signature.h"
 #include "orbitutte/report/choices.h"
 #include "orbitutte/samples/sample.h"
@@ -91,6 +94,53 @@ TEST(Choose, NoConeIsBetterNearby) {
                 0.98 * best.result.distortion.sigma)
           << k << ": " << v;
     }
+}
+
+// A ball with bumps, on which a descent from few starts ends in local minima.
+Mesh bumpy_ball(std::uint32_t seed) {
+  std::mt19937 random(seed);
+  const auto number = [&](double from, double to) { return from + (to - from) * (random() / 4294967296.0); };
+  Mesh mesh = test::icosphere(4);
+  Eigen::VectorXd radius = Eigen::VectorXd::Ones(mesh.V.rows());
+  for (int bump = 0; bump < 6; ++bump) {
+    const Vector3 top = Vector3(number(-1, 1), number(-1, 1), number(-1, 1)).normalized();
+    const double height = number(0.2, 0.6), steepness = number(2, 6);
+    for (Eigen::Index v = 0; v < mesh.V.rows(); ++v)
+      radius[v] += height * std::exp(-steepness * (mesh.V.row(v).transpose() - top).squaredNorm());
+  }
+  for (Eigen::Index v = 0; v < mesh.V.rows(); ++v)
+    mesh.V.row(v) = (radius[v] * mesh.V.row(v)).cwiseProduct(Eigen::RowVector3d(1.5, 1, 0.8));
+  return mesh;
+}
+
+// Of every ordered triple of the vertices, by the closed form.
+double least_sigma(ScaleField& field, const Target& target, const std::vector<int>& vertices) {
+  double least = 1e300;
+  for (const int a : vertices)
+    for (const int b : vertices)
+      for (const int c : vertices)
+        if (a != b && b != c && c != a) least = std::min(least, field.sigma({target, {a, b, c}}));
+  return least;
+}
+
+TEST(Choose, NoTripleOfFarVerticesIsClearlyBetter) {
+  for (const std::uint32_t seed : {1, 2, 3, 4}) {
+    const auto surface = shared_surface(bumpy_ball(seed));
+    const Target base = parse_orbifold("222");
+    const EmbedResult map = embed(*surface, base, choose_cones(*surface, base));
+    const std::vector<FaceDistortion> faces = measure_triangles(*surface, map.embedding);
+    const std::vector<int> order = order_in_space(*surface);
+    const OrbifoldChart chart(map.embedding);
+    const VertexStars stars(*surface);
+    const KnownMap known = {*surface, map.embedding, faces, order};
+    ScaleField some(chart, stars, scale_samples(known, 600, {})),
+        all(some, scale_samples(known, 1 << 30, {}));
+    ChooseOptions options;
+    options.target = parse_orbifold("432");
+    const Choice best = choose(surface, options, 0).front();
+    const double least = least_sigma(some, best.target, spread_candidates(*surface, {}, 22).inside);
+    EXPECT_LT(all.sigma({best.target, best.cones}), 1.02 * least) << seed;
+  }
 }
 
 TEST(Choose, KeepsTheSymbolAndTheVerticesThatAreGiven) {

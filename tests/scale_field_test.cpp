@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
+#include "orbitutte/cones/search.h"
 #include "orbitutte/embed.h"
+#include "orbitutte/io/mesh_io.h"
 #include "orbitutte/orbifold/signature.h"
 #include "orbitutte/samples/sample.h"
 #include "sample_embeddings.h"
@@ -51,8 +54,17 @@ const Known& mask() {
 
 constexpr int all = 1 << 30;
 
+// Is the triangle almost similar to its images, so that the surface is fine enough there?
+bool is_fine(const FaceDistortion& known, const FaceDistortion& solved) {
+  constexpr double enough = 1.1;
+  return known.angle < enough && solved.angle < enough;
+}
+
+enum class Where { everywhere, where_fine };
+
 // The predicted u less the solved one: the root of the mean square over the area.
-double error_of(const Known& known, const MarkedTarget& choice, const Embedding& solved) {
+double error_of(const Known& known, const MarkedTarget& choice, const Embedding& solved,
+                Where where = Where::everywhere) {
   const std::vector<FaceDistortion> faces = measure_triangles(known.surface, solved);
   ScaleField field = known.field(all);
   const std::vector<double> u = field.log_scale(choice);
@@ -62,6 +74,7 @@ double error_of(const Known& known, const MarkedTarget& choice, const Embedding&
     if (!(known.faces[f].area > 0)) continue;
     const double difference = u[k++] - 0.5 * std::log(faces[f].area);
     if (!(faces[f].area > 0)) continue;
+    if (where == Where::where_fine && !is_fine(known.faces[f], faces[f])) continue;
     squares += faces[f].share * difference * difference;
     weight += faces[f].share;
   }
@@ -104,6 +117,22 @@ TEST(ScaleField, KnowsTheScaleOfMapsOfADisk) {
     expect_prediction(mask(), signature, fine);
 }
 
+TEST(ScaleField, IsThatOfMapsOfRealMeshesWhereTheyAreFine) {
+  const std::string folder = std::string(ORBITUTTE_SHARED_DIR) + "/meshes/";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no real meshes here: " << folder << " is missing";
+  for (const std::string file : {"itokawa.off", "spot.obj", "face.obj"}) {
+    const Known known(to_triangle_mesh(read_mesh(folder + file)));
+    for (const std::string signature : {"222", "432", "223"}) {
+      const Target target = parse_orbifold((known.surface.topology == Topology::disk ? "*" : "") + signature);
+      const MarkedTarget choice = {target, other_cones(known, target)};
+      const EmbedResult solved =
+          EmbeddingSolver(std::make_shared<const Surface>(known.surface)).embed(target, choice.cones);
+      EXPECT_LT(error_of(known, choice, solved.embedding, Where::where_fine), 0.01) << file << signature;
+      EXPECT_NEAR(known.field(all).sigma(choice), solved.distortion.sigma, 0.01) << file << signature;
+    }
+  }
+}
+
 // Where they come to rest along their axis is an estimate.
 TEST(ScaleField, KnowsWhereMapsToTwoConesComeToRest) {
   for (const std::string signature : {"22", "33"}) expect_prediction(figure(), signature, {0.1, 0.05});
@@ -139,6 +168,33 @@ TEST(ScaleField, FewSamplesTellWhatAllTell) {
   const Target target = parse_orbifold("432");
   const MarkedTarget choice = {target, other_cones(figure(), target)};
   EXPECT_NEAR(figure().field(1500).summary(choice).sigma, figure().field(all).summary(choice).sigma, 0.02);
+}
+
+TEST(ScaleField, SigmaAndSpreadAreThoseOfTheSummary) {
+  const Target target = parse_orbifold("532");
+  const MarkedTarget choice = {target, other_cones(figure(), target)};
+  ScaleField field = figure().field(1500), other(field, scale_samples(figure().known(), 1500, {}));
+  const ScaleSummary summary = field.summary(choice), spread = other.spread(choice);
+  EXPECT_EQ(other.sigma(choice), summary.sigma);
+  EXPECT_EQ(spread.sigma, summary.sigma);
+  EXPECT_EQ(spread.range, summary.range);
+  EXPECT_EQ(spread.log_least_length, summary.log_least_length);
+}
+
+// What is passed over by few samples may be better by many, but not by much.
+TEST(ConeSearch, FindsAlmostTheSameWithAFirstLook) {
+  const Target target = parse_orbifold("432");
+  ScaleField few = figure().field(125), many(few, scale_samples(figure().known(), 1500, {}));
+  const Candidates candidates = spread_candidates(figure().surface, {}, 40);
+  const auto found = [&](double margin) {
+    ConeSearch search(many, figure().surface, figure().neighbors, Objective::sigma);
+    if (margin > 0) search.look_first_at(few, margin);
+    MarkedTarget choice = {target, {candidates.inside.begin(), candidates.inside.begin() + 3}};
+    return search.descend(choice, candidates, {}).value;
+  };
+  const double thorough = found(0);
+  EXPECT_EQ(found(1e9), thorough);
+  EXPECT_LT(found(0.1), 1.02 * thorough);
 }
 
 TEST(ScaleField, IsThatOfOrbifoldsOfSphereAndDisk) {

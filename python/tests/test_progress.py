@@ -15,7 +15,7 @@ def test_progress_tells_of_every_stage_and_iteration(figure):
     seen = []
     embedding = orbitutte.embed(*figure, "432", progress=lambda *state: seen.append(state))
     stages = list(dict.fromkeys(stage for stage, *_ in seen))
-    assert stages == ["validate", "weights", "cut", "factorize", "initialize", "optimize", "certify"]
+    assert stages == ["base", "validate", "weights", "cut", "factorize", "initialize", "optimize", "certify", "choose"]
     energies = [energy for stage, _, energy, _ in seen if stage == "optimize" and energy > 0]
     assert energies[-1] == pytest.approx(embedding.energy, rel=1e-9) and len(energies) >= embedding.report["iterations"]
 

@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 #include <numeric>
 #include <set>
@@ -13,6 +12,7 @@
 #include "orbitutte/cones/extremities.h"
 #include "orbitutte/cones/search.h"
 #include "orbitutte/orbifold/families.h"
+#include "orbitutte/orbifold/signature.h"
 #include "orbitutte/orbifold/target_words.h"
 #include "orbitutte/parallel.h"
 #include "orbitutte/preparation.h"
@@ -22,15 +22,32 @@ namespace {
 
 constexpr int candidate_count = 60;
 
-// How many samples the search, its end and the table take.
+// How many samples the search begins with, goes on with and ends with.
 struct SampleCounts {
-  int coarse = 250, fine = 1000, finest = 8000;
+  int few = 125, some = 1000, many = 4000;
 };
 
 // Extremes are seen by many samples only.
 SampleCounts sample_counts(Objective objective) {
   return objective == Objective::sigma ? SampleCounts() : SampleCounts{400, 4000, 8000};
 }
+
+// What sigma by fewer samples may be larger by than that of the best so far, when a choice is tried with
+// more.
+struct Margins {
+  double few = 0.08, some = 0.005;
+};
+
+// How much is tried: all that is known where a table is wanted, or one target; where only the best of several
+// families is, what is likely to be it.
+struct Effort {
+  int starts = 12, minima = 4;
+
+  // Of how many families the vertices are moved to where they are best, ring by ring.
+  int families = 1 << 30;
+};
+
+constexpr Effort quick_effort = {6, 2, 2};
 
 constexpr int highest_order = 12;
 
@@ -138,91 +155,156 @@ std::optional<std::vector<int>> first_cones(const Target& target, const std::vec
   return cones;
 }
 
+// The given vertices first, and then the farthest from those before.
+Candidates candidates_around(const Surface& surface, const Target& base, const std::vector<int>& cones) {
+  Candidates first;
+  (base.inner_marks > 0 ? first.inside : first.on_boundary) = cones;
+  return spread_candidates(surface, first, candidate_count);
+}
+
+// What the search begins with: a map to 222 or *222, and its cones, which are extremities.
+struct BaseMap {
+  EmbedResult result;
+  std::vector<int> cones;
+};
+
 struct Scored {
   MarkedTarget choice;
   Score score;
 };
 
+bool is_lower(const Scored& a, const Scored& b) { return a.score < b.score; }
+
+// The best of a family that were found from different starts, the best first.
+using Minima = std::vector<Scored>;
+
+// Sorts, and drops what is found twice and all but the best.
+void keep_the_best(Minima& minima, int most) {
+  std::stable_sort(minima.begin(), minima.end(), is_lower);
+  Minima kept;
+  kept.reserve(most);
+  for (Scored& next : minima) {
+    const bool is_known = std::any_of(kept.begin(), kept.end(), [&](const Scored& other) {
+      return other.choice.cones == next.choice.cones || other.score.value == next.score.value;
+    });
+    if (!is_known && std::ssize(kept) < most) kept.push_back(std::move(next));
+  }
+  minima = std::move(kept);
+}
+
 // The search over one surface, from its map to 222 or *222.
 class BestCones {
  public:
-  BestCones(const Surface& surface, const EmbedResult& base, const ChooseOptions& options)
+  BestCones(const Surface& surface, const BaseMap& base, const ChooseOptions& options, const Effort& effort)
       : surface_(surface),
         options_(options),
+        effort_(effort),
         neighbors_(vertex_neighbors(surface.connectivity.edges, surface.vertex_count())),
         stars_(surface),
-        chart_(base.embedding),
-        faces_(measure_triangles(surface, base.embedding)),
+        chart_(base.result.embedding),
+        faces_(measure_triangles(surface, base.result.embedding)),
         order_(order_in_space(surface)),
-        candidates_(cone_candidates(surface)),
-        coarse_(chart_, stars_, samples(base, sample_counts(options.objective).coarse)),
-        fine_(chart_, stars_, samples(base, sample_counts(options.objective).fine)),
-        finest_(chart_, stars_, samples(base, sample_counts(options.objective).finest)),
-        smooth_search_(coarse_, surface, neighbors_, Objective::sigma),
-        fine_smooth_search_(fine_, surface, neighbors_, Objective::sigma),
-        search_(coarse_, surface, neighbors_, options.objective),
-        fine_search_(fine_, surface, neighbors_, options.objective),
-        freedom_{kept_vertices(options), !options.target.has_value()} {}
+        candidates_(candidates_around(surface, base.result.embedding.target, base.cones)),
+        few_(chart_, stars_, few_samples(base)),
+        some_(few_, samples(base, sample_counts(options.objective).some)),
+        many_(few_, samples(base, sample_counts(options.objective).many)),
+        first_search_(few_, surface, neighbors_, Objective::sigma),
+        smooth_end_(some_, surface, neighbors_, Objective::sigma),
+        search_(is_smooth() ? some_ : few_, surface, neighbors_, options.objective),
+        end_(is_smooth() ? many_ : some_, surface, neighbors_, options.objective),
+        freedom_{kept_vertices(options), !options.target.has_value()} {
+    if (!is_smooth()) return;
+    search_.look_first_at(few_, Margins().few);
+    end_.look_first_at(some_, Margins().some);
+  }
 
-  // The best of a family; nothing if no cones are possible.
-  std::optional<Scored> best_of(const Contest& contest) {
-    std::optional<Scored> best = descended(contest.first);
-    if (!best || !contest.family) return best;
+  // Of a family; nothing if no cones are possible.
+  Minima best_of(const Contest& contest) {
+    Minima best = descended(contest.first);
+    if (best.empty() || !contest.family) return best;
     for (int order = contest.first.marks.front().order() + 1, failures = 0;
          order <= highest_order && failures < 2; ++order) {
-      Scored next = {{contest.family->with(order), best->choice.cones}, {}};
+      Scored next = {{contest.family->with(order), best.front().choice.cones}, {}};
       next.score = search_.descend(next.choice, candidates_, freedom_);
-      const bool is_better = next.score < best->score;
+      const bool is_better = is_lower(next, best.front());
       failures = is_better ? 0 : failures + 1;
-      if (is_better) best = std::move(next);
+      if (is_better) best = {std::move(next)};
     }
     return best;
   }
 
-  // Moves the vertices of the choice to where they are best, by few samples and then by more.
-  void polish(Scored& scored) {
-    if (options_.objective == Objective::sigma)
-      search_.polish(scored.choice, freedom_);
-    else
-      fine_smooth_search_.polish(scored.choice, freedom_);
-    scored.score = fine_search_.polish(scored.choice, freedom_);
+  // Moves the vertices of the choices to where they are best, ring by ring, and keeps the best.
+  void polish(Minima& minima) {
+    if (!is_smooth()) minima.erase(minima.begin() + 1, minima.end());
+    for (Scored& scored : minima) {
+      (is_smooth() ? search_ : smooth_end_).polish(scored.choice, freedom_);
+      scored.score = end_.score(scored.choice);
+    }
+    keep_the_best(minima, 1);
   }
 
-  // By the samples that polish() compares by in the end.
-  void score(Scored& scored) { scored.score = fine_search_.score(scored.choice); }
+  // With the most samples.
+  void polish_in_the_end(Scored& scored) { scored.score = end_.polish(scored.choice, freedom_); }
 
-  ScaleSummary summary(const MarkedTarget& choice) { return finest_.summary(choice); }
+  // By which families are compared before polish().
+  void score(Minima& minima) {
+    if (is_smooth()) return;  // that is known
+    for (Scored& scored : minima) scored.score = end_.score(scored.choice);
+    std::stable_sort(minima.begin(), minima.end(), is_lower);
+  }
+
+  ScaleSummary summary(const MarkedTarget& choice) { return many_.summary(choice); }
 
  private:
-  // The cones of the map first, which are extremities, then those that are given.
-  std::vector<ScaleSample> samples(const EmbedResult& base, int count) const {
+  bool is_smooth() const { return options_.objective == Objective::sigma; }
+
+  KnownMap known(const BaseMap& base) const { return {surface_, base.result.embedding, faces_, order_}; }
+
+  // Beside every candidate there is one, for the range.
+  std::vector<ScaleSample> samples(const BaseMap& base, int count) const {
     std::vector<int> ends = candidates_.inside;
     ends.insert(ends.end(), candidates_.on_boundary.begin(), candidates_.on_boundary.end());
-    return scale_samples({surface_, base.embedding, faces_, order_}, count, ends);
+    return scale_samples(known(base), count, ends);
   }
 
-  // From the extremities, and from the best so far.
-  std::optional<Scored> descended(const Target& target) {
-    std::vector<std::vector<int>> starts;
-    const auto add = [&](const Candidates& candidates) {
-      if (const auto cones = first_cones(target, options_.cones, candidates)) starts.push_back(*cones);
+  std::vector<ScaleSample> few_samples(const BaseMap& base) const {
+    const int count = sample_counts(options_.objective).few;
+    return is_smooth() ? scale_samples(known(base), count, {}) : samples(base, count);
+  }
+
+  // Where the search for the best cones of a target begins: at the best for other targets with as many marks;
+  // if there are none, at the first candidates, the next ones and so on.
+  std::vector<std::vector<int>> starts(const Target& target) const {
+    std::vector<std::vector<int>> result;
+    const auto add = [&](int first) {
+      if (const auto cones = first_cones(target, options_.cones, candidates_from(first)))
+        result.push_back(*cones);
     };
-    add(candidates_);
-    if (const auto at = found_.find({target.marks.size(), target.inner_marks}); at != found_.end())
-      starts.push_back(at->second);
-    else
-      for (const int first : {3, 6}) add(candidates_from(first));
-    std::optional<Scored> best;
-    for (const std::vector<int>& cones : starts) {
+    if (const auto known = found_.find({target.marks.size(), target.inner_marks}); known != found_.end()) {
+      result = known->second;
+      add(0);
+    } else {
+      for (int k = 0; k < effort_.starts; ++k) add(3 * k);
+    }
+    return result;
+  }
+
+  Minima descended(const Target& target) {
+    Minima minima;
+    for (const std::vector<int>& cones : starts(target)) {
       Scored scored = {{target, cones}, {}};
       if (!search_.is_possible(scored.choice)) continue;
-      if (options_.objective != Objective::sigma)
-        smooth_search_.descend(scored.choice, candidates_, freedom_);
-      scored.score = search_.descend(scored.choice, candidates_, freedom_);
-      if (!best || scored.score < best->score) best = std::move(scored);
+      scored.score = first_search_.descend(scored.choice, candidates_, freedom_);
+      minima.push_back(std::move(scored));
     }
-    if (best) found_[{target.marks.size(), target.inner_marks}] = best->choice.cones;
-    return best;
+    if (is_smooth()) keep_the_best(minima, effort_.minima);
+    for (Scored& scored : minima) scored.score = search_.descend(scored.choice, candidates_, freedom_);
+    keep_the_best(minima, effort_.minima);
+    if (minima.empty()) return minima;
+    std::vector<std::vector<int>>& found = found_[{target.marks.size(), target.inner_marks}];
+    found.clear();
+    for (const Scored& scored : minima) found.push_back(scored.choice.cones);
+    return minima;
   }
 
   // The candidates from one of them on, followed by those before it.
@@ -236,22 +318,23 @@ class BestCones {
 
   const Surface& surface_;
   const ChooseOptions& options_;
+  Effort effort_;
   Neighbors neighbors_;
   VertexStars stars_;
   OrbifoldChart chart_;
   std::vector<FaceDistortion> faces_;
   std::vector<int> order_;
   Candidates candidates_;
-  ScaleField coarse_, fine_, finest_;
+  ScaleField few_, some_, many_;
 
   /// By sigma, from which the search for other objectives begins: they have many local minima.
-  ConeSearch smooth_search_, fine_smooth_search_;
+  ConeSearch first_search_, smooth_end_;
 
-  ConeSearch search_, fine_search_;
+  ConeSearch search_, end_;
   Freedom freedom_;
 
-  /// The best cones so far of targets with so many marks, so many of them inside.
-  std::map<std::pair<std::size_t, int>, std::vector<int>> found_;
+  /// The cones of the best choices so far for targets with so many marks, so many of them inside.
+  std::map<std::pair<std::size_t, int>, std::vector<std::vector<int>>> found_;
 };
 
 // The symbol with its orders in such an order that kept vertices stand where they were given.
@@ -305,16 +388,13 @@ EmbedOptions without_quotient(EmbedOptions options) {
   return options;
 }
 
-// Which rows of the table are moved to where they are best, vertex by vertex.
-enum class Polished { all, contenders };
-
 // The rows of the table, the best first, as far as the closed form knows.
 class Choosing {
  public:
-  Choosing(std::shared_ptr<const Surface> surface, const ChooseOptions& options, Polished polished)
+  Choosing(std::shared_ptr<const Surface> surface, const ChooseOptions& options, const Effort& effort)
       : surface_(std::move(surface)),
         options_(options),
-        polished_(polished),
+        effort_(effort),
         solver_(surface_, without_quotient(options.embed)) {}
 
   std::vector<Choice> table() {
@@ -335,6 +415,19 @@ class Choosing {
     return predicted(targets);
   }
 
+  // Where maps slide along an axis, the closed form estimates where they come to rest: what the search began
+  // with may be better, and is to be embedded, too.
+  void add_extremities(std::vector<Choice>& rows) const {
+    if (!options_.target || !are_opposite(options_.target->marks)) return;
+    if (options_.objective != Objective::sigma || !rows.front().predicted) return;
+    Candidates ends;
+    (options_.target->inner_marks > 0 ? ends.inside : ends.on_boundary) =
+        choose_cones(*surface_, *options_.target);
+    const auto cones = first_cones(*options_.target, options_.cones, ends);
+    if (cones && !std::is_permutation(cones->begin(), cones->end(), rows.front().cones.begin()))
+      rows.push_back({*options_.target, *cones, {}, {}, false, {}});
+  }
+
   // Embeds the row, and writes into it what is known then.
   EmbedResult solve(Choice& choice) {
     EmbedResult result = solver_.embed(choice.target, choice.cones);
@@ -343,49 +436,68 @@ class Choosing {
     return result;
   }
 
-  // The time that the search took, and the map that it began with.
-  double seconds() const { return seconds_; }
+  // What the first map and the search took.
+  const Timings& timings() const { return timings_; }
 
  private:
   std::vector<Choice> predicted(const std::vector<Contest>& targets) {
-    const auto start = std::chrono::steady_clock::now();
-    const Target base = standard_target(surface_->topology);
-    const EmbedResult map = solver_.embed(base, choose_cones(*surface_, base));
-    BestCones search(*surface_, map, options_);
-    std::vector<Scored> found;
+    Stages stage(options_.embed.progress, timings_);
+    const BaseMap base = stage("base", [&] { return base_map(); });
+    return stage("choose", [&] { return search(base, targets); });
+  }
+
+  BaseMap base_map() {
+    const Target target = standard_target(surface_->topology);
+    const std::vector<int> cones = choose_cones(*surface_, target);
+    return {solver_.embed(target, cones), cones};
+  }
+
+  std::vector<Choice> search(const BaseMap& base, const std::vector<Contest>& targets) const {
+    BestCones search(*surface_, base, options_, effort_);
+    std::vector<Minima> found;
     for (const Contest& contest : targets)
-      if (std::optional<Scored> best = search.best_of(contest)) found.push_back(std::move(*best));
+      if (Minima minima = search.best_of(contest); !minima.empty()) found.push_back(std::move(minima));
     if (found.empty()) throw MeshError("the mesh has too few vertices to choose from");
     polish(search, found);
     std::vector<Choice> rows;
-    for (const Scored& scored : found) {
-      const MarkedTarget marked = in_given_order(scored.choice, options_.cones);
+    rows.reserve(found.size());
+    for (const Minima& minima : found) {
+      const MarkedTarget marked = in_given_order(minima.front().choice, options_.cones);
       rows.push_back({marked.target, marked.cones, search.summary(marked), {}, false, {}});
     }
     std::stable_sort(rows.begin(), rows.end(), [&](const Choice& a, const Choice& b) {
       return score_of(*a.predicted, options_.objective) < score_of(*b.predicted, options_.objective);
     });
-    seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return rows;
   }
 
-  // All, or those that may become the best: polishing gains about as much everywhere.
-  void polish(BestCones& search, std::vector<Scored>& found) const {
-    constexpr double close = 1.05;
-    for (Scored& scored : found) search.score(scored);
-    const Score least = std::min_element(found.begin(), found.end(), [](const Scored& a, const Scored& b) {
-                          return a.score < b.score;
-                        })->score;
-    for (Scored& scored : found)
-      if (polished_ == Polished::all || !(Score{least.is_lost, close * least.value} < scored.score))
-        search.polish(scored);
+  // All, or the few that may become the best: polishing gains about as much everywhere.
+  void polish(BestCones& search, std::vector<Minima>& found) const {
+    const auto is_better = [](const Minima& a, const Minima& b) { return is_lower(a.front(), b.front()); };
+    for (Minima& minima : found) search.score(minima);
+    std::stable_sort(found.begin(), found.end(), is_better);
+    const auto end = found.begin() + std::min<std::ptrdiff_t>(effort_.families, std::ssize(found));
+    const Score least = found.front().front().score;
+    for (auto minima = found.begin(); minima != end; ++minima)
+      if (wants_all() || is_close(minima->front().score, least)) search.polish(*minima);
+    std::stable_sort(found.begin(), end, is_better);
+    for (auto minima = found.begin(); minima != (wants_all() ? end : found.begin() + 1); ++minima)
+      search.polish_in_the_end(minima->front());
+  }
+
+  bool wants_all() const { return effort_.families > std::ssize(family_table()); }
+
+  // May polishing make up for the difference to the best?
+  static bool is_close(const Score& score, const Score& best) {
+    constexpr double close = 1.03;
+    return !(Score{best.is_lost, close * best.value} < score);
   }
 
   std::shared_ptr<const Surface> surface_;
   const ChooseOptions& options_;
-  Polished polished_;
+  Effort effort_;
   EmbeddingSolver solver_;
-  double seconds_ = 0;
+  Timings timings_;
 };
 
 // What the embedding is judged by.
@@ -417,6 +529,13 @@ void add_warnings(BestEmbedding& best) {
       best.result.warnings.push_back(warning_of_better(choice, best.choice()));
 }
 
+// Of rows that have the same symbol.
+void keep_what_was_taken(BestEmbedding& best) {
+  if (best.choices.size() != 2 || !best.choices.front().predicted) return;
+  best.choices = {best.choice()};
+  best.taken = 0;
+}
+
 // Of rows that had to be embedded to be compared, the best of each symbol, the best first.
 void keep_the_best_of_each(std::vector<Choice>& rows, Objective objective) {
   const auto rank = [&](const Choice& row) {
@@ -440,10 +559,7 @@ auto with_threads_for(const ChooseOptions& options, const Compute& compute) {
 
 Candidates cone_candidates(const Surface& surface) {
   const Target base = standard_target(surface.topology);
-  const std::vector<int> extremities = choose_cones(surface, base);
-  Candidates first;
-  (base.inner_marks > 0 ? first.inside : first.on_boundary) = extremities;
-  return spread_candidates(surface, first, candidate_count);
+  return candidates_around(surface, base, choose_cones(surface, base));
 }
 
 BestEmbedding embed_best(const std::shared_ptr<const Surface>& surface, const ChooseOptions& options) {
@@ -451,8 +567,9 @@ BestEmbedding embed_best(const std::shared_ptr<const Surface>& surface, const Ch
     if (!options.embed.quotient.is_wanted)
       require_no_quotient_options(options.embed.quotient,
                                   options.target ? options.target->signature : "the best orbifold");
-    Choosing choosing(surface, options, Polished::contenders);
+    Choosing choosing(surface, options, options.target ? Effort() : quick_effort);
     BestEmbedding best = {options.objective, choosing.table(), -1, {}};
+    choosing.add_extremities(best.choices);
     std::string first_refusal;
     double least = 0;
     for (std::size_t k = 0; k < best.choices.size(); ++k) {
@@ -475,15 +592,17 @@ BestEmbedding embed_best(const std::shared_ptr<const Surface>& surface, const Ch
     }
     if (best.taken < 0) throw MeshError(first_refusal);
     if (options.embed.quotient.is_wanted) best.result = quotient_of(*surface, best.result, options.embed);
-    best.result.timings.insert(best.result.timings.begin(), {"choose", choosing.seconds()});
+    best.result.timings.insert(best.result.timings.begin(), choosing.timings().begin(),
+                               choosing.timings().end());
     add_warnings(best);
+    if (options.target) keep_what_was_taken(best);
     return best;
   });
 }
 
 std::vector<Choice> choose(std::shared_ptr<const Surface> surface, const ChooseOptions& options, int solved) {
   return with_threads_for(options, [&] {
-    Choosing choosing(std::move(surface), options, Polished::all);
+    Choosing choosing(std::move(surface), options, Effort());
     std::vector<Choice> rows = choosing.table();
     for (Choice& row : rows) {
       if (row.predicted && solved-- <= 0) break;

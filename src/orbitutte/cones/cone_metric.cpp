@@ -81,7 +81,11 @@ Ranks ranks(const Key& key) {
 }
 
 // In [0, pi].
-double unsigned_angle(double angle) { return std::abs(angle - 2 * pi * std::floor(angle / (2 * pi) + 0.5)); }
+double unsigned_angle(double angle) {
+  constexpr double rounds = 6755399441055744.0;  // 1.5 * 2^52, which leaves no digits behind the point
+  const double turns = (angle / (2 * pi) + rounds) - rounds;
+  return std::abs(angle - 2 * pi * turns);
+}
 
 }  // namespace
 
@@ -121,7 +125,7 @@ void ConeMetric::Numbering::fill_table() {
     }
 }
 
-double ConeMetric::Numbering::table_value(double radius_to_a, double direction) const {
+inline double ConeMetric::Numbering::table_value(double radius_to_a, double direction) const {
   const double x = std::min(radius_to_a, 1.0) * radii, y = std::min(direction * (2 / pi), 1.0) * directions;
   const int i = std::min(static_cast<int>(x), radii - 1), j = std::min(static_cast<int>(y), directions - 1);
   const double s = x - i, t = y - j;
@@ -138,13 +142,22 @@ double ConeMetric::log_scale(const ConeCoordinates& P) const {
          n.log_denominator(std::exp(n.a * to_zero), -P[i] / P[k]) - 2 * std::log(std::abs(P[k]));
 }
 
-double ConeMetric::quick_log_scale(const ConeCoordinates& logs) const {
+inline double ConeMetric::looked_up(const ConeCoordinates& logs) const {
   const auto [i, j, k] = ranks([&](int m) { return logs[m].real(); });
   const Numbering& n = numbering(i, k);
   const Complex log_z = logs[i] - logs[k];
   const double to_one = logs[j].real() - logs[k].real();
+  const float log_radius = static_cast<float>(n.a * log_z.real());
   return n.log_factor + (n.a - 1) * log_z.real() + (n.b - 1) * to_one -
-         n.table_value(std::exp(n.a * log_z.real()), unsigned_angle(log_z.imag() + pi)) - 2 * logs[k].real();
+         n.table_value(std::exp(log_radius), unsigned_angle(log_z.imag() + pi)) - 2 * logs[k].real();
+}
+
+double ConeMetric::quick_log_scale(const ConeCoordinates& logs) const { return looked_up(logs); }
+
+void ConeMetric::add_quick_log_scales(const std::array<const Complex*, 3>& logs,
+                                      const ConeCoordinates& shifts, std::vector<double>& u) const {
+  for (std::size_t s = 0; s < u.size(); ++s)
+    u[s] += looked_up({logs[0][s] + shifts[0], logs[1][s] + shifts[1], logs[2][s] + shifts[2]});
 }
 
 double ConeMetric::area() const { return 2 * pi * (angles_[0] + angles_[1] + angles_[2] - 1); }

@@ -33,6 +33,10 @@ class ConeMetric {
   /// The same from the logarithms log|P| + i arg P, by a table: 2e-4 off at most.
   double quick_log_scale(const ConeCoordinates& logs) const;
 
+  /// Adds quick_log_scale to u for many points: logs[i][s] + shifts[i] are the logarithms of P[i] at point s.
+  void add_quick_log_scales(const std::array<const std::complex<double>*, 3>& logs,
+                            const ConeCoordinates& shifts, std::vector<double>& u) const;
+
   /// By Gauss and Bonnet: 2 pi (a[0] + a[1] + a[2] - 1).
   double area() const;
 
@@ -60,6 +64,7 @@ class ConeMetric {
     void fill_table();
   };
 
+  double looked_up(const ConeCoordinates& logs) const;
   static Numbering number(double a, double b, double g);
   const Numbering& numbering(int at_zero, int at_infinity) const {
     return numbering_[3 * at_zero + at_infinity];

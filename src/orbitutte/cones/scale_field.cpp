@@ -165,6 +165,9 @@ VertexStars::VertexStars(const Surface& s)
 ScaleField::ScaleField(const OrbifoldChart& chart, const VertexStars& stars, std::vector<ScaleSample> samples)
     : chart_(chart), stars_(stars), samples_(std::move(samples)) {}
 
+ScaleField::ScaleField(const ScaleField& other, std::vector<ScaleSample> samples)
+    : chart_(other.chart_), stars_(other.stars_), samples_(std::move(samples)), metrics_(other.metrics_) {}
+
 std::vector<ScaleField::Place> ScaleField::places(const MarkedTarget& choice) {
   const Target& target = choice.target;
   std::vector<Place> result;
@@ -204,24 +207,24 @@ const ScaleField::Column& ScaleField::column(const Place& place) {
 // [c_0, c_1] [c_1, c_2] [c_2, c_0] times the chart's form.
 void ScaleField::add_three_cones(const std::vector<Place>& cones, std::vector<double>& u) {
   const std::array<double, 3> angles = {cones[0].angle, cones[1].angle, cones[2].angle};
-  const ConeMetric& metric = metrics_.try_emplace(angles, angles).first->second;
+  const ConeMetric& metric = metrics_->try_emplace(angles, angles).first->second;
   const Complex k0 = log_bracket(cones[1], cones[2]), k1 = log_bracket(cones[2], cones[0]),
                 k2 = log_bracket(cones[0], cones[1]);
   const double all = (k0 + k1 + k2).real();
-  const Column &c0 = column(cones[0]), &c1 = column(cones[1]), &c2 = column(cones[2]);
-  for (std::size_t s = 0; s < u.size(); ++s)
-    u[s] += metric.quick_log_scale({c0[s] + k0, c1[s] + k1, c2[s] + k2}) + all;
+  for (double& value : u) value += all;
+  metric.add_quick_log_scales({column(cones[0]).data(), column(cones[1]).data(), column(cones[2]).data()},
+                              {k0, k1, k2}, u);
 }
 
 // With z = [s, c_0]/[s, c_1] and m = scale_along_axis, rho(z) = 2 a e^m |z|^(a-1) / (1 + e^(2m) |z|^(2a)).
 void ScaleField::add_two_cones(const MarkedTarget& choice, const std::vector<Place>& cones,
                                std::vector<double>& u) {
   const double a = cones[0].angle, m = choice.cones.size() == 1 ? 0 : scale_along_axis(cones),
-               all = std::log(a) + log_bracket(cones[0], cones[1]).real();
+               all = std::log(2 * a) + log_bracket(cones[0], cones[1]).real();
   const Column &c0 = column(cones[0]), &c1 = column(cones[1]);
   for (std::size_t s = 0; s < u.size(); ++s) {
     const double to_0 = c0[s].real(), to_1 = c1[s].real(), along = std::abs(a * (to_0 - to_1) + m);
-    u[s] += all - to_0 - to_1 - along - std::log1p(std::exp(-2 * along)) + std::log(2);
+    u[s] += all - to_0 - to_1 - along - std::log1p(std::exp(-2 * along));
   }
 }
 
@@ -260,8 +263,26 @@ double ScaleField::excess_at(const Place& cone, const Place& other) {
 // them are the linear elements at both cones: their energy exceeds the area by the square of their size times
 // what excess_at says, and the sum of both is least where they are equal.
 double ScaleField::scale_along_axis(const std::vector<Place>& cones) {
-  const double first = excess_at(cones[0], cones[1]), second = excess_at(cones[1], cones[0]);
-  return first > 0 && second > 0 ? 0.25 * std::log(second / first) : 0;
+  const auto [at, is_new] =
+      scales_along_axes_.try_emplace({cones[0].vertex, cones[1].vertex, cones[0].angle}, 0);
+  if (is_new) {
+    const double first = excess_at(cones[0], cones[1]), second = excess_at(cones[1], cones[0]);
+    if (first > 0 && second > 0) at->second = 0.25 * std::log(second / first);
+  }
+  return at->second;
+}
+
+double ScaleField::mean_over_samples(const std::vector<double>& u) const {
+  double sum = 0;
+  for (std::size_t s = 0; s < u.size(); ++s) sum += samples_[s].weight * u[s];
+  return sum;
+}
+
+double ScaleField::variance_over_samples(const std::vector<double>& u) const {
+  const double mean = mean_over_samples(u);
+  double sum = 0;
+  for (std::size_t s = 0; s < u.size(); ++s) sum += samples_[s].weight * (u[s] - mean) * (u[s] - mean);
+  return sum;
 }
 
 double ScaleField::area_over_samples(const std::vector<double>& u) const {
@@ -285,33 +306,42 @@ std::vector<double> ScaleField::log_scale(const MarkedTarget& choice) {
     add_three_cones(cones, u);
   const double area =
       choice.target.space.has_similarities() ? area_over_samples(u) : area_of_target(choice.target);
-  for (double& value : u) value -= 0.5 * std::log(area);
+  const double half_log_area = 0.5 * std::log(area);
+  for (double& value : u) value -= half_log_area;
   return u;
 }
 
-ScaleSummary ScaleField::summary(const MarkedTarget& choice) {
-  const std::vector<double> u = log_scale(choice);
+double ScaleField::sigma(const MarkedTarget& choice) {
+  return std::sqrt(variance_over_samples(log_scale(choice)));
+}
+
+ScaleSummary ScaleField::spread_of(const std::vector<double>& u) const {
+  double least = std::numeric_limits<double>::infinity(), greatest = -least;
   ScaleSummary result;
-  double sum = 0, squares = 0, inverse = 0, least = std::numeric_limits<double>::infinity(),
-         greatest = -least;
   result.log_least_length = least;
   for (std::size_t s = 0; s < u.size(); ++s) {
-    const double weight = samples_[s].weight;
-    sum += weight * u[s];
     least = std::min(least, u[s]);
     greatest = std::max(greatest, u[s]);
     result.log_least_length = std::min(result.log_least_length, u[s] + samples_[s].log_length);
   }
+  result.sigma = std::sqrt(variance_over_samples(u));
+  result.range = (greatest - least) / std::log(2);
+  return result;
+}
+
+ScaleSummary ScaleField::spread(const MarkedTarget& choice) { return spread_of(log_scale(choice)); }
+
+ScaleSummary ScaleField::summary(const MarkedTarget& choice) {
+  const std::vector<double> u = log_scale(choice);
+  ScaleSummary result = spread_of(u);
+  double inverse = 0;
   for (std::size_t s = 0; s < u.size(); ++s) {
     const double weight = samples_[s].weight;
-    squares += weight * (u[s] - sum) * (u[s] - sum);
     inverse += weight * std::exp(std::min(-2 * u[s], 600.0));
     if (std::abs(u[s]) <= std::log(2)) result.within_4 += weight;
     if (u[s] < -std::log(8)) result.below_64 += weight;
   }
-  result.sigma = std::sqrt(squares);
   result.symmetric_dirichlet = (1 + inverse) / 2;
-  result.range = (greatest - least) / std::log(2);
   return result;
 }
 

@@ -4,7 +4,9 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include "orbitutte/cones/chart.h"
@@ -72,10 +74,17 @@ class ScaleField {
   /// Refers to the chart, and to the stars of its surface.
   ScaleField(const OrbifoldChart& chart, const VertexStars& stars, std::vector<ScaleSample> samples);
 
+  /// Of the same surface at other samples. What is known of metrics with cones is known to both.
+  ScaleField(const ScaleField& other, std::vector<ScaleSample> samples);
+
   /// u at every sample. Throws ArgumentError unless has_closed_form.
   std::vector<double> log_scale(const MarkedTarget& choice);
 
   ScaleSummary summary(const MarkedTarget& choice);
+
+  /// sigma alone, and with it what else needs no exponential functions: the range and the least length.
+  double sigma(const MarkedTarget& choice);
+  ScaleSummary spread(const MarkedTarget& choice);
 
   const std::vector<ScaleSample>& samples() const { return samples_; }
 
@@ -99,6 +108,9 @@ class ScaleField {
   void add_three_cones(const std::vector<Place>& cones, std::vector<double>& u);
   void add_two_cones(const MarkedTarget& choice, const std::vector<Place>& cones, std::vector<double>& u);
   void add_flat_cones(const std::vector<Place>& cones, std::vector<double>& u);
+  ScaleSummary spread_of(const std::vector<double>& u) const;
+  double mean_over_samples(const std::vector<double>& u) const;
+  double variance_over_samples(const std::vector<double>& u) const;
   double area_over_samples(const std::vector<double>& u) const;
   double scale_along_axis(const std::vector<Place>& cones);
   double excess_at(const Place& cone, const Place& other);
@@ -110,7 +122,11 @@ class ScaleField {
   std::map<std::pair<int, bool>, ChartPoint> points_;
 
   std::map<std::pair<int, bool>, Column> columns_;
-  std::map<std::array<double, 3>, ConeMetric> metrics_;
+
+  /// scale_along_axis of two vertices and the angle of both.
+  std::map<std::tuple<int, int, double>, double> scales_along_axes_;
+  using Metrics = std::map<std::array<double, 3>, ConeMetric>;
+  std::shared_ptr<Metrics> metrics_ = std::make_shared<Metrics>();
 };
 
 }  // namespace orbitutte

@@ -105,6 +105,11 @@ ConeSearch::ConeSearch(ScaleField& field, const Surface& surface, const Neighbor
                        Objective objective)
     : field_(field), neighbors_(neighbors), objective_(objective), is_outer_(surface.boundary_vertices()) {}
 
+Score ConeSearch::score(const MarkedTarget& choice) {
+  const bool needs_all = objective_ == Objective::symmetric_dirichlet;
+  return score_of(needs_all ? field_.summary(choice) : field_.spread(choice), objective_);
+}
+
 bool ConeSearch::is_possible(const MarkedTarget& choice) const {
   const std::vector<int>& cones = choice.cones;
   for (std::size_t k = 0; k < cones.size(); ++k)
@@ -115,12 +120,22 @@ bool ConeSearch::is_possible(const MarkedTarget& choice) const {
          begin + neighbors_.start[cones[0] + 1];
 }
 
+void ConeSearch::look_at_best(const MarkedTarget& choice) {
+  if (first_look_.field) first_look_.sigma = first_look_.field->sigma(choice);
+}
+
+bool ConeSearch::is_promising(const MarkedTarget& choice, const Score& best) const {
+  if (!first_look_.field || best.is_lost) return true;
+  return first_look_.field->sigma(choice) <= (1 + first_look_.margin) * first_look_.sigma;
+}
+
 bool ConeSearch::try_vertex(MarkedTarget& choice, int mark, int vertex, Score& best) {
   const int before = choice.cones[mark];
   choice.cones[mark] = vertex;
-  if (is_possible(choice))
+  if (is_possible(choice) && is_promising(choice, best))
     if (const Score now = score(choice); now.is_clearly_below(best)) {
       best = now;
+      look_at_best(choice);
       return true;
     }
   choice.cones[mark] = before;
@@ -144,6 +159,7 @@ bool ConeSearch::try_exchanges(MarkedTarget& choice, const Freedom& freedom, Sco
       std::swap(choice.cones[k], choice.cones[l]);
       if (const Score now = score(choice); now.is_clearly_below(best)) {
         best = now;
+        look_at_best(choice);
         is_better = true;
       } else {
         std::swap(choice.cones[k], choice.cones[l]);
@@ -154,6 +170,7 @@ bool ConeSearch::try_exchanges(MarkedTarget& choice, const Freedom& freedom, Sco
 
 Score ConeSearch::descend(MarkedTarget& choice, const Candidates& candidates, const Freedom& freedom) {
   Score best = score(choice);
+  look_at_best(choice);
   for (bool goes_on = true; goes_on;) {
     goes_on = try_exchanges(choice, freedom, best);
     for (int k = 0; k < static_cast<int>(choice.cones.size()); ++k)
@@ -176,6 +193,7 @@ std::vector<int> ConeSearch::rings_around(int vertex) const {
 Score ConeSearch::polish(MarkedTarget& choice, const Freedom& freedom) {
   constexpr int most_sweeps = 20;
   Score best = score(choice);
+  look_at_best(choice);
   bool goes_on = true;
   for (int sweep = 0; goes_on && sweep < most_sweeps; ++sweep) {
     goes_on = try_exchanges(choice, freedom, best);

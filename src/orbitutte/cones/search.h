@@ -51,7 +51,11 @@ class ConeSearch {
   /// Refers to the field, the surface and its neighbours.
   ConeSearch(ScaleField& field, const Surface& surface, const Neighbors& neighbors, Objective objective);
 
-  Score score(const MarkedTarget& choice) { return score_of(field_.summary(choice), objective_); }
+  /// Before a vertex is tried, sigma by another field, of fewer samples, is looked at: nothing is tried that
+  /// makes it larger by more than this share. Refers to the field. For Objective::sigma alone.
+  void look_first_at(ScaleField& field, double margin) { first_look_ = {&field, margin, 0}; }
+
+  Score score(const MarkedTarget& choice);
 
   /// Replaces one vertex at a time by the best of the candidates, and exchanges the vertices of two marks, as
   /// long as that helps.
@@ -65,6 +69,18 @@ class ConeSearch {
   bool is_possible(const MarkedTarget& choice) const;
 
  private:
+  struct FirstLook {
+    ScaleField* field = nullptr;
+    double margin = 0;
+
+    /// sigma of the best choice so far, by the field.
+    double sigma = 0;
+  };
+
+  /// Takes note of the best choice so far.
+  void look_at_best(const MarkedTarget& choice);
+  bool is_promising(const MarkedTarget& choice, const Score& best) const;
+
   /// Takes the vertex for the mark if the score becomes lower.
   bool try_vertex(MarkedTarget& choice, int mark, int vertex, Score& best);
   bool try_exchanges(MarkedTarget& choice, const Freedom& freedom, Score& best);
@@ -76,6 +92,7 @@ class ConeSearch {
   ScaleField& field_;
   const Neighbors& neighbors_;
   Objective objective_;
+  FirstLook first_look_;
   std::vector<char> is_outer_;
 };
 
