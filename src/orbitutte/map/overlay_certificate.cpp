@@ -21,6 +21,8 @@
 #include "orbitutte/geometry/double_double.h"
 #include "orbitutte/geometry/precise_isometry.h"
 #include "orbitutte/map/developed_surface.h"
+#include "orbitutte/map/divided_ears.h"
+#include "orbitutte/map/joined_overlay.h"
 #include "orbitutte/mesh/connectivity.h"
 #include "orbitutte/mesh/disjoint_sets.h"
 #include "orbitutte/parallel.h"
@@ -803,16 +805,28 @@ class OverlayExaminer {
     return here;
   }
 
-  // An image on the target, and by how much the rounding of coordinates may move it: in triangles of the size
-  // of a hemisphere they cancel.
-  std::optional<NearPoint> point_of(int side, int f, int v) const {
+  // An image on the target up to its length, and by how much the rounding of coordinates may move it: in
+  // triangles of the size of a hemisphere they cancel. Two doubles: what moves a point far out in the
+  // hyperbolic plane has entries as large as the square of its distance, which doubles would round.
+  std::optional<NearerPoint> point_of(int side, int f, int v) const {
     const std::optional<Vector3> coordinates = coordinates_in(side, f, v);
     if (!coordinates || !coordinates->allFinite() || coordinates->minCoeff() < 0 ||
         std::abs(coordinates->sum() - 1) > 1e-9)
       return std::nullopt;
-    Vector3 sum = Vector3::Zero();
-    for (int k = 0; k < 3; ++k) sum += (*coordinates)[k] * points_.near(corner_of_parent(side, f, k)).x;
-    return NearPoint{embeddings_[0]->space().retract(sum), 1e-14 / std::min(1.0, sum.norm())};
+    NearerPoint result = {Vector3Of<DoubleDouble>::Zero(), 0};
+    for (int k = 0; k < 3; ++k)
+      if (const double weight = (*coordinates)[k]; weight != 0)
+        result.x += DoubleDouble(weight) * points_.nearer(corner_of_parent(side, f, k)).x;
+    const double length = std::sqrt(std::abs(in_doubles(embeddings_[0]->space().form(result.x, result.x))));
+    result.x *= DoubleDouble(1 / length);
+    result.error = 1e-14 / std::min(1.0, length);
+    return result;
+  }
+
+  // The chord between two points, which no isometry changes.
+  double chord_between(const Vector3Of<DoubleDouble>& p, const Vector3Of<DoubleDouble>& q) const {
+    const Vector3Of<DoubleDouble> d = p - q;
+    return std::sqrt(std::abs(in_doubles(embeddings_[0]->space().squared_norm(d))));
   }
 
   void examine_positions() {
@@ -825,14 +839,15 @@ class OverlayExaminer {
     conclude(findings);
   }
 
-  // -1 for none.
+  // -1 for none. Lengths in the plane have no scale of their own.
   int wrongly_placed_corner(int f) const {
     constexpr double bound = 1e-9;
+    const bool is_flat = embeddings_[0]->space().curvature() == 0;
     for (const int v : corners(f)) {
-      const std::optional<NearPoint> on_a = point_of(0, f, v), on_b = point_of(1, f, v);
-      if (!on_a || !on_b ||
-          !((on_a->x - on_b->x).norm() <= bound * std::max(1.0, on_a->x.norm()) + on_a->error + on_b->error))
-        return v;
+      const std::optional<NearerPoint> on_a = point_of(0, f, v), on_b = point_of(1, f, v);
+      if (!on_a || !on_b) return v;
+      const double scale = is_flat ? std::max(1.0, in_doubles(on_a->x).norm()) : 1.0;
+      if (!(chord_between(on_a->x, on_b->x) <= bound * scale + on_a->error + on_b->error)) return v;
     }
     return -1;
   }
@@ -912,11 +927,30 @@ class OverlayExaminer {
   OverlayCertificate result_;
 };
 
+// The overlay of the parts is what is proved; the other one names the same vertices and faces.
+OverlayCertificate certify_of_parts(const Overlay& overlay, const DividedEars& a, const DividedEars& b) {
+  OverlayCertificate result;
+  Findings findings("ears");
+  if (!overlay.of_parts)
+    findings.add("the overlay does not say how triangles that are flat on the target are divided");
+  else
+    result = OverlayExaminer(*overlay.of_parts, a.parts(), b.parts()).run();
+  // What names vertices and triangles that do not exist cannot be joined.
+  if (!result.checks.empty() && result.checks.front().passed &&
+      !say_the_same(overlay, joined_overlay(*overlay.of_parts, a, b)))
+    findings.add("the overlay is not that of the divided triangles");
+  result.checks.push_back(findings.check());
+  result.holds = result.holds && result.checks.back().passed;
+  return result;
+}
+
 }  // namespace
 
 OverlayCertificate certify(const Overlay& overlay, const Embedding& a, const Embedding& b) {
   try {
-    return OverlayExaminer(overlay, a, b).run();
+    const DividedEars of_a(a), of_b(b);
+    if (!of_a.any() && !of_b.any()) return OverlayExaminer(overlay, a, b).run();
+    return certify_of_parts(overlay, of_a, of_b);
   } catch (const Error& error) {
     OverlayCertificate result;
     result.checks.push_back({"embeddings", false, 0, 0, error.what()});
