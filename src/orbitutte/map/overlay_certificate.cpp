@@ -19,6 +19,7 @@
 #include <utility>
 
 #include "orbitutte/geometry/double_double.h"
+#include "orbitutte/geometry/geodesic_triangle.h"
 #include "orbitutte/geometry/precise_isometry.h"
 #include "orbitutte/map/developed_surface.h"
 #include "orbitutte/map/divided_ears.h"
@@ -881,16 +882,34 @@ class OverlayExaminer {
     return share;
   }
 
+  // Far out in the hyperbolic plane doubles do not place the corners of a face well enough.
   double area_on_target(int f) const {
-    double area = 0;
+    constexpr double precise_enough = 1e-13;
+    const int begin = first_edge(f), end = first_edge(f + 1);
+    bool is_precise = true;
+    for (int k = begin; k < end && is_precise; ++k) {
+      const NearPoint at = corner_within<double>(f, k);
+      is_precise = at.error * largest_coordinate(at.x) < precise_enough;
+    }
+    return is_precise ? area_of_face<double>(f) : area_of_face<DoubleDouble>(f);
+  }
+
+  template <typename Number>
+  double area_of_face(int f) const {
     const Space space = embeddings_[0]->space();
-    const auto at = [&](int k) { return space.retract(corner_within<double>(f, k).x); };
+    const auto at = [&](int k) -> Vector3Of<Number> {
+      const Vector3Of<Number> x = corner_within<Number>(f, k).x;
+      return x * Number(1 / std::sqrt(std::abs(in_doubles(space.form(x, x)))));
+    };
     const int begin = first_edge(f);
-    const Vector3 first = at(begin);
-    Vector3 last = at(begin + 1);
+    const Vector3Of<Number> first = at(begin);
+    const Vector3 corner = in_doubles(first);
+    Vector3 last = in_doubles(Vector3Of<Number>(at(begin + 1) - first));
+    double area = 0;
     for (int k = begin + 2; k < first_edge(f + 1); ++k) {
-      const Vector3 next = at(k);
-      area += space.area(first, last, next);
+      const Vector3 next = in_doubles(Vector3Of<Number>(at(k) - first));
+      area +=
+          visit_curvature(space, [&](auto curvature) { return area_between(curvature, corner, last, next); });
       last = next;
     }
     return area;
