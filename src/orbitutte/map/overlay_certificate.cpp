@@ -243,7 +243,7 @@ class OverlayExaminer {
       : overlay_(overlay),
         embeddings_{&a, &b},
         elements_(a.space()),
-        group_(a),
+        group_(a, b),
         surfaces_{developed_surface(a, group_, elements_, "one surface"),
                   developed_surface(b, group_, elements_, "the other surface")},
         points_(elements_, a.space(), !a.offsets.empty() || !b.offsets.empty()) {}
