@@ -111,10 +111,12 @@ struct DigitPoint {
   Real error = 0;
 };
 
-// What products of a few numbers lose: all but some of their bits are right.
+// What products of a few numbers lose: all but some of their bits are right. Numbers of 320 bits are rounded
+// from those of all bits, whose elements are long products: far out in the hyperbolic plane, each factor
+// loses some twenty bits.
 template <typename Real>
 Real digit_error() {
-  constexpr int lost_bits = 12;
+  constexpr int lost_bits = std::is_same_v<Real, Precise> ? 12 : 300;
   return ldexp(Real(1), lost_bits - std::numeric_limits<Real>::digits);
 }
 
