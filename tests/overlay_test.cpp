@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <random>
 #include <set>
@@ -592,19 +593,24 @@ TEST(Overlay, OfOctocatIsCertified) {
   EXPECT_EQ(fault_in(certify(overlay(a.embedding, b.embedding), a.embedding, b.embedding)), "");
 }
 
-// With three landmarks, five of six limbs shrink below what doubles resolve.
-TEST(Overlay, OfOctocatWithItselfMovesNothingWhicheverTheCuts) {
+// With three landmarks, five of six limbs shrink below what doubles resolve. With eight, edges do not, but
+// copies of them lie so far out in the hyperbolic plane that their doubles do not either.
+class OverlayOfOctocat : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Landmarks, OverlayOfOctocat, testing::Values(3, 8));
+
+TEST_P(OverlayOfOctocat, WithItselfMovesNothingWhicheverTheCuts) {
   const std::string path = std::string(ORBITUTTE_SHARED_DIR) + "/meshes/octocat.off";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is missing";
   const Mesh mesh = to_triangle_mesh(read_mesh(path));
   const Surface surface = make_surface(mesh);
   std::vector<Landmark> landmarks;
-  for (const int v : choose_extremities(surface, {3, 0})) landmarks.push_back({v, v});
+  for (const int v : choose_extremities(surface, {GetParam(), 0})) landmarks.push_back({v, v});
   MapOptions options;
   options.cut_b.seed = 7;
   const SurfaceMap map = map_between(surface, surface, landmarks, options);
   ASSERT_TRUE(map.is_bijective());
   const Embedding &a = map.a.embedding, &b = map.b.embedding;
+  EXPECT_FALSE(a.offsets.empty() || b.offsets.empty());
   const double size = (mesh.V.colwise().maxCoeff() - mesh.V.colwise().minCoeff()).norm();
   const Points images = positions_on(mesh.V, b, images_of_vertices(a, b).images);
   EXPECT_LT((images - mesh.V).rowwise().norm().maxCoeff(), 1e-7 * size);
@@ -619,6 +625,197 @@ TEST(Overlay, WhereDoublesResolveNothingIsCertified) {
   const Points images =
       positions_on(a.mesh.V, a.embedding, images_of_points(b.embedding, a.embedding, there.images));
   EXPECT_LT((images - a.mesh.V).rowwise().norm().maxCoeff(), 1e-9);
+}
+
+// The cuts of this tour lie so far out that doubles put the images of B's vertices 1e-9 off.
+TEST(Overlay, OfCatAndHorseIsCertifiedAlongALongTour) {
+  const std::string folder = std::string(ORBITUTTE_SHARED_DIR) + "/pairs/cat_horse";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is missing";
+  const std::vector<Landmark> all = read_landmarks(folder + "/landmarks.tsv");
+  std::vector<Landmark> landmarks;
+  for (const int row : {14, 12, 9, 3, 7, 5, 0}) landmarks.push_back(all.at(row));
+  MapOptions options;
+  options.tour = {5, 1, 4, 0, 6, 3, 2};
+  const SurfaceMap map =
+      map_between(make_surface(to_triangle_mesh(read_mesh(folder + "/a.off"))),
+                  make_surface(to_triangle_mesh(read_mesh(folder + "/b.off"))), landmarks, options);
+  ASSERT_TRUE(map.is_bijective());
+  const Embedding &a = map.a.embedding, &b = map.b.embedding;
+  EXPECT_EQ(fault_in(certify(overlay(a, b), a, b)), "");
+}
+
+// The same map in a frame in which it lies at that height of the hyperboloid.
+Embedding moved_out(Embedding embedding, double height) {
+  const Vector3 there(std::sqrt(height * height - 1), 0, height);
+  const Isometry out = embedding.space().to_origin(there).inverse();
+  embedding.positions = out.on_rows(embedding.positions);
+  for (Seam& seam : embedding.seams) seam.transform = out * seam.transform * out.inverse();
+  embedding.placement = out * embedding.placement;
+  return embedding;
+}
+
+// Coordinates grow with the distance from (0, 0, 1), and the entries of the group's elements with its square.
+class OverlayFarOut : public testing::TestWithParam<double> {
+ protected:
+  void SetUp() override {
+    const Mesh mesh = test::sample_mesh_for(parse_orbifold("222")),
+               other = other_mesh_for(parse_orbifold("222"));
+    const Surface surface = make_surface(mesh), other_surface = make_surface(other);
+    const std::vector<int> marks = choose_extremities(surface, {5, 0}),
+                           other_marks = choose_extremities(other_surface, {5, 0});
+    std::vector<Landmark> landmarks;
+    for (int k = 0; k < 5; ++k) landmarks.push_back({marks[k], other_marks[k]});
+    const SurfaceMap map = map_between(surface, other_surface, landmarks);
+    ASSERT_TRUE(map.is_bijective());
+    a_ = moved_out(map.a.embedding, GetParam());
+    b_ = moved_out(map.b.embedding, GetParam());
+  }
+
+  Embedding a_, b_;
+};
+INSTANTIATE_TEST_SUITE_P(Heights, OverlayFarOut, testing::Values(1, 20, 200));
+
+TEST_P(OverlayFarOut, IsCertified) { EXPECT_EQ(fault_in(certify(overlay(a_, b_), a_, b_)), ""); }
+
+TEST_P(OverlayFarOut, ShowsAPositionThatIsAMillionthOff) {
+  Overlay bad = overlay(a_, b_);
+  for (int v = 0; v < bad.vertex_count(); ++v) {
+    if (bad.vertices[v].a_halfedge < 0) continue;
+    auto row = bad.on_a.barycentric.row(v);
+    row = (1 - 1e-6) * row + 1e-6 * Eigen::RowVector3d::Unit(bad.vertices[v].a_halfedge % 3);
+    break;
+  }
+  EXPECT_THAT(failed_checks(certify(bad, a_, b_)), Contains("positions"));
+}
+
+// Triangles with two edges on the boundary, one at every `step`-th edge of it: on one mirror they are flat.
+Mesh with_ears(const Mesh& mesh, int step) {
+  const Connectivity connectivity = test::edges_of(mesh);
+  Mesh result = mesh;
+  int edges = 0;
+  for (int h = 0; h < static_cast<int>(mesh.F.size()); ++h) {
+    if (connectivity.opposite[h] >= 0 || edges++ % step != 0) continue;
+    const int a = halfedge_origin(mesh.F, h), b = halfedge_target(mesh.F, h);
+    const int tip = static_cast<int>(result.V.rows());
+    result.V.conservativeResize(tip + 1, 3);
+    result.V.row(tip) = 0.55 * (mesh.V.row(a) + mesh.V.row(b));
+    result.F.conservativeResize(result.F.rows() + 1, 3);
+    result.F.row(result.F.rows() - 1) << b, a, tip;
+  }
+  return result;
+}
+
+class OverlayWithEars : public testing::TestWithParam<Landmarked> {
+ protected:
+  OverlayWithEars() : plain_(test::sample_mesh_for(parse_orbifold("*222"))), mesh_(with_ears(plain_, 3)) {
+    const Surface surface = make_surface(plain_);
+    for (const int v : choose_extremities(surface, {GetParam().inside, GetParam().on_boundary}))
+      landmarks_.push_back({v, v});
+    options_.cut_b.seed = 3;
+    options_.embed.threads = 1;
+  }
+
+  SurfaceMap map_to(const Mesh& other) const {
+    return map_between(make_surface(mesh_), make_surface(other), landmarks_, options_);
+  }
+
+  Mesh plain_, mesh_;
+  std::vector<Landmark> landmarks_;
+  MapOptions options_;
+};
+
+INSTANTIATE_TEST_SUITE_P(Landmarks, OverlayWithEars,
+                         testing::Values(Landmarked{0, 3}, Landmarked{0, 4}, Landmarked{1, 1},
+                                         Landmarked{2, 3}),
+                         [](const auto& info) {
+                           return std::to_string(info.param.inside) + "And" +
+                                  std::to_string(info.param.on_boundary);
+                         });
+
+TEST_P(OverlayWithEars, OfASurfaceWithItselfMovesNothing) {
+  const SurfaceMap map = map_to(mesh_);
+  ASSERT_TRUE(map.is_bijective());
+  const Embedding &a = map.a.embedding, &b = map.b.embedding;
+  const Overlay both = overlay(a, b);
+  EXPECT_EQ(fault_in(certify(both, a, b)), "");
+  for (const OverlayFace& face : both.parents) {
+    ASSERT_LT(face.a, mesh_.F.rows());
+    ASSERT_LT(face.b, mesh_.F.rows());
+  }
+  const Points on_a = positions_on(mesh_.V, a, both.on_a), on_b = positions_on(mesh_.V, b, both.on_b);
+  EXPECT_LT((on_a - on_b).rowwise().norm().maxCoeff(), 1e-7) << "inside of ears, too";
+  for (const VertexMap& images : {images_of_vertices(a, b), vertex_maps(both, a, b).a_to_b}) {
+    ASSERT_EQ(images.count(), mesh_.V.rows());
+    EXPECT_LT((positions_on(mesh_.V, b, images.images) - mesh_.V).rowwise().norm().maxCoeff(), 1e-7);
+    EXPECT_LT(images.corners.maxCoeff(), mesh_.V.rows());
+  }
+}
+
+TEST_P(OverlayWithEars, OfOtherSurfacesIsCertified) {
+  Mesh bent = with_ears(plain_, 5);
+  bent.V.col(0) *= 1.3;
+  bent.V.col(2).array() += 0.2 * bent.V.col(1).array().square();
+  for (const Mesh& other : {bent, plain_}) {
+    const SurfaceMap map = map_to(other);
+    ASSERT_TRUE(map.is_bijective());
+    const Embedding &a = map.a.embedding, &b = map.b.embedding;
+    EXPECT_EQ(fault_in(certify(overlay(a, b), a, b)), "");
+    EXPECT_EQ(fault_in(certify(overlay(b, a), b, a)), "");
+    SurfacePoints points = {{}, Points(mesh_.F.rows(), 3), {}};
+    std::mt19937 random(5);
+    std::exponential_distribution<double> weight;
+    for (int t = 0; t < mesh_.F.rows(); ++t) {
+      const Vector3 w(weight(random), weight(random), weight(random));
+      points.triangle.push_back(t);
+      points.barycentric.row(t) = w.transpose() / w.sum();
+    }
+    const SurfacePoints back = images_of_points(b, a, images_of_points(a, b, points));
+    EXPECT_LT((positions_on(mesh_.V, a, back) - positions_on(mesh_.V, a, points)).rowwise().norm().maxCoeff(),
+              1e-9);
+  }
+}
+
+// The inner edge of an ear is no edge of its parts.
+TEST_P(OverlayWithEars, PolylinesAlongInnerEdgesStayOnThem) {
+  const SurfaceMap map = map_to(mesh_);
+  ASSERT_TRUE(map.is_bijective());
+  const Embedding &a = map.a.embedding, &b = map.b.embedding;
+  for (auto ear = static_cast<int>(plain_.F.rows()); ear < mesh_.F.rows(); ++ear) {
+    const SurfacePoints path = {{ear, ear, ear}, Points(Matrix3::Identity()), {}};  // two ends and the tip
+    const SurfacePoints image = image_of_polyline(a, b, path);
+    const Vector3 from = mesh_.V.row(mesh_.F(ear, 0)), to = mesh_.V.row(mesh_.F(ear, 1)),
+                  tip = mesh_.V.row(mesh_.F(ear, 2));
+    const Points there = positions_on(mesh_.V, b, image);
+    for (const auto& here : there.rowwise()) {
+      const Vector3 p = here;
+      const double along = (p - from).norm() + (to - p).norm() - (to - from).norm(),
+                   beside = (p - to).norm() + (tip - p).norm() - (tip - to).norm();
+      EXPECT_LT(std::min(along, beside), 1e-9);
+    }
+    EXPECT_LT((there.row(0).transpose() - from).norm(), 1e-7);
+    EXPECT_LT((there.row(there.rows() - 1).transpose() - tip).norm(), 1e-7);
+  }
+}
+
+TEST_P(OverlayWithEars, ThatSaysOtherThanItsPartsIsSeen) {
+  const SurfaceMap map = map_to(mesh_);
+  ASSERT_TRUE(map.is_bijective());
+  const Embedding &a = map.a.embedding, &b = map.b.embedding;
+  const Overlay good = overlay(a, b);
+  Overlay bad = good;
+  bad.parents[7].a = (bad.parents[7].a + 1) % 100;
+  EXPECT_THAT(failed_checks(certify(bad, a, b)), Contains("ears"));
+  bad = good;
+  bad.on_b.barycentric.row(3) = Eigen::RowVector3d(0.2, 0.3, 0.5);
+  EXPECT_THAT(failed_checks(certify(bad, a, b)), Contains("ears"));
+  bad = good;
+  bad.of_parts = nullptr;
+  EXPECT_THAT(failed_checks(certify(bad, a, b)), Contains("ears"));
+  Overlay parts = *good.of_parts;
+  std::swap(parts.parents[2], parts.parents[90]);
+  bad = good;
+  bad.of_parts = std::make_shared<const Overlay>(parts);
+  EXPECT_FALSE(certify(bad, a, b).holds);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "orbitutte/cones/extremities.h"
@@ -10,6 +11,7 @@
 #include "orbitutte/inspect/recognition.h"
 #include "orbitutte/io/landmark_file.h"
 #include "orbitutte/orbifold/polygon.h"
+#include "orbitutte/samples/sample.h"
 #include "sample_embeddings.h"
 #include "test_meshes.h"
 
@@ -142,6 +144,48 @@ TEST_P(LandmarksOnDisks, GiveTwoCertifiedEmbeddingsIntoOneTile) {
   const Points on_a = map.a.embedding.canonical_positions(), on_b = map.b.embedding.canonical_positions();
   for (const ConeCopies& cone : map.a.embedding.cones)
     EXPECT_LT((on_a.row(cone.vertex) - on_b.row(cone.vertex)).norm(), 1e-9) << cone.vertex;
+}
+
+// The vertices of a boundary, or those inside, that are nearest to some vertices of another mesh.
+std::vector<Landmark> nearest_partners(const Mesh& a, const Mesh& b, const std::vector<int>& vertices,
+                                       int inside) {
+  const Connectivity connectivity = test::edges_of(b);
+  std::vector<char> on_boundary(b.V.rows(), 0);
+  for (int h = 0; h < static_cast<int>(b.F.size()); ++h)
+    if (connectivity.opposite[h] < 0) on_boundary[b.F.data()[h]] = 1;
+  std::vector<Landmark> landmarks;
+  for (int k = 0; k < static_cast<int>(vertices.size()); ++k) {
+    int nearest = -1;
+    double least = 1e300;
+    for (int v = 0; v < b.V.rows(); ++v) {
+      const double away = (b.V.row(v) - a.V.row(vertices[k])).norm();
+      if ((on_boundary[v] != 0) == (k < inside) || away >= least) continue;
+      nearest = v;
+      least = away;
+    }
+    landmarks.push_back({vertices[k], nearest});
+  }
+  return landmarks;
+}
+
+// Along one of these tours the flat tile of A is not found.
+TEST(LandmarksOnMasks, AreMappedAlikeWhicheverTheTour) {
+  const Mesh a_mesh = sample_mesh({SampleShape::mask, 4000}), other = sample_mesh({SampleShape::mask, 3000});
+  const std::vector<Landmark> landmarks = nearest_partners(a_mesh, other, {1668, 1671, 484, 235, 264}, 3);
+  Mesh bent = other;
+  bent.V.col(0) *= 1.3;
+  bent.V.col(2).array() += 0.2 * other.V.col(1).array().square();
+  const Surface a = make_surface(a_mesh), b = make_surface(bent);
+  MapOptions options;
+  const SurfaceMap shortest = map_between(a, b, landmarks, options);
+  ASSERT_TRUE(shortest.is_bijective());
+  options.tour = {0, 1, 2};
+  do {
+    const SurfaceMap map = map_between(a, b, landmarks, options);
+    EXPECT_TRUE(map.is_bijective());
+    EXPECT_LT(difference(a_mesh, shortest.a, map.a), 1e-6);
+    EXPECT_LT(difference(bent, shortest.b, map.b), 1e-6);
+  } while (std::next_permutation(options.tour.begin(), options.tour.end()));
 }
 
 TEST(Landmarks, ThatMakeNoSenseAreNamed) {

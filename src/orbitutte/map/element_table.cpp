@@ -79,16 +79,17 @@ Matrix3Of<MostPrecise> exact_isometry(Space space, const Isometry& isometry) {
   return result;
 }
 
-SharedGroup::SharedGroup(const Embedding& a)
+SharedGroup::SharedGroup(const Embedding& a, const Embedding& b)
     : space_(a.space()), is_free_(a.target.has_free_tile), group_(a.target) {
-  if (is_free_) take_generators(a);
+  if (is_free_) take_generators(a.offsets.empty() && !b.offsets.empty() ? b : a);
 }
 
-void SharedGroup::take_generators(const Embedding& a) {
-  const ExactPositions positions(a);
-  const PreciseGroup<MostPrecise> group = exact_group(a, positions);
-  const Matrix3Of<MostPrecise> out = exact_isometry(space_, a.placement), back = precise_inverse(space_, out);
-  for (const Seam& seam : a.seams) {
+void SharedGroup::take_generators(const Embedding& embedding) {
+  const ExactPositions positions(embedding);
+  const PreciseGroup<MostPrecise> group = exact_group(embedding, positions);
+  const Matrix3Of<MostPrecise> out = exact_isometry(space_, embedding.placement),
+                               back = precise_inverse(space_, out);
+  for (const Seam& seam : embedding.seams) {
     const Matrix3Of<MostPrecise> element = back * group.element(seam.transform) * out,
                                  inverse = precise_inverse(space_, element);
     const Isometry rough(element.cast<double>(), inverse.cast<double>());

@@ -50,9 +50,10 @@ class ElementTable {
 /// The group of the target of two embeddings: finds its elements by what they are in doubles.
 class SharedGroup {
  public:
-  /// If the tile is free, the group is the one that the gluings of `a` generate. Throws ArgumentError if `a`
-  /// has no boundary of its target.
-  explicit SharedGroup(const Embedding& a);
+  /// If the tile is free, the group is the one that the gluings of `a` generate; or those of `b`, if only its
+  /// marks have offsets, which say with more digits how the tile is glued. Throws ArgumentError if that
+  /// embedding has no boundary of its target.
+  SharedGroup(const Embedding& a, const Embedding& b);
 
   /// The element near an isometry of the canonical frame. Throws ArgumentError if there is none.
   Matrix3Of<MostPrecise> element(const Isometry& isometry) const;
@@ -66,7 +67,7 @@ class SharedGroup {
     int parent = -1, generator = -1;
   };
 
-  void take_generators(const Embedding& a);
+  void take_generators(const Embedding& embedding);
   void list_words();
   Matrix3Of<MostPrecise> product_of(int word) const;
 

@@ -10,6 +10,8 @@
 #include <limits>
 #include <utility>
 
+#include "orbitutte/map/divided_ears.h"
+#include "orbitutte/map/joined_overlay.h"
 #include "orbitutte/map/surface_pair.h"
 #include "orbitutte/mesh/connectivity.h"
 
@@ -531,7 +533,11 @@ class OverlayBuilder {
 
 }  // namespace
 
-Overlay overlay(const Embedding& a, const Embedding& b) { return OverlayBuilder(a, b).run(); }
+Overlay overlay(const Embedding& a, const Embedding& b) {
+  const DividedEars of_a(a), of_b(b);
+  Overlay result = OverlayBuilder(of_a.parts(), of_b.parts()).run();
+  return of_a.any() || of_b.any() ? joined_overlay(std::move(result), of_a, of_b) : result;
+}
 
 Points positions_on(const Points& V, const Embedding& embedding, const SurfacePoints& points) {
   Points result = Points::Constant(points.count(), 3, std::numeric_limits<double>::quiet_NaN());

@@ -3,6 +3,7 @@
 // mesh.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "orbitutte/map/point_map.h"
@@ -48,6 +49,11 @@ struct Overlay {
   /// From the frame of B's positions to that of A's.
   std::vector<Isometry> placements;
 
+  /// If a triangle of A or of B has two edges on one mirror, which make it flat on the target: the overlay of
+  /// both surfaces with such triangles divided (divided_ears.h), which this one has its vertices and faces
+  /// from. Some faces go on inside of both their parents then, and some vertices lie inside of them.
+  std::shared_ptr<const Overlay> of_parts;
+
   int vertex_count() const { return static_cast<int>(vertices.size()); }
   int face_count() const { return faces.count(); }
 };
@@ -70,6 +76,9 @@ struct Overlay {
 /// of B: what is zero for one triangle is zero for its neighbours, too. Only signs of numbers below 2^-250
 /// (relative), which no stored position tells from zero, count as zero. The boundaries of disks run along
 /// each other in this way.
+///
+/// A triangle with two edges on one mirror is flat on the target. It is divided from the middle of its third
+/// edge, as is the triangle behind that edge, so that the map is one to one there, too (Overlay::of_parts).
 ///
 /// O((n_A + n_B + crossings) log) time. Throws ArgumentError if the targets differ, are no surface with the
 /// topology of a sphere or a disk (projective planes, fixed polygons), or the tiles are not the same; and

@@ -19,8 +19,11 @@
 #include <utility>
 
 #include "orbitutte/geometry/double_double.h"
+#include "orbitutte/geometry/geodesic_triangle.h"
 #include "orbitutte/geometry/precise_isometry.h"
 #include "orbitutte/map/developed_surface.h"
+#include "orbitutte/map/divided_ears.h"
+#include "orbitutte/map/joined_overlay.h"
 #include "orbitutte/mesh/connectivity.h"
 #include "orbitutte/mesh/disjoint_sets.h"
 #include "orbitutte/parallel.h"
@@ -108,10 +111,12 @@ struct DigitPoint {
   Real error = 0;
 };
 
-// What products of a few numbers lose: all but some of their bits are right.
+// What products of a few numbers lose: all but some of their bits are right. Numbers of 320 bits are rounded
+// from those of all bits, whose elements are long products: far out in the hyperbolic plane, each factor
+// loses some twenty bits.
 template <typename Real>
 Real digit_error() {
-  constexpr int lost_bits = 12;
+  constexpr int lost_bits = std::is_same_v<Real, Precise> ? 12 : 300;
   return ldexp(Real(1), lost_bits - std::numeric_limits<Real>::digits);
 }
 
@@ -240,7 +245,7 @@ class OverlayExaminer {
       : overlay_(overlay),
         embeddings_{&a, &b},
         elements_(a.space()),
-        group_(a),
+        group_(a, b),
         surfaces_{developed_surface(a, group_, elements_, "one surface"),
                   developed_surface(b, group_, elements_, "the other surface")},
         points_(elements_, a.space(), !a.offsets.empty() || !b.offsets.empty()) {}
@@ -803,16 +808,28 @@ class OverlayExaminer {
     return here;
   }
 
-  // An image on the target, and by how much the rounding of coordinates may move it: in triangles of the size
-  // of a hemisphere they cancel.
-  std::optional<NearPoint> point_of(int side, int f, int v) const {
+  // An image on the target up to its length, and by how much the rounding of coordinates may move it: in
+  // triangles of the size of a hemisphere they cancel. Two doubles: what moves a point far out in the
+  // hyperbolic plane has entries as large as the square of its distance, which doubles would round.
+  std::optional<NearerPoint> point_of(int side, int f, int v) const {
     const std::optional<Vector3> coordinates = coordinates_in(side, f, v);
     if (!coordinates || !coordinates->allFinite() || coordinates->minCoeff() < 0 ||
         std::abs(coordinates->sum() - 1) > 1e-9)
       return std::nullopt;
-    Vector3 sum = Vector3::Zero();
-    for (int k = 0; k < 3; ++k) sum += (*coordinates)[k] * points_.near(corner_of_parent(side, f, k)).x;
-    return NearPoint{embeddings_[0]->space().retract(sum), 1e-14 / std::min(1.0, sum.norm())};
+    NearerPoint result = {Vector3Of<DoubleDouble>::Zero(), 0};
+    for (int k = 0; k < 3; ++k)
+      if (const double weight = (*coordinates)[k]; weight != 0)
+        result.x += DoubleDouble(weight) * points_.nearer(corner_of_parent(side, f, k)).x;
+    const double length = std::sqrt(std::abs(in_doubles(embeddings_[0]->space().form(result.x, result.x))));
+    result.x *= DoubleDouble(1 / length);
+    result.error = 1e-14 / std::min(1.0, length);
+    return result;
+  }
+
+  // The chord between two points, which no isometry changes.
+  double chord_between(const Vector3Of<DoubleDouble>& p, const Vector3Of<DoubleDouble>& q) const {
+    const Vector3Of<DoubleDouble> d = p - q;
+    return std::sqrt(std::abs(in_doubles(embeddings_[0]->space().squared_norm(d))));
   }
 
   void examine_positions() {
@@ -825,14 +842,15 @@ class OverlayExaminer {
     conclude(findings);
   }
 
-  // -1 for none.
+  // -1 for none. Lengths in the plane have no scale of their own.
   int wrongly_placed_corner(int f) const {
     constexpr double bound = 1e-9;
+    const bool is_flat = embeddings_[0]->space().curvature() == 0;
     for (const int v : corners(f)) {
-      const std::optional<NearPoint> on_a = point_of(0, f, v), on_b = point_of(1, f, v);
-      if (!on_a || !on_b ||
-          !((on_a->x - on_b->x).norm() <= bound * std::max(1.0, on_a->x.norm()) + on_a->error + on_b->error))
-        return v;
+      const std::optional<NearerPoint> on_a = point_of(0, f, v), on_b = point_of(1, f, v);
+      if (!on_a || !on_b) return v;
+      const double scale = is_flat ? std::max(1.0, in_doubles(on_a->x).norm()) : 1.0;
+      if (!(chord_between(on_a->x, on_b->x) <= bound * scale + on_a->error + on_b->error)) return v;
     }
     return -1;
   }
@@ -866,16 +884,34 @@ class OverlayExaminer {
     return share;
   }
 
+  // Far out in the hyperbolic plane doubles do not place the corners of a face well enough.
   double area_on_target(int f) const {
-    double area = 0;
+    constexpr double precise_enough = 1e-13;
+    const int begin = first_edge(f), end = first_edge(f + 1);
+    bool is_precise = true;
+    for (int k = begin; k < end && is_precise; ++k) {
+      const NearPoint at = corner_within<double>(f, k);
+      is_precise = at.error * largest_coordinate(at.x) < precise_enough;
+    }
+    return is_precise ? area_of_face<double>(f) : area_of_face<DoubleDouble>(f);
+  }
+
+  template <typename Number>
+  double area_of_face(int f) const {
     const Space space = embeddings_[0]->space();
-    const auto at = [&](int k) { return space.retract(corner_within<double>(f, k).x); };
+    const auto at = [&](int k) -> Vector3Of<Number> {
+      const Vector3Of<Number> x = corner_within<Number>(f, k).x;
+      return x * Number(1 / std::sqrt(std::abs(in_doubles(space.form(x, x)))));
+    };
     const int begin = first_edge(f);
-    const Vector3 first = at(begin);
-    Vector3 last = at(begin + 1);
+    const Vector3Of<Number> first = at(begin);
+    const Vector3 corner = in_doubles(first);
+    Vector3 last = in_doubles(Vector3Of<Number>(at(begin + 1) - first));
+    double area = 0;
     for (int k = begin + 2; k < first_edge(f + 1); ++k) {
-      const Vector3 next = at(k);
-      area += space.area(first, last, next);
+      const Vector3 next = in_doubles(Vector3Of<Number>(at(k) - first));
+      area +=
+          visit_curvature(space, [&](auto curvature) { return area_between(curvature, corner, last, next); });
       last = next;
     }
     return area;
@@ -912,11 +948,30 @@ class OverlayExaminer {
   OverlayCertificate result_;
 };
 
+// The overlay of the parts is what is proved; the other one names the same vertices and faces.
+OverlayCertificate certify_of_parts(const Overlay& overlay, const DividedEars& a, const DividedEars& b) {
+  OverlayCertificate result;
+  Findings findings("ears");
+  if (!overlay.of_parts)
+    findings.add("the overlay does not say how triangles that are flat on the target are divided");
+  else
+    result = OverlayExaminer(*overlay.of_parts, a.parts(), b.parts()).run();
+  // What names vertices and triangles that do not exist cannot be joined.
+  if (!result.checks.empty() && result.checks.front().passed &&
+      !say_the_same(overlay, joined_overlay(*overlay.of_parts, a, b)))
+    findings.add("the overlay is not that of the divided triangles");
+  result.checks.push_back(findings.check());
+  result.holds = result.holds && result.checks.back().passed;
+  return result;
+}
+
 }  // namespace
 
 OverlayCertificate certify(const Overlay& overlay, const Embedding& a, const Embedding& b) {
   try {
-    return OverlayExaminer(overlay, a, b).run();
+    const DividedEars of_a(a), of_b(b);
+    if (!of_a.any() && !of_b.any()) return OverlayExaminer(overlay, a, b).run();
+    return certify_of_parts(overlay, of_a, of_b);
   } catch (const Error& error) {
     OverlayCertificate result;
     result.checks.push_back({"embeddings", false, 0, 0, error.what()});

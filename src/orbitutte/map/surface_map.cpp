@@ -194,11 +194,12 @@ class Mapping {
     return sides_[0]->result.certificate.bijective && sides_[1]->result.certificate.bijective;
   }
 
-  // Curved tiles that are cut along a long tour reach far out, where digits are lost: the shortest tours take
-  // the place of one that was asked for. The first results are kept if none is certified.
+  // Curved tiles that are cut along a long tour reach far out, where digits are lost, and flat ones are not
+  // always found there: the shortest tours take the place of one that was asked for. The first results are
+  // kept if none is certified.
   void try_other_tours() {
     constexpr std::size_t most_tries = 3;
-    if (options_.tour.empty() || !freedom_.is_curved) return;
+    if (options_.tour.empty() || !freedom_.has_shape) return;
     const std::array<EmbedResult, 2> results = {sides_[0]->result, sides_[1]->result};
     const SharingOptions sharing = sharing_;
     const MapClass first_class = map_.map_class;

@@ -224,7 +224,7 @@ class Expedition {
 
 SurfacePair::SurfacePair(const Embedding& walked, const Embedding& walker)
     : elements_((require_partners(walked, walker), walked.space())),
-      group_(walked),
+      group_(walked, walker),
       walked_(developed_surface(walked, group_, elements_, "one surface")),
       walker_(developed_surface(walker, group_, elements_, "the other surface")),
       signs_(elements_),

@@ -10,6 +10,7 @@
 #include <iterator>
 #include <limits>
 
+#include "orbitutte/map/divided_ears.h"
 #include "orbitutte/map/surface_pair.h"
 #include "orbitutte/mesh/connectivity.h"
 
@@ -30,6 +31,13 @@ int count_vertices(const Embedding& embedding) {
   return count;
 }
 
+// Those of the triangles that the images lie in.
+void name_corners(const Embedding& to, VertexMap& map) {
+  for (int v = 0; v < map.count(); ++v)
+    if (const int t = map.images.triangle[v]; t >= 0)
+      for (int k = 0; k < 3; ++k) map.corners(v, k) = to.source_vertex[to.triangles(t, k)];
+}
+
 // The images on one surface of the vertices of the other, which the member names.
 VertexMap vertices_of_overlay(const Overlay& overlay, int OverlayVertex::*vertex, const SurfacePoints& places,
                               const std::array<const Embedding*, 2>& from_and_to) {
@@ -40,8 +48,8 @@ VertexMap vertices_of_overlay(const Overlay& overlay, int OverlayVertex::*vertex
     if (v < 0) continue;
     map.images.triangle[v] = t;
     map.images.barycentric.row(v) = places.barycentric.row(k);
-    for (int i = 0; i < 3; ++i) map.corners(v, i) = to->source_vertex[to->triangles(t, i)];
   }
+  name_corners(*to, map);
   return map;
 }
 
@@ -242,19 +250,20 @@ void require_rows(const VertexMap& map, Eigen::Index rows) {
 }  // namespace
 
 VertexMap images_of_vertices(const Embedding& from, const Embedding& to) {
-  SurfacePair pair(to, from);
+  const DividedEars of_from(from), of_to(to);
+  SurfacePair pair(of_to.parts(), of_from.parts());
   const std::vector<Fix> fixes = pair.locate_vertices();
-  const int count = static_cast<int>(fixes.size());
+  const int count = count_vertices(from);  // without the middles of ears
   VertexMap map = no_images(count);
   for (int v = 0; v < count; ++v) {
     const Fix& fix = fixes[v];
     if (fix.halfedge < 0) continue;
-    const int triangle = fix.place.triangle();
-    map.images.triangle[v] = triangle;
+    map.images.triangle[v] = fix.place.triangle();
     map.images.barycentric.row(v) =
         pair.coordinates(fix.place, pair.walker().site_of(fix.halfedge)).transpose();
-    for (int k = 0; k < 3; ++k) map.corners(v, k) = pair.walked().vertex_of(3 * triangle + k);
   }
+  map.images = of_to.on_whole(std::move(map.images));
+  name_corners(to, map);
   return map;
 }
 
@@ -265,16 +274,18 @@ VertexMaps vertex_maps(const Overlay& overlay, const Embedding& a, const Embeddi
 
 SurfacePoints images_of_points(const Embedding& from, const Embedding& to, const SurfacePoints& points) {
   require_points(from, points);
-  SurfacePair pair(to, from);
-  return PointWalks(pair).images(points);
+  const DividedEars of_from(from), of_to(to);
+  SurfacePair pair(of_to.parts(), of_from.parts());
+  return of_to.on_whole(PointWalks(pair).images(of_from.on_parts(points)));
 }
 
 SurfacePoints image_of_polyline(const Embedding& from, const Embedding& to, const SurfacePoints& points) {
   require_points(from, points);
   for (int k = 0; k < points.count(); ++k)
     if (points.triangle[k] < 0) throw ArgumentError(fmt::format("point {} of a polyline is none", k));
-  SurfacePair pair(to, from);
-  return PointWalks(pair).polyline(points);
+  const DividedEars of_from(from), of_to(to);
+  SurfacePair pair(of_to.parts(), of_from.parts());
+  return of_to.on_whole(PointWalks(pair).polyline(of_from.polyline_on_parts(points)));
 }
 
 std::vector<MatrixEntry> transfer_matrix(const VertexMap& map) {

@@ -19,6 +19,44 @@ constexpr double converged_change = 1e-9, settled_change = 1e-3;
 // The same of all vertices together: triangles may be far flatter than their shortest edges.
 constexpr double placed_change = 1e-14;
 
+// The second derivatives of d^2/2, d the length of an edge, by steps of its ends p and q. Along the edge,
+// with the unit tangents t there that point to the other end, they are <t, a> <t, b> for two steps, whichever
+// the ends; across it d cs d/sn d at one end and -d/sn d between both, since d^2/2 is a function of cs d.
+class EdgeStiffness {
+ public:
+  // away: q - p.
+  EdgeStiffness(Space space, const Vector3& away) : space_(space), away_(away) {
+    constexpr double flat = 1e-16;
+    const double k = space.curvature(), s = space.dot(away, away);
+    if (k == 0 || !(s > flat)) return;
+    cs_ = 1 - k * s / 2;
+    squared_sn_ = s * (1 - k * s / 4);
+    visit_curvature(space, [&]<int sign>(Curvature<sign>) { over_sn_ = Curvature<sign>::over_sn(s); });
+  }
+
+  // Of two steps of p: the parts along the edge are <t, a> = <q - p, a>/sn d.
+  double at_one_end(const Vector3& a, const Vector3& b) const {
+    const double along = along_edge(a, b);
+    return along + over_sn_ * cs_ * (space_.dot(a, b) - along);
+  }
+
+  // Of a step of p and one of q, where t points to p; <a, b> is the product of the parts across the edge,
+  // less cs d times that of those along it.
+  double between_ends(const Vector3& a, const Vector3& b) const {
+    const double along = -along_edge(a, b);
+    return along - over_sn_ * (space_.dot(a, b) + cs_ * along);
+  }
+
+ private:
+  double along_edge(const Vector3& a, const Vector3& b) const {
+    return squared_sn_ > 0 ? space_.dot(away_, a) * space_.dot(away_, b) / squared_sn_ : 0.0;
+  }
+
+  Space space_;
+  Vector3 away_;
+  double cs_ = 1, squared_sn_ = 0, over_sn_ = 1;
+};
+
 }  // namespace
 
 // The directions tangent to the space in which a vertex may move, orthonormal.
@@ -50,20 +88,27 @@ LocalMinimum::LocalMinimum(const Gluing& gluing, const MovablePositions& positio
   }
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t k = 0; k < neighbourhoods_.size(); ++k) {
-    double sum = 0;
+    const Basis& here = bases_[k];
+    Eigen::MatrixXd own = Eigen::MatrixXd::Zero(here.cols(), here.cols());
     for (const Neighbour& neighbour : neighbourhoods_[k].neighbours) {
-      sum += neighbour.weight;
+      const EdgeStiffness edge(
+          space_, positions.difference(neighbourhoods_[k].vertex, neighbour.vertex, neighbour.element));
+      for (Eigen::Index i = 0; i < here.cols(); ++i)
+        for (Eigen::Index j = 0; j < here.cols(); ++j)
+          own(i, j) += neighbour.weight * edge.at_one_end(here.col(i), here.col(j));
       const auto other = place_.find(neighbour.vertex);
       if (other == place_.end()) continue;
       const Basis& there = bases_[other->second];
       for (Eigen::Index j = 0; j < there.cols(); ++j) {
-        const Vector3 seen = gluing.elements[neighbour.element] * Vector3(there.col(j));
-        for (Eigen::Index i = 0; i < bases_[k].cols(); ++i)
+        const Vector3 seen = gluing_.elements[neighbour.element] * Vector3(there.col(j));
+        for (Eigen::Index i = 0; i < here.cols(); ++i)
           entries.emplace_back(first_[k] + i, first_[other->second] + j,
-                               -neighbour.weight * space_.dot(bases_[k].col(i), seen));
+                               neighbour.weight * edge.between_ends(here.col(i), seen));
       }
     }
-    for (int i = first_[k]; i < first_[k + 1]; ++i) entries.emplace_back(i, i, sum);
+    for (Eigen::Index i = 0; i < here.cols(); ++i)
+      for (Eigen::Index j = 0; j < here.cols(); ++j)
+        entries.emplace_back(first_[k] + i, first_[k] + j, own(i, j));
   }
   Eigen::SparseMatrix<double> matrix(first_.back(), first_.back());
   matrix.setFromTriplets(entries.begin(), entries.end());

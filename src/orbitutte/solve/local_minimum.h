@@ -16,9 +16,10 @@ struct Neighbourhood {
   std::vector<Neighbour> neighbours;
 };
 
-/// Where the map is flat on the scale of its edges, the Laplacian is the energy's Hessian (up to a factor
-/// two), and one sparse factor in doubles serves for as many digits as the positions have: forces are
-/// summed with all of them, and each step gains some ten digits.
+/// One sparse factor of the energy's Hessian, in doubles, serves for as many digits as the positions have:
+/// forces are summed with all of them, and each step gains some ten digits. Where the map is flat on the
+/// scale of its edges, the Hessian is the Laplacian (up to a factor two); long edges in a curved space are
+/// stiffer or softer across than along.
 class LocalMinimum {
  public:
   /// One neighbourhood of each vertex that may move, ascending; held vertices among them stay where they are.

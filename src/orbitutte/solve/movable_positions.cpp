@@ -2,6 +2,7 @@
 #include "orbitutte/solve/movable_positions.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "orbitutte/geometry/orientation.h"
 #include "orbitutte/geometry/precise_distance.h"
@@ -222,14 +223,13 @@ void PrecisePositions<Real>::take_back(std::size_t moves) {
 template <typename Real>
 Points PrecisePositions<Real>::spread(const std::vector<double>& shortest_edge,
                                       std::vector<Offset>& offsets) const {
-  constexpr double part = 0x1p-50;      // of the shortest edge, which is left out
-  constexpr int most = 60;              // offsets of a vertex
-  constexpr double long_enough = 1e-6;  // doubles put the ends of such edges where they belong
+  constexpr double part = 0x1p-50;  // of the shortest edge, which is left out
+  constexpr int most = 60;          // offsets of a vertex
   const std::vector<int>& source_vertex = gluing().cut.source_vertex;
   Points result = gluing().boundary.spread(positions(), source_vertex);
   for (int c = 0; c < static_cast<int>(source_vertex.size()); ++c) {
     const int v = source_vertex[c];
-    if (!is_refined(v) || shortest_edge[v] > long_enough) continue;
+    if (!is_refined(v)) continue;
     Vector rest = cut_position(c);
     // Takes away what a double holds of it.
     const auto split = [&rest] {
@@ -238,7 +238,7 @@ Points PrecisePositions<Real>::spread(const std::vector<double>& shortest_edge,
       return d;
     };
     result.row(c) = split();
-    for (int k = 0; k < most; ++k) {
+    for (int k = 0; k < most && shortest_edge[v] < std::numeric_limits<double>::infinity(); ++k) {
       offsets.push_back({c, split()});
       if (Vector3(rest.template cast<double>()).cwiseAbs().maxCoeff() <= part * shortest_edge[v]) break;
     }

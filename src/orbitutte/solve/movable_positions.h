@@ -107,8 +107,9 @@ class PrecisePositions final : public MovablePositions {
   /// The same at a point near to where it is.
   void refine_to(int v, const Vector3Of<Real>& point);
 
-  /// Positions of all cut vertices (n_cut x 3), and the offsets of every copy of a refined vertex, down to a
-  /// small part of its shortest edge; none if doubles resolve that edge. shortest_edge: n.
+  /// Positions of all cut vertices (n_cut x 3), those of refined ones rounded once, and the offsets of every
+  /// copy of a refined vertex, down to a small part of its shortest edge. shortest_edge: n; infinite if
+  /// doubles resolve that edge.
   Points spread(const std::vector<double>& shortest_edge, std::vector<Offset>& offsets) const;
 
  private:

@@ -19,6 +19,20 @@ namespace {
 constexpr double small = 1e-6;  // edges shorter than this belong to a limb
 constexpr double finest_edge = 1e-60, finest_edge_of_all = 1e-290;  // of Precise and MostPrecise
 
+// Far out in the hyperbolic plane coordinates are rounded by their length, and edges look longer by it: the
+// square of the height. Of the copy of each input vertex that lies furthest out.
+std::vector<double> lost_digits_of(const GluingProblem& problem, const Placement& placed) {
+  const Points& positions = placed.minimum.positions;
+  const std::vector<int>& source_vertex = problem.cut.source_vertex;
+  std::vector<double> lost(positions.rows(), 1.0);
+  for (int c = 0; c < static_cast<int>(source_vertex.size()); ++c) {
+    const int v = source_vertex[c];
+    const double height = Vector3(placed.boundary.transform(c) * Vector3(positions.row(v))).z();
+    lost[v] = std::max(lost[v], height * height);
+  }
+  return lost;
+}
+
 // The map's gluing, and all that its remedies ask of it.
 struct Site {
   Site(const GluingProblem& the_problem, const Placement& the_placed)
@@ -31,6 +45,9 @@ struct Site {
       may_move[v] = placed.boundary.basis_of[v] != held_in_place;
     for (const Ear& ear : ears) may_move[ear.tip] = 0;
   }
+
+  // Is an edge at a vertex too short for doubles, at one of the vertex's copies?
+  bool is_small(int v, double edge) const { return edge < small * lost_digits[v]; }
 
   // Those along edges with weights. They are gathered when they are first asked for, since a few thin faces
   // can be repaired without.
@@ -49,6 +66,7 @@ struct Site {
   std::vector<Ear> ears;
   Stars stars;
   std::vector<char> may_move;
+  std::vector<double> lost_digits = lost_digits_of(problem, placed);
   Gluing gluing = {problem.cut, placed.boundary, elements};
 };
 
@@ -69,14 +87,11 @@ double shortest_edge(Site& site, const MovablePositions& positions, int v) {
   return shortest;
 }
 
-// Far out in the hyperbolic plane coordinates are rounded by their length, and edges look longer by it.
-double lost_digits_at(const Vector3& position) { return std::max(1.0, position.z() * position.z()); }
-
 std::vector<int> vertices_of_limbs(Site& site, const MovablePositions& positions) {
   const int n = static_cast<int>(site.may_move.size());
   std::vector<int> result;
   for (int v = 0; v < n; ++v)
-    if (shortest_edge(site, positions, v) < small * lost_digits_at(positions.rounded(v))) result.push_back(v);
+    if (site.is_small(v, shortest_edge(site, positions, v))) result.push_back(v);
   return result;
 }
 
@@ -234,6 +249,14 @@ std::vector<int> vertices_of_gluing(const Site& site) {
   return result;
 }
 
+// Doubles put a copy of a vertex, moved by a matrix with large entries, further off than rounding does.
+std::vector<int> vertices_with_copies(const CutMesh& cut) {
+  std::vector<int> result;
+  for (int c = 0; c < static_cast<int>(cut.source_vertex.size()); ++c)
+    if (cut.source_vertex[c] != c) result.push_back(cut.source_vertex[c]);
+  return result;
+}
+
 // Gives the limbs more digits where they belong; false if that fails.
 template <typename Real>
 using RefineLimbs = std::function<bool(Site&, const std::vector<int>&, PrecisePositions<Real>&)>;
@@ -273,6 +296,7 @@ std::optional<SpreadMap> refined(const GluingProblem& problem, const Placement& 
   if (limbs.empty()) return std::nullopt;
   const std::vector<int> of_gluing = vertices_of_gluing(site);
   for (const int v : of_gluing) positions.refine(v);
+  for (const int v : vertices_with_copies(problem.cut)) positions.refine(v);
   const bool are_refined = refine(site, limbs, positions);
   std::vector<double> shortest(site.may_move.size(), std::numeric_limits<double>::infinity());
   double least = 1;
@@ -281,7 +305,8 @@ std::optional<SpreadMap> refined(const GluingProblem& problem, const Placement& 
   if (!are_refined || resolution.is_too_coarse) return std::nullopt;
   std::optional<std::vector<int>> moved = put_right_beside(unrolled_tips(site, positions), site, positions);
   if (!moved) return std::nullopt;
-  for (const int v : limbs) shortest[v] = shortest_edge(site, positions, v);
+  for (const int v : limbs)
+    if (const double edge = shortest_edge(site, positions, v); site.is_small(v, edge)) shortest[v] = edge;
   for (const int v : of_gluing) shortest[v] = least;
   result.moved_vertices = std::move(*moved);
   result.positions = positions.spread(shortest, result.offsets);
@@ -382,7 +407,12 @@ std::optional<SpreadMap> with_limbs_in_place(const GluingProblem& problem, const
   constexpr Eigen::Index few_vertices = 2000;
   const double misplaced = placed.minimum.positions.rows() <= few_vertices ? 1e-9 : 1e-11;
   const DirichletEnergy energy(glued_along(problem, placed.boundary), problem.weights, placed.boundary);
-  if (!(energy.smallest_spot(placed.minimum.positions).second < misplaced)) return std::nullopt;
+  const std::vector<double> shortest = energy.shortest_edges(placed.minimum.positions),
+                            lost = lost_digits_of(problem, placed);
+  bool any_misplaced = false;
+  for (std::size_t v = 0; v < shortest.size(); ++v)
+    any_misplaced = any_misplaced || shortest[v] < misplaced * lost[v];
+  if (!any_misplaced) return std::nullopt;
   if (placed.minimum.positions.rows() <= most_vertices) {
     Resolution resolution = {finest_edge};
     try {
