@@ -192,7 +192,8 @@ FittedAngles fit_angles(const ScaleKernel& kernel, const std::vector<int>& cones
   const CurvatureFit fit = {kernel.potentials(cones)(cones, Eigen::all), kernel.even_potential()(cones),
                             kernel.even_variance()};
   const Eigen::VectorXd curvatures = with_spared_cones({kernel, cones, fit, bounds}, options);
-  FittedAngles result = {{}, kernel.total_curvature() - curvatures.sum(), fit.sigma(curvatures)};
+  const double area = options.area.value_or(kernel.total_curvature() - curvatures.sum());
+  FittedAngles result = {{}, area, fit.sigma(curvatures)};
   for (std::size_t i = 0; i < cones.size(); ++i)
     result.angles.push_back(kernel.flat_angle(cones[i]) - curvatures[static_cast<Eigen::Index>(i)]);
   return result;
