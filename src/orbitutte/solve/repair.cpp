@@ -15,12 +15,13 @@
 namespace orbitutte {
 namespace {
 
-constexpr int most_sweeps = 60, sweeps_per_ring = 6, smoothing_sweeps = 6;
+constexpr int most_sweeps = 60, sweeps_per_ring = 6, smoothing_sweeps = 8;
 constexpr int most_rings = 7;
-constexpr double clamp = 0.01;        // in place of weights that are not positive
-constexpr double enough = 0.3;        // of the largest margin that a star allows
-constexpr double enough_gain = 1e-3;  // of a star's distortion, for its vertex to be moved
-constexpr double flattest = 1e-6;     // twice the area of a source triangle, in squared edges
+constexpr double clamp = 0.01;          // in place of weights that are not positive
+constexpr double enough = 0.3;          // of the largest margin that a star allows
+constexpr double enough_gain = 1e-3;    // of a star's distortion, for its vertex to be moved
+constexpr double gain_of_sweep = 2e-2;  // of one star at least, for another sweep
+constexpr double flattest = 1e-6;       // twice the area of a source triangle, in squared edges
 
 enum class PatchWeights { cotan, mean_value };
 
@@ -41,9 +42,15 @@ class Repair {
   void smooth_around(const std::set<int>& vertices) {
     const std::set<int> around = site_.stars.with_neighbours(vertices);
     std::set<int> waiting = around;
-    for (int sweep = 0; sweep < smoothing_sweeps && !waiting.empty(); ++sweep)
-      for (const int v : around)
-        if (waiting.erase(v) == 1 && smooth(v)) waiting.merge(site_.stars.with_neighbours({v}));
+    double largest = 1;
+    for (int sweep = 0; sweep < smoothing_sweeps && largest > gain_of_sweep; ++sweep) {
+      largest = 0;
+      for (const int v : around) {
+        const double gain = waiting.erase(v) == 1 ? smooth(v) : 0.0;
+        if (gain > 0) waiting.merge(site_.stars.with_neighbours({v}));
+        largest = std::max(largest, gain);
+      }
+    }
   }
 
   // Single vertices, sweep by sweep, in reach of the faces that are not positive.
@@ -275,21 +282,24 @@ class Repair {
     return high;
   }
 
-  bool smooth(int v) {
-    if (!site_.may_move[v]) return false;
+  // Moves v to where its star is distorted least. The share of the distortion that this takes away, if it is
+  // worth a move.
+  double smooth(int v) {
+    if (!site_.may_move[v]) return 0;
     const std::vector<StarTriangle> star = site_.stars.around(v);
     const StarShape shape = shape_of(v, star);
     const double at_first = distortion(shape, Vector3::Zero(), std::numeric_limits<double>::infinity());
     const auto [step, least] = least_distortion(shape);
-    if (!(least < (1 - enough_gain) * at_first)) return false;
+    const double gain = 1 - least / at_first;
+    if (!(gain > enough_gain)) return 0;
     const std::size_t before = positions_.moves();
     positions_.move(v, shape.axes * step);
     if (!are_positive(star)) {
       positions_.take_back(before);
-      return false;
+      return 0;
     }
     moved_.insert(v);
-    return true;
+    return gain;
   }
 
   const RepairSite& site_;
