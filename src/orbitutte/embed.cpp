@@ -79,12 +79,12 @@ EmbedResult embed_with_some_weights(const EmbedRequest& request, EmbeddingCache&
 }
 
 // What a quotient is made from: a map to a target with marks, and whose they are.
-struct BaseMap {
+struct QuotientSource {
   Target target;
   std::vector<int> cones;
 };
 
-BaseMap base_map(const EmbedRequest& request) {
+QuotientSource quotient_source(const EmbedRequest& request) {
   if (!request.target.marks.empty()) return {request.target, request.cones};
   const Target target = quotient_base(request.target);
   return {target, choose_cones(request.prepared.surface, target)};
@@ -133,7 +133,8 @@ QuotientOptions complete_options(const EmbedRequest& request) {
 }
 
 // What is known of the quotient before it is computed.
-EmbedResult begin_quotient(const BaseMap& from, const EmbedResult& base, const QuotientOptions& options) {
+EmbedResult begin_quotient(const QuotientSource& from, const EmbedResult& base,
+                           const QuotientOptions& options) {
   EmbedResult result;
   result.timings = base.timings;
   result.threads = base.threads;
@@ -154,13 +155,13 @@ std::vector<Remedy> remedies_of(const QuotientMap& quotient) {
 // The map onto all that the quotient of a map to `from` is onto. It marks nothing, but the vertices that the
 // other map marks keep what it spreads out from becoming an arc.
 struct WholeMap {
-  BaseMap from;
+  QuotientSource from;
   Target onto;
   QuotientOptions options;
 };
 
 WholeMap whole_map(const EmbedRequest& request) {
-  const BaseMap from = base_map(request);
+  const QuotientSource from = quotient_source(request);
   WholeMap result = {from, quotient_target(from.target), complete_options(request)};
   require_points(request.prepared.surface, result.onto, result.options.points);
   return result;
@@ -170,7 +171,7 @@ WholeMap whole_map(const EmbedRequest& request) {
 EmbedResult quotient_by_group(const EmbedRequest& request, const WholeMap& wanted, const EmbedResult& base,
                               EmbeddingCache& cache) {
   const Surface& surface = request.prepared.surface;
-  const BaseMap& from = wanted.from;
+  const QuotientSource& from = wanted.from;
   const Target& onto = wanted.onto;
   const QuotientOptions& options = wanted.options;
   const EmbedRequest whole = {request.prepared, onto, from.cones, request.options};
@@ -196,7 +197,7 @@ EmbedResult quotient_by_group(const EmbedRequest& request, const WholeMap& wante
 
 EmbedResult embed_quotient(const EmbedRequest& request, EmbeddingCache& cache) {
   const WholeMap wanted = whole_map(request);
-  const BaseMap& from = wanted.from;
+  const QuotientSource& from = wanted.from;
   cache.serves_again = true;
   const EmbedResult base =
       embed_with_some_weights({request.prepared, from.target, from.cones, request.options}, cache);
