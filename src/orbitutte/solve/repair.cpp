@@ -182,6 +182,7 @@ class Repair {
 
   StarShape shape_of(int v, const std::vector<StarTriangle>& star) const {
     StarShape shape;
+    shape.triangles.reserve(star.size());
     const Vector3 p = positions_.rounded(v);
     const auto source = [&](int u) -> Vector3 { return site_.surface.V.row(u); };
     for (const StarTriangle& at : star) {

@@ -71,7 +71,8 @@ void add_derivatives_of_barrier(const StarShape& shape, const StarShape::Triangl
 Eigen::Vector2d newton_step(const StarShape& shape, const Vector3& from) {
   const auto [gradient, hessian] = derivatives_of_distortion(shape, from);
   if (shape.on_mirror) return {-gradient.x() / std::abs(hessian(0, 0)), 0};
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(hessian);
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen;
+  eigen.computeDirect(hessian);
   const Eigen::Vector2d along = eigen.eigenvectors().transpose() * gradient;
   return -eigen.eigenvectors() * along.cwiseQuotient(eigen.eigenvalues().cwiseAbs());
 }

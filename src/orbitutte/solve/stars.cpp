@@ -52,6 +52,7 @@ int Stars::element_between(int from, int to) const {
 
 std::vector<StarTriangle> Stars::around(int vertex) const {
   std::vector<StarTriangle> star;
+  star.reserve(static_cast<std::size_t>(start_[vertex + 1] - start_[vertex]));
   for (int k = start_[vertex]; k < start_[vertex + 1]; ++k) {
     const int h = halfedges_[k];
     const int v = halfedge_origin(cut_.F, h);
