@@ -280,7 +280,8 @@ class MapFiles : public testing::Test {
 
   std::string path(const char* name) const { return (folder_ / name).string(); }
 
-  std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "orbitutte_map_files";
+  std::filesystem::path folder_ =
+      std::filesystem::path(testing::TempDir()) / ("orbitutte_map_files_" + std::to_string(::getpid()));
 };
 
 TEST_F(MapFiles, OfTheOverlayHaveTheSameFaces) {

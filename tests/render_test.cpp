@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -272,7 +273,7 @@ std::string compared(const std::vector<std::vector<double>>& log_areas, const st
       map.faces[f] = {1, std::exp2(areas[f % areas.size()]), 1.5};
     comparison.maps.push_back(map);
   }
-  const std::string path = testing::TempDir() + "orbitutte_comparison_test" + ending;
+  const std::string path = testing::TempDir() + "orbitutte_comparison_" + std::to_string(::getpid()) + ending;
   write_comparison(path, comparison);
   const std::string bytes = read_file(path);
   std::filesystem::remove(path);
