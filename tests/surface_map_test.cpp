@@ -188,6 +188,23 @@ TEST(LandmarksOnMasks, AreMappedAlikeWhicheverTheTour) {
   } while (std::next_permutation(options.tour.begin(), options.tour.end()));
 }
 
+// Both surfaces are cut and factorised at the same time.
+TEST(Landmarks, GiveTheSameMapOnEveryRunAndForAnyNumberOfThreads) {
+  const Mesh mesh = sample_mesh({SampleShape::figure, 20000});
+  const Surface surface = make_surface(mesh);
+  std::vector<Landmark> landmarks;
+  for (const int v : {0, 2500, 5000, 7500}) landmarks.push_back({v, v});
+  MapOptions options;
+  options.embed.threads = 1;
+  const SurfaceMap first = map_between(surface, surface, landmarks, options);
+  options.embed.threads = 2;
+  for (int run = 0; run < 4; ++run) {
+    const SurfaceMap map = map_between(surface, surface, landmarks, options);
+    EXPECT_EQ(map.a.embedding.positions, first.a.embedding.positions);
+    EXPECT_EQ(map.b.embedding.positions, first.b.embedding.positions);
+  }
+}
+
 TEST(Landmarks, ThatMakeNoSenseAreNamed) {
   const Surface sphere = make_surface(irregular_sphere()), disk = make_surface(bent_disk());
   EXPECT_EQ(refusal(sphere, disk, {{0, 0}, {1, 1}, {2, 2}}),

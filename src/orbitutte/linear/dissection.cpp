@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <mutex>
 #include <new>
 #include <numeric>
 #include <utility>
@@ -107,6 +108,10 @@ std::vector<idx_t> halves(ClusterGraph& graph) {
   idx_t options[METIS_NOPTIONS];
   METIS_SetDefaultOptions(options);
   options[METIS_OPTION_SEED] = 0;
+  // METIS takes its random numbers from rand(), which it seeds once for each call: two calls at a time would
+  // take them from each other, and no result would be the same twice.
+  static std::mutex one_at_a_time;
+  const std::lock_guard lock(one_at_a_time);
   const int status = METIS_PartGraphRecursive(&count, &constraints, graph.start.data(), graph.neighbor.data(),
                                               graph.vertex_weight.data(), nullptr, graph.edge_weight.data(),
                                               &parts, nullptr, nullptr, options, &cut, half.data());
