@@ -175,6 +175,8 @@ SurfacePoints crossing_median(const DividedTriangle& division, const TrianglesBy
 }  // namespace
 
 DividedEars::DividedEars(const Embedding& embedding) : whole_(embedding) {
+  int vertices = 0;
+  for (const int v : embedding.source_vertex) vertices = std::max(vertices, v + 1);
   for (const int inner : inner_halfedges_of_ears(embedding)) {
     // Ears are divided once, but perhaps after their neighbours: corners x and y are what they were.
     const Triangles& F = parts().triangles;
@@ -187,9 +189,7 @@ DividedEars::DividedEars(const Embedding& embedding) : whole_(embedding) {
       parts_->polygons = {};
     }
     const int middle = static_cast<int>(parts_->source_vertex.size());
-    int vertices = 0;
-    for (const int v : parts_->source_vertex) vertices = std::max(vertices, v + 1);
-    parts_->source_vertex.push_back(vertices);
+    parts_->source_vertex.push_back(vertices++);
     parts_->positions.conservativeResize(middle + 1, 3);
     place_middle(*parts_, embedding, behind, middle);
     for (const int halfedge : {ear, behind}) divisions_.push_back(divide_at(*parts_, halfedge, middle));
