@@ -166,6 +166,22 @@ TEST(Ply, BlanksBehindBinaryDataAreNoData) {
   EXPECT_THAT(parse_ply(bytes + "\r\n").find("a")->find("x")->values, ElementsAre(5));
 }
 
+TEST(Ply, WholeNumbersOf64BitsKeepAllTheirDigitsOrAreRefused) {
+  const auto read = [](const std::string& type, const std::string& number) {
+    return parse_ply(header("ascii", "element a 1\nproperty " + type + " x\n") + number + "\n");
+  };
+  EXPECT_THAT(read("int64", "-9223372036854775808").find("a")->find("x")->values, ElementsAre(-0x1p63));
+  EXPECT_THAT(read("uint64", "9007199254740992").find("a")->find("x")->values, ElementsAre(0x1p53));
+  EXPECT_THROW(read("uint64", "9007199254740993"), MeshError);
+  EXPECT_THROW(read("uint64", "18446744073709551615"), MeshError);
+  const std::string list = "element face 1\nproperty list uchar int64 vertex_indices\n";
+  const std::int64_t large = 0x7FFFFFFFFFFFFE77;
+  EXPECT_EQ(refusal_of_ply(header(native_format, list) + native(uint8_t{1}, large)),
+            "byte 112: face 0 has the value 9223372036854775415 as 'vertex_indices', more digits than a "
+            "double has; "
+            "export the file again");
+}
+
 struct Refusal {
   std::string name;
   std::string bytes;

@@ -18,6 +18,25 @@ namespace orbitutte {
 
 namespace {
 
+// Values are kept as doubles: are no digits lost? Some of 64 bits would be.
+template <class T>
+bool fits_double(T number) {
+  if constexpr (std::is_integral_v<T> &&
+                std::numeric_limits<T>::digits > std::numeric_limits<double>::digits) {
+    const auto rounded = static_cast<double>(number);
+    return rounded < std::ldexp(1.0, std::numeric_limits<T>::digits) && static_cast<T>(rounded) == number;
+  }
+  return true;
+}
+
+template <class Values, class T>
+double as_double(const Values& in, T number, const TextItem& item, std::string_view property) {
+  if (!fits_double(number))
+    in.refuse(fmt::format("{} has the value {} as {}, more digits than a double has", shown(item), number,
+                          in_quotes(property)));
+  return static_cast<double>(number);
+}
+
 /// The values of ASCII data, one after the other. An element begins on a line of its own and may run over
 /// several lines.
 class AsciiValues {
@@ -34,7 +53,7 @@ class AsciiValues {
     return visit_type(type, [&](auto number) -> double {
       using T = decltype(number);
       using Read = std::conditional_t<std::is_integral_v<T>, T, double>;  // floats with all their digits
-      return static_cast<double>(in_.number<Read>(item, property));
+      return as_double(*this, in_.number<Read>(item, property), item, property);
     });
   }
 
@@ -70,7 +89,8 @@ class BinaryValues {
 
   double next(PlyType type, const TextItem& item, std::string_view property) {
     return visit_type(type, [&](auto number) -> double {
-      return static_cast<double>(load<decltype(number)>(take(sizeof(number), item, property), order_));
+      return as_double(*this, load<decltype(number)>(take(sizeof(number), item, property), order_), item,
+                       property);
     });
   }
 
@@ -79,7 +99,8 @@ class BinaryValues {
     visit_type(type, [&](auto number) {
       const char* bytes = take(length * sizeof(number), item, property);
       for (std::size_t i = 0; i < length; ++i) {
-        values.push_back(static_cast<double>(load<decltype(number)>(bytes + i * sizeof(number), order_)));
+        const auto value = load<decltype(number)>(bytes + i * sizeof(number), order_);
+        values.push_back(as_double(*this, value, item, property));
       }
     });
   }
