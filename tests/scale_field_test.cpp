@@ -138,6 +138,29 @@ TEST(ScaleField, KnowsWhereMapsToTwoConesComeToRest) {
   for (const std::string signature : {"22", "33"}) expect_prediction(figure(), signature, {0.1, 0.05});
 }
 
+Mesh stretched_ball(int subdivisions) {
+  Mesh mesh = test::icosphere(subdivisions);
+  mesh.V.col(0) *= 3;
+  return mesh;
+}
+
+// It is what the elements at both cones cost, so finer meshes have less of it.
+TEST(ScaleField, OnlyWhereMapsSlideThereIsAKnownErrorAndFineMeshesHaveLess) {
+  const Known coarse(stretched_ball(2)), fine(stretched_ball(4));
+  const auto error = [](const Known& known, const std::string& signature) {
+    const Target target = parse_orbifold(signature);
+    ScaleField field = known.field(100);
+    return field.relative_error({target, choose_cones(known.surface, target)});
+  };
+  for (const std::string signature : {"432", "222", "442"})
+    EXPECT_EQ(error(figure(), signature), 0) << signature;
+  for (const std::string signature : {"2*", "*222"}) EXPECT_EQ(error(mask(), signature), 0) << signature;
+  EXPECT_GT(error(mask(), "*22"), 0);
+  EXPECT_GT(error(figure(), "22"), 0);
+  EXPECT_GT(error(coarse, "22"), 2 * error(fine, "22"));
+  EXPECT_LE(error(coarse, "99"), 0.1);
+}
+
 TEST(ScaleField, KnowsTheScaleOfMapsToThePlane) {
   expect_prediction(figure(), "442", fine);
   expect_prediction(mask(), "*333", fine);
@@ -195,6 +218,29 @@ TEST(ConeSearch, FindsAlmostTheSameWithAFirstLook) {
   const double thorough = found(0);
   EXPECT_EQ(found(1e9), thorough);
   EXPECT_LT(found(0.1), 1.02 * thorough);
+}
+
+TEST(ConeSearch, NoOtherCandidateAndNoExchangeIsClearlyBetterThanWhatADescentFinds) {
+  const Target target = parse_orbifold("432");
+  ScaleField field = figure().field(125);
+  ConeSearch search(field, figure().surface, figure().neighbors, Objective::sigma);
+  const Candidates candidates = spread_candidates(figure().surface, {}, 30);
+  for (const int first : {0, 4, 11}) {
+    MarkedTarget found = {target, {candidates.inside.begin() + first, candidates.inside.begin() + first + 3}};
+    const Score least = search.descend(found, candidates, {});
+    EXPECT_EQ(least.value, search.score(found).value);
+    for (int k = 0; k < 3; ++k) {
+      for (const int v : candidates.inside) {
+        MarkedTarget other = found;
+        other.cones[k] = v;
+        if (search.is_possible(other))
+          EXPECT_FALSE(search.score(other).is_clearly_below(least)) << k << " " << v;
+      }
+      MarkedTarget exchanged = found;
+      std::swap(exchanged.cones[k], exchanged.cones[(k + 1) % 3]);
+      EXPECT_FALSE(search.score(exchanged).is_clearly_below(least)) << k;
+    }
+  }
 }
 
 TEST(ScaleField, IsThatOfOrbifoldsOfSphereAndDisk) {
