@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "orbitutte/choose.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <random>
 #include <set>
 
 #include "orbitutte/cones/search.h"
+#include "orbitutte/io/mesh_io.h"
 #include "orbitutte/orbifold/signature.h"
 #include "orbitutte/report/choices.h"
 #include "orbitutte/samples/sample.h"
@@ -141,6 +145,26 @@ TEST(Choose, NoTripleOfFarVerticesIsClearlyBetter) {
     const double least = least_sigma(some, best.target, spread_candidates(*surface, {}, 22).inside);
     EXPECT_LT(all.sigma({best.target, best.cones}), 1.02 * least) << seed;
   }
+}
+
+double best_sigma(const std::shared_ptr<const Surface>& surface, const std::string& signature) {
+  ChooseOptions options;
+  options.target = parse_orbifold(signature);
+  return embed_best(surface, options).result.distortion.sigma;
+}
+
+// Its scale is an estimate, which coarse meshes make larger than it is.
+TEST(Choose, TwoConesAreTakenWhereTheirMapDistortsClearlyLess) {
+  const auto expect_taken = [](const std::shared_ptr<const Surface>& surface, const std::string& name) {
+    EXPECT_LE(embed_best(surface).result.distortion.sigma, 1.02 * best_sigma(surface, "22")) << name;
+  };
+  for (const double stretch : {2.0, 3.5}) {
+    Mesh mesh = test::icosphere(3);
+    mesh.V.col(0) *= stretch;
+    expect_taken(shared_surface(mesh), fmt::format("stretched by {}", stretch));
+  }
+  const std::string man = std::string(ORBITUTTE_SHARED_DIR) + "/meshes/my_man_maxp.off";
+  if (std::filesystem::exists(man)) expect_taken(shared_surface(to_triangle_mesh(read_mesh(man))), man);
 }
 
 TEST(Choose, KeepsTheSymbolAndTheVerticesThatAreGiven) {

@@ -138,6 +138,43 @@ TEST(ScaleField, KnowsWhereMapsToTwoConesComeToRest) {
   for (const std::string signature : {"22", "33"}) expect_prediction(figure(), signature, {0.1, 0.05});
 }
 
+Mesh stretched_ball(int subdivisions) {
+  Mesh mesh = test::icosphere(subdivisions);
+  mesh.V.col(0) *= 3;
+  return mesh;
+}
+
+double relative_error(const Known& known, const std::string& signature, const std::vector<int>& cones) {
+  ScaleField field = known.field(100);
+  return field.relative_error({parse_orbifold(signature), cones});
+}
+
+TEST(ScaleField, AnErrorIsKnownOnlyWhereMapsMaySlide) {
+  const auto error = [](const Known& known, const std::string& signature) {
+    return relative_error(known, signature, choose_cones(known.surface, parse_orbifold(signature)));
+  };
+  for (const std::string signature : {"432", "222", "442"})
+    EXPECT_EQ(error(figure(), signature), 0) << signature;
+  for (const std::string signature : {"2*", "*222"}) EXPECT_EQ(error(mask(), signature), 0) << signature;
+  EXPECT_GT(error(mask(), "*22"), 0);
+  EXPECT_GT(error(figure(), "22"), 0);
+}
+
+// It is what the elements at both cones cost, so finer meshes have less of it.
+TEST(ScaleField, TheKnownErrorFallsWithTheSizeOfTriangles) {
+  double before = 1;
+  for (const int subdivisions : {2, 3, 4}) {
+    const Known ball(stretched_ball(subdivisions));
+    std::vector<int> ends(2);
+    ball.surface.V.col(0).minCoeff(&ends[0]);
+    ball.surface.V.col(0).maxCoeff(&ends[1]);
+    const double error = relative_error(ball, "22", ends);
+    EXPECT_LT(error, 0.8 * before) << subdivisions;
+    EXPECT_GT(error, 0);
+    before = error;
+  }
+}
+
 TEST(ScaleField, KnowsTheScaleOfMapsToThePlane) {
   expect_prediction(figure(), "442", fine);
   expect_prediction(mask(), "*333", fine);
@@ -195,6 +232,29 @@ TEST(ConeSearch, FindsAlmostTheSameWithAFirstLook) {
   const double thorough = found(0);
   EXPECT_EQ(found(1e9), thorough);
   EXPECT_LT(found(0.1), 1.02 * thorough);
+}
+
+TEST(ConeSearch, NoOtherCandidateAndNoExchangeIsClearlyBetterThanWhatADescentFinds) {
+  const Target target = parse_orbifold("432");
+  ScaleField field = figure().field(125);
+  ConeSearch search(field, figure().surface, figure().neighbors, Objective::sigma);
+  const Candidates candidates = spread_candidates(figure().surface, {}, 30);
+  for (const int first : {0, 4, 11}) {
+    MarkedTarget found = {target, {candidates.inside.begin() + first, candidates.inside.begin() + first + 3}};
+    const Score least = search.descend(found, candidates, {});
+    EXPECT_EQ(least.value, search.score(found).value);
+    for (int k = 0; k < 3; ++k) {
+      for (const int v : candidates.inside) {
+        MarkedTarget other = found;
+        other.cones[k] = v;
+        if (search.is_possible(other))
+          EXPECT_FALSE(search.score(other).is_clearly_below(least)) << k << " " << v;
+      }
+      MarkedTarget exchanged = found;
+      std::swap(exchanged.cones[k], exchanged.cones[(k + 1) % 3]);
+      EXPECT_FALSE(search.score(exchanged).is_clearly_below(least)) << k;
+    }
+  }
 }
 
 TEST(ScaleField, IsThatOfOrbifoldsOfSphereAndDisk) {

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <set>
@@ -38,16 +39,20 @@ struct Margins {
   double few = 0.08, some = 0.005;
 };
 
+// Of which families the vertices are moved to where they are best, ring by ring.
+enum class Polished { all, likely_best };
+
 // How much is tried: all that is known where a table is wanted, or one target; where only the best of several
 // families is, what is likely to be it.
 struct Effort {
   int starts = 12, minima = 4;
-
-  // Of how many families the vertices are moved to where they are best, ring by ring.
-  int families = 1 << 30;
+  Polished polished = Polished::all;
 };
 
-constexpr Effort quick_effort = {6, 2, 2};
+constexpr Effort quick_effort = {6, 2, Polished::likely_best};
+
+// So many families are likely to have the best choice, and those whose scale is an estimate.
+constexpr int likely_families = 2;
 
 constexpr int highest_order = 12;
 
@@ -178,6 +183,9 @@ bool is_lower(const Scored& a, const Scored& b) { return a.score < b.score; }
 // The best of a family that were found from different starts, the best first.
 using Minima = std::vector<Scored>;
 
+// Up to rounding: then the cones differ in their order alone.
+bool are_the_same(double a, double b) { return std::abs(a - b) <= 1e-7 * std::abs(a); }
+
 // Sorts, and drops what is found twice and all but the best.
 void keep_the_best(Minima& minima, int most) {
   std::stable_sort(minima.begin(), minima.end(), is_lower);
@@ -185,11 +193,22 @@ void keep_the_best(Minima& minima, int most) {
   kept.reserve(most);
   for (Scored& next : minima) {
     const bool is_known = std::any_of(kept.begin(), kept.end(), [&](const Scored& other) {
-      return other.choice.cones == next.choice.cones || other.score.value == next.score.value;
+      return other.choice.cones == next.choice.cones || are_the_same(other.score.value, next.score.value);
     });
     if (!is_known && std::ssize(kept) < most) kept.push_back(std::move(next));
   }
   minima = std::move(kept);
+}
+
+// Brings the flagged ones to the front, in the order that they have, and says where the others begin.
+std::vector<Minima>::iterator first_those(const std::vector<char>& is_flagged, std::vector<Minima>& all) {
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (is_flagged[k]) {
+      std::rotate(all.begin() + static_cast<std::ptrdiff_t>(next), all.begin() + k, all.begin() + k + 1);
+      ++next;
+    }
+  return all.begin() + static_cast<std::ptrdiff_t>(next);
 }
 
 // The search over one surface, from its map to 222 or *222.
@@ -254,6 +273,14 @@ class BestCones {
   }
 
   ScaleSummary summary(const MarkedTarget& choice) { return many_.summary(choice); }
+
+  // Of scores of the choice: by how much of themselves they may be off, as far as that is known.
+  double relative_error(const MarkedTarget& choice) { return is_smooth() ? few_.relative_error(choice) : 0; }
+
+  // The score, were an estimate as far off as it may be.
+  Score at_best(const Scored& scored) {
+    return {scored.score.is_lost, (1 - relative_error(scored.choice)) * scored.score.value};
+  }
 
  private:
   bool is_smooth() const { return options_.objective == Objective::sigma; }
@@ -436,6 +463,12 @@ class Choosing {
     return result;
   }
 
+  // By how much of itself what is predicted of the row may be off, as far as that is known.
+  double relative_error(const Choice& row) const {
+    const auto at = relative_errors_.find(row.target.signature);
+    return at == relative_errors_.end() ? 0 : at->second;
+  }
+
   // What the first map and the search took.
   const Timings& timings() const { return timings_; }
 
@@ -452,7 +485,7 @@ class Choosing {
     return {solver_.embed(target, cones), cones};
   }
 
-  std::vector<Choice> search(const BaseMap& base, const std::vector<Contest>& targets) const {
+  std::vector<Choice> search(const BaseMap& base, const std::vector<Contest>& targets) {
     BestCones search(*surface_, base, options_, effort_);
     std::vector<Minima> found;
     for (const Contest& contest : targets)
@@ -463,6 +496,7 @@ class Choosing {
     rows.reserve(found.size());
     for (const Minima& minima : found) {
       const MarkedTarget marked = in_given_order(minima.front().choice, options_.cones);
+      relative_errors_[marked.target.signature] = search.relative_error(marked);
       rows.push_back({marked.target, marked.cones, search.summary(marked), {}, false, {}});
     }
     std::stable_sort(rows.begin(), rows.end(), [&](const Choice& a, const Choice& b) {
@@ -476,16 +510,21 @@ class Choosing {
     const auto is_better = [](const Minima& a, const Minima& b) { return is_lower(a.front(), b.front()); };
     for (Minima& minima : found) search.score(minima);
     std::stable_sort(found.begin(), found.end(), is_better);
-    const auto end = found.begin() + std::min<std::ptrdiff_t>(effort_.families, std::ssize(found));
     const Score least = found.front().front().score;
-    for (auto minima = found.begin(); minima != end; ++minima)
-      if (wants_all() || is_close(minima->front().score, least)) search.polish(*minima);
+    std::vector<char> is_likely;
+    for (const Minima& minima : found) {
+      const Score at_best = search.at_best(minima.front());
+      const bool may_lead = std::ssize(is_likely) < likely_families || at_best < minima.front().score;
+      is_likely.push_back(wants_all() || (may_lead && is_close(at_best, least)));
+    }
+    const auto end = first_those(is_likely, found);
+    for (auto minima = found.begin(); minima != end; ++minima) search.polish(*minima);
     std::stable_sort(found.begin(), end, is_better);
     for (auto minima = found.begin(); minima != (wants_all() ? end : found.begin() + 1); ++minima)
       search.polish_in_the_end(minima->front());
   }
 
-  bool wants_all() const { return effort_.families > std::ssize(family_table()); }
+  bool wants_all() const { return effort_.polished == Polished::all; }
 
   // May polishing make up for the difference to the best?
   static bool is_close(const Score& score, const Score& best) {
@@ -498,6 +537,9 @@ class Choosing {
   Effort effort_;
   EmbeddingSolver solver_;
   Timings timings_;
+
+  /// Of what is predicted of each symbol.
+  std::map<std::string, double> relative_errors_;
 };
 
 // What the embedding is judged by.
@@ -507,10 +549,10 @@ double value_of(const Distortion& distortion, const std::optional<ScaleSummary>&
   return score_of(*predicted, objective).value;
 }
 
-// Can no row from `next` on be clearly better than the value, going by the closed form?
-bool is_settled(const std::vector<Choice>& rows, std::size_t next, double value, Objective objective) {
-  return next < rows.size() && rows[next].predicted &&
-         score_of(*rows[next].predicted, objective).value > 0.98 * value;
+// May the row be clearly better than the value, going by the closed form, which may be off by so much of
+// itself?
+bool may_be_better(const Choice& row, double error, double value, Objective objective) {
+  return !row.predicted || (1 - error) * score_of(*row.predicted, objective).value <= 0.98 * value;
 }
 
 std::string name_of_choice(const Choice& choice) {
@@ -575,7 +617,9 @@ BestEmbedding embed_best(const std::shared_ptr<const Surface>& surface, const Ch
     for (std::size_t k = 0; k < best.choices.size(); ++k) {
       Choice& choice = best.choices[k];
       const bool has_certified = best.taken >= 0 && best.choice().is_certified;
-      if (has_certified && is_settled(best.choices, k, least, options.objective)) break;
+      if (has_certified && !may_be_better(choice, choosing.relative_error(choice), least, options.objective))
+        continue;
+
       try {
         EmbedResult result = choosing.solve(choice);
         const double value = value_of(result.distortion, choice.predicted, options.objective);

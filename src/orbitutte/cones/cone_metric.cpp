@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 
 #include "orbitutte/errors.h"
@@ -71,13 +72,12 @@ struct Ranks {
   int least, middle, greatest;
 };
 
-template <typename Key>
-Ranks ranks(const Key& key) {
-  Ranks r = {0, 1, 2};
-  if (key(r.least) > key(r.middle)) std::swap(r.least, r.middle);
-  if (key(r.middle) > key(r.greatest)) std::swap(r.middle, r.greatest);
-  if (key(r.least) > key(r.middle)) std::swap(r.least, r.middle);
-  return r;
+// Of three numbers, by a table: there is nothing in their order that a processor could foresee.
+Ranks ranks(const std::array<double, 3>& key) {
+  static constexpr Ranks of_comparisons[8] = {{0, 1, 2}, {1, 0, 2}, {0, 2, 1}, {},
+                                              {},        {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
+  const int comparisons = (key[0] > key[1]) | ((key[1] > key[2]) << 1) | ((key[0] > key[2]) << 2);
+  return of_comparisons[comparisons];
 }
 
 // In [0, pi].
@@ -105,9 +105,14 @@ ConeMetric::Numbering ConeMetric::number(double a, double b, double g) {
 
 ConeMetric::ConeMetric(const std::array<double, 3>& angles) : angles_(angles) {
   require_triangle(angles);
+  std::map<std::pair<double, double>, const Numbering*> known;  // by the angles at 0 and infinity
   for (int i = 0; i < 3; ++i)
-    for (int k = 0; k < 3; ++k)
-      if (i != k) numbering_[3 * i + k] = number(angles[i], angles[3 - i - k], angles[k]);
+    for (int k = 0; k < 3; ++k) {
+      if (i == k) continue;
+      const Numbering*& same = known[{angles[i], angles[k]}];
+      numbering_[3 * i + k] = same ? *same : number(angles[i], angles[3 - i - k], angles[k]);
+      same = &numbering_[3 * i + k];
+    }
 }
 
 double ConeMetric::Numbering::log_denominator(double radius_to_a, Complex z) const {
@@ -135,7 +140,7 @@ inline double ConeMetric::Numbering::table_value(double radius_to_a, double dire
 }
 
 double ConeMetric::log_scale(const ConeCoordinates& P) const {
-  const auto [i, j, k] = ranks([&](int m) { return std::norm(P[m]); });
+  const auto [i, j, k] = ranks({std::norm(P[0]), std::norm(P[1]), std::norm(P[2])});
   const Numbering& n = numbering(i, k);
   const double to_zero = std::log(std::abs(P[i] / P[k])), to_one = std::log(std::abs(P[j] / P[k]));
   return n.log_factor + (n.a - 1) * to_zero + (n.b - 1) * to_one -
@@ -143,7 +148,7 @@ double ConeMetric::log_scale(const ConeCoordinates& P) const {
 }
 
 inline double ConeMetric::looked_up(const ConeCoordinates& logs) const {
-  const auto [i, j, k] = ranks([&](int m) { return logs[m].real(); });
+  const auto [i, j, k] = ranks({logs[0].real(), logs[1].real(), logs[2].real()});
   const Numbering& n = numbering(i, k);
   const Complex log_z = logs[i] - logs[k];
   const double to_one = logs[j].real() - logs[k].real();

@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "orbitutte/geometry/morton.h"
+#include "orbitutte/orbifold/signature.h"
 
 namespace orbitutte {
 namespace {
@@ -23,6 +24,30 @@ Complex finite_log(const Complex& a) {
   if (square > safe) return {0.5 * std::log(square), angle};
   const double length = std::abs(a);
   return length > 0 ? Complex(std::log(length), angle) : Complex(least, 0);
+}
+
+// atan2(y, x) up to 2e-8 (M. Abramowitz, I. Stegun, "Handbook of Mathematical Functions" (1964), 4.4.49); not
+// both are 0.
+double quick_angle(double y, double x) {
+  const double along = std::abs(x), across = std::abs(y),
+               t = std::min(along, across) / std::max(along, across), q = t * t;
+  const double power_series =
+      1 + q * (-0.3333314528 +
+               q * (0.1999355085 +
+                    q * (-0.1420889944 +
+                         q * (0.1065626393 +
+                              q * (-0.0752896400 +
+                                   q * (0.0429096138 + q * (-0.0161657367 + q * 0.0028662257)))))));
+  const double octant = t * power_series, quadrant = across > along ? pi / 2 - octant : octant;
+  return std::copysign(x < 0 ? pi - quadrant : quadrant, y);
+}
+
+// finite_log for tables, which need no more digits.
+Complex quick_log(const Complex& a) {
+  constexpr double safe = 1e-290;
+  const double square = std::norm(a);
+  if (!(square > safe)) return finite_log(a);
+  return {0.5 * std::log(square), quick_angle(a.imag(), a.real())};
 }
 
 // Of the sphere; the double of a disk has twice the disk's.
@@ -104,8 +129,9 @@ PlaneEdges laid_out(const Vector3& first, const Vector3& second) {
   return {length, {first.dot(second) / length, first.cross(second).norm() / length}};
 }
 
-// By how much the Dirichlet energy of the linear map between two triangles exceeds the area, up to a factor:
-// the square of its part that reverses orientations, times the area. 0 where a triangle has no area.
+// By how much the Dirichlet energy of the linear map between two triangles exceeds the area, where the image
+// is measured in twice the lengths: 8 times the square of its part that reverses orientations, times the
+// area. 0 where a triangle has no area.
 double excess_of(const PlaneEdges& from, const PlaneEdges& to) {
   const double area = (std::conj(from.first) * from.second).imag();
   return area > 0 ? std::norm(to.first * from.second - to.second * from.first) / area : 0;
@@ -198,7 +224,7 @@ const ScaleField::Column& ScaleField::column(const Place& place) {
   if (is_new) {
     const ChartPoint& cone = point(place);
     at->second.reserve(samples_.size());
-    for (const ScaleSample& sample : samples_) at->second.push_back(finite_log(bracket(sample.point, cone)));
+    for (const ScaleSample& sample : samples_) at->second.push_back(quick_log(bracket(sample.point, cone)));
   }
   return at->second;
 }
@@ -216,10 +242,11 @@ void ScaleField::add_three_cones(const std::vector<Place>& cones, std::vector<do
                               {k0, k1, k2}, u);
 }
 
-// With z = [s, c_0]/[s, c_1] and m = scale_along_axis, rho(z) = 2 a e^m |z|^(a-1) / (1 + e^(2m) |z|^(2a)).
+// With z = [s, c_0]/[s, c_1] and m the scale along the axis, rho(z) = 2 a e^m |z|^(a-1) / (1 + e^(2m)
+// |z|^(2a)).
 void ScaleField::add_two_cones(const MarkedTarget& choice, const std::vector<Place>& cones,
                                std::vector<double>& u) {
-  const double a = cones[0].angle, m = choice.cones.size() == 1 ? 0 : scale_along_axis(cones),
+  const double a = cones[0].angle, m = choice.cones.size() == 1 ? 0 : balance_along_axis(cones).log_scale,
                all = std::log(2 * a) + log_bracket(cones[0], cones[1]).real();
   const Column &c0 = column(cones[0]), &c1 = column(cones[1]);
   for (std::size_t s = 0; s < u.size(); ++s) {
@@ -262,14 +289,20 @@ double ScaleField::excess_at(const Place& cone, const Place& other) {
 // Maps to NN and *NN may slide along their axis, which does not change their Dirichlet energy. What holds
 // them are the linear elements at both cones: their energy exceeds the area by the square of their size times
 // what excess_at says, and the sum of both is least where they are equal.
-double ScaleField::scale_along_axis(const std::vector<Place>& cones) {
-  const auto [at, is_new] =
-      scales_along_axes_.try_emplace({cones[0].vertex, cones[1].vertex, cones[0].angle}, 0);
+const ScaleField::AxisBalance& ScaleField::balance_along_axis(const std::vector<Place>& cones) {
+  const auto [at, is_new] = balances_.try_emplace({cones[0].vertex, cones[1].vertex, cones[0].angle});
   if (is_new) {
     const double first = excess_at(cones[0], cones[1]), second = excess_at(cones[1], cones[0]);
-    if (first > 0 && second > 0) at->second = 0.25 * std::log(second / first);
+    if (first > 0 && second > 0)
+      at->second = {0.25 * std::log(second / first), 2 * std::sqrt(first * second)};
   }
   return at->second;
+}
+
+double ScaleField::relative_error(const MarkedTarget& choice) {
+  constexpr double most = 0.1;
+  if (!are_opposite(choice.target.marks)) return 0;
+  return std::min(2 * balance_along_axis(places(choice)).excess / area_of_target(choice.target), most);
 }
 
 double ScaleField::mean_over_samples(const std::vector<double>& u) const {

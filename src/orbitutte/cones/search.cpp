@@ -171,12 +171,16 @@ bool ConeSearch::try_exchanges(MarkedTarget& choice, const Freedom& freedom, Sco
 Score ConeSearch::descend(MarkedTarget& choice, const Candidates& candidates, const Freedom& freedom) {
   Score best = score(choice);
   look_at_best(choice);
-  for (bool goes_on = true; goes_on;) {
-    goes_on = try_exchanges(choice, freedom, best);
-    for (int k = 0; k < static_cast<int>(choice.cones.size()); ++k)
-      if (!is_kept(freedom, choice.cones[k]))
-        goes_on |= try_candidates(choice, k, candidates.of(choice.target, k), best);
-  }
+  const int marks = static_cast<int>(choice.cones.size());
+  // Candidates that were tried are no better before something else has changed.
+  for (int k = -1, idle = 0; idle <= marks; k = k + 1 < marks ? k + 1 : -1)
+    if (k < 0)
+      idle = try_exchanges(choice, freedom, best) ? 0 : idle + 1;
+    else
+      idle = !is_kept(freedom, choice.cones[k]) &&
+                     try_candidates(choice, k, candidates.of(choice.target, k), best)
+                 ? 1
+                 : idle + 1;
   return best;
 }
 
@@ -194,12 +198,13 @@ Score ConeSearch::polish(MarkedTarget& choice, const Freedom& freedom) {
   constexpr int most_sweeps = 20;
   Score best = score(choice);
   look_at_best(choice);
-  bool goes_on = true;
-  for (int sweep = 0; goes_on && sweep < most_sweeps; ++sweep) {
-    goes_on = try_exchanges(choice, freedom, best);
-    for (int k = 0; k < static_cast<int>(choice.cones.size()); ++k)
-      if (!is_kept(freedom, choice.cones[k]))
-        goes_on |= try_candidates(choice, k, rings_around(choice.cones[k]), best);
+  const int marks = static_cast<int>(choice.cones.size());
+  int steps_left = most_sweeps * (marks + 1);
+  for (int k = -1, idle = 0; idle <= marks && steps_left-- > 0; k = k + 1 < marks ? k + 1 : -1) {
+    const bool helps = k < 0 ? try_exchanges(choice, freedom, best)
+                             : !is_kept(freedom, choice.cones[k]) &&
+                                   try_candidates(choice, k, rings_around(choice.cones[k]), best);
+    idle = helps ? 0 : idle + 1;
   }
   return best;
 }
