@@ -10,8 +10,10 @@
 #include <set>
 
 #include "orbitutte/cones/extremities.h"
+#include "orbitutte/cones/marked_cones.h"
 #include "orbitutte/cones/search.h"
 #include "orbitutte/orbifold/families.h"
+#include "orbitutte/orbifold/polygon.h"
 #include "orbitutte/orbifold/signature.h"
 #include "orbitutte/orbifold/target_words.h"
 #include "orbitutte/parallel.h"
@@ -555,6 +557,53 @@ auto with_threads_for(const ChooseOptions& options, const Compute& compute) {
   return with_threads(options.embed.threads, compute);
 }
 
+// What can be said against the map of fitted cones, the worst last.
+enum class FittedFault { none, not_conformal, other_weights, not_certified };
+
+FittedFault fault_of(const EmbedResult& result, const ConeWishes& wishes) {
+  constexpr double far_from_conformal = 1.1;
+  if (!result.certificate.bijective) return FittedFault::not_certified;
+  if (result.requested_weights) return FittedFault::other_weights;
+  const double conformality = result.minimum.energy / (2 * target_area(result.embedding.target));
+  return are_placed(wishes) && conformality > far_from_conformal ? FittedFault::not_conformal
+                                                                 : FittedFault::none;
+}
+
+const char* text_of(FittedFault fault) {
+  if (fault == FittedFault::not_certified) return "their map is not certified";
+  if (fault == FittedFault::other_weights) return "their map is certified with other weights only";
+  return "their map is far from conformal";
+}
+
+// What is tried in place of these, in this order.
+std::vector<FitOptions> milder_fits(const FitOptions& options) {
+  constexpr double milder_angle = 1.6, milder_excess = 0.01, whatever_sigma = 1;
+  std::vector<FitOptions> result;
+  FitOptions milder = options;
+  milder.greatest_angle = std::min(options.greatest(), milder_angle);
+  if (milder.greatest() < options.greatest()) result.push_back(milder);
+  milder.greatest_excess = std::min(options.greatest_excess, milder_excess);
+  milder.sigma_for_shares = milder.sigma_in_vain = whatever_sigma;
+  result.push_back(milder);
+  return result;
+}
+
+// The cones for milder angles; none if there are no such.
+std::optional<FittedCones> milder_cones(const Surface& surface, ConeWishes wishes, const FitOptions& fit) {
+  wishes.fit = fit;
+  try {
+    return find_cones(surface, wishes);
+  } catch (const MeshError&) {
+    return std::nullopt;
+  }
+}
+
+EmbedResult embed_cones(const Surface& surface, const std::string& signature, const FittedCones& cones,
+                        const EmbedOptions& options) {
+  const MarkedCones marked = marked_cones(surface, signature, cones.vertices, cones.fit.angles);
+  return embed(surface, marked.target, marked.vertices, options);
+}
+
 }  // namespace
 
 Candidates cone_candidates(const Surface& surface) {
@@ -598,6 +647,35 @@ BestEmbedding embed_best(const std::shared_ptr<const Surface>& surface, const Ch
     if (options.target) keep_what_was_taken(best);
     return best;
   });
+}
+
+EmbedResult embed_fitted(const Surface& surface, const std::string& signature, const FittedChoice& choice,
+                         const EmbedOptions& options) {
+  EmbedResult best = embed_cones(surface, signature, choice.cones, options);
+  const FittedFault fault = fault_of(best, choice.wishes);
+  if (fault == FittedFault::none || choice.wishes.are_orders) return best;
+  FittedFault least = fault;
+  Timings timings = best.timings;
+  double sigma = choice.cones.fit.sigma;
+  for (const FitOptions& fit : milder_fits(choice.wishes.fit)) {
+    const std::optional<FittedCones> cones = milder_cones(surface, choice.wishes, fit);
+    if (!cones) continue;
+    EmbedResult next = embed_cones(surface, signature, *cones, options);
+    timings.insert(timings.end(), next.timings.begin(), next.timings.end());
+    const FittedFault its_fault = fault_of(next, choice.wishes);
+    if (!(its_fault < least)) continue;
+    least = its_fault;
+    sigma = cones->fit.sigma;
+    best = std::move(next);
+    if (least == FittedFault::none) break;
+  }
+  best.timings = std::move(timings);
+  if (least != fault)
+    best.warnings.push_back(
+        fmt::format("cones of a sigma of {:.3f} are expected to distort less, but {}; others, of {:.3f}, "
+                    "were taken",
+                    choice.cones.fit.sigma, text_of(fault), sigma));
+  return best;
 }
 
 std::vector<Choice> choose(std::shared_ptr<const Surface> surface, const ChooseOptions& options, int solved) {
