@@ -671,10 +671,10 @@ EmbedResult embed_fitted(const Surface& surface, const std::string& signature, c
   }
   best.timings = std::move(timings);
   if (least != fault)
-    best.warnings.push_back(
-        fmt::format("cones of a sigma of {:.3f} are expected to distort less, but {}; others, of {:.3f}, "
-                    "were taken",
-                    choice.cones.fit.sigma, text_of(fault), sigma));
+    best.warnings.push_back(fmt::format(
+        "the cones of the least expected sigma, {:.3f}, were not taken, since {}; others, of a sigma of "
+        "{:.3f}, were taken",
+        choice.cones.fit.sigma, text_of(fault), sigma));
   return best;
 }
 
