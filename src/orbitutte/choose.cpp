@@ -588,6 +588,17 @@ std::vector<FitOptions> milder_fits(const FitOptions& options) {
   return result;
 }
 
+// And what where none of that is certified: at last angles below 2 pi, for which the minimum is the only one.
+std::vector<FitOptions> mildest_fits(const FitOptions& options) {
+  std::vector<FitOptions> result;
+  for (const double angle : {1.4, 1.2, 0.99})
+    if (angle < options.greatest()) {
+      FitOptions& milder = result.emplace_back(milder_fits(options).back());
+      milder.greatest_angle = angle;
+    }
+  return result;
+}
+
 // The cones for milder angles; none if there are no such.
 std::optional<FittedCones> milder_cones(const Surface& surface, ConeWishes wishes, const FitOptions& fit) {
   wishes.fit = fit;
@@ -651,30 +662,36 @@ BestEmbedding embed_best(const std::shared_ptr<const Surface>& surface, const Ch
 
 EmbedResult embed_fitted(const Surface& surface, const std::string& signature, const FittedChoice& choice,
                          const EmbedOptions& options) {
-  EmbedResult best = embed_cones(surface, signature, choice.cones, options);
-  const FittedFault fault = fault_of(best, choice.wishes);
-  if (fault == FittedFault::none || choice.wishes.are_orders) return best;
+  const ConeWishes& wishes = choice.wishes;
+  const FittedCones& first = choice.cones;
+  EmbedResult best = embed_cones(surface, signature, first, options);
+  const FittedFault fault = fault_of(best, wishes);
+  if (fault == FittedFault::none || wishes.are_orders) return best;
   FittedFault least = fault;
   Timings timings = best.timings;
-  double sigma = choice.cones.fit.sigma;
-  for (const FitOptions& fit : milder_fits(choice.wishes.fit)) {
-    const std::optional<FittedCones> cones = milder_cones(surface, choice.wishes, fit);
-    if (!cones) continue;
-    EmbedResult next = embed_cones(surface, signature, *cones, options);
-    timings.insert(timings.end(), next.timings.begin(), next.timings.end());
-    const FittedFault its_fault = fault_of(next, choice.wishes);
-    if (!(its_fault < least)) continue;
-    least = its_fault;
-    sigma = cones->fit.sigma;
-    best = std::move(next);
-    if (least == FittedFault::none) break;
-  }
+  double sigma = first.fit.sigma;
+  const auto try_all = [&](const std::vector<FitOptions>& fits) {
+    for (const FitOptions& fit : fits) {
+      if (least == FittedFault::none) return;
+      const std::optional<FittedCones> cones = milder_cones(surface, wishes, fit);
+      if (!cones) continue;
+      EmbedResult next = embed_cones(surface, signature, *cones, options);
+      timings.insert(timings.end(), next.timings.begin(), next.timings.end());
+      const FittedFault its_fault = fault_of(next, wishes);
+      if (!(its_fault < least)) continue;
+      least = its_fault;
+      sigma = cones->fit.sigma;
+      best = std::move(next);
+    }
+  };
+  try_all(milder_fits(wishes.fit));
+  if (least == FittedFault::not_certified) try_all(mildest_fits(wishes.fit));
   best.timings = std::move(timings);
   if (least != fault)
     best.warnings.push_back(fmt::format(
         "the cones of the least expected sigma, {:.3f}, were not taken, since {}; others, of a sigma of "
         "{:.3f}, were taken",
-        choice.cones.fit.sigma, text_of(fault), sigma));
+        first.fit.sigma, text_of(fault), sigma));
   return best;
 }
 
