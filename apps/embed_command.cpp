@@ -74,18 +74,17 @@ ConeWishes cone_wishes(const EmbedArguments& arguments, const Surface& surface) 
 }
 
 // Cones whose angles, and places as far as they are not given, fit the surface best.
-Wish wish_for_fitted_angles(const EmbedArguments& arguments, const Surface& surface) {
-  const FittedCones found = find_cones(surface, cone_wishes(arguments, surface));
-  const MarkedCones marked = marked_cones(surface, arguments.orbifold, found.vertices, found.fit.angles);
+FittedChoice choose_fitted(const EmbedArguments& arguments, const Surface& surface) {
+  const ConeWishes wishes = cone_wishes(arguments, surface);
+  const FittedChoice choice = {wishes, find_cones(surface, wishes)};
   if (!arguments.quiet)
-    tell("orbitutte: {} cones of fitted angles; sigma {:.3f} is expected\n", found.vertices.size(),
-         found.fit.sigma);
-  return {marked.target, ConesWord::none, marked.vertices};
+    tell("orbitutte: {} cones of fitted angles; sigma {:.3f} is expected\n", choice.cones.vertices.size(),
+         choice.cones.fit.sigma);
+  return choice;
 }
 
-// Cones of any angles, on the surface. The program chooses none of them unless the angles are fitted.
+// Cones of given angles, on the surface. The program chooses none of them.
 Wish wish_for_angles(const EmbedArguments& arguments, const Surface& surface) {
-  if (arguments.angles == fitted_word) return wish_for_fitted_angles(arguments, surface);
   const std::vector<double> angles = parse_angles(arguments.angles);
   const ConesWord word = cones_word(arguments.cones);
   const std::vector<int> vertices =
@@ -327,14 +326,20 @@ int embed_command(const EmbedArguments& asked) {
       wish = wish_from(arguments);
   }
 
-  if (has_angles) wish = wish_for_angles(arguments, *surface);
-  mark_extremities(*surface, wish);
+  std::optional<FittedChoice> fitted;
+  if (arguments.angles == fitted_word)
+    fitted = choose_fitted(arguments, *surface);
+  else if (has_angles)
+    wish = wish_for_angles(arguments, *surface);
+  if (!fitted) mark_extremities(*surface, wish);
   const ProgressLine line(arguments.quiet);
   options.progress = [&](const Progress& progress) {
     line.show(progress);
     return true;
   };
-  BestEmbedding embedded = embed_wish(surface, wish, {objective, wish.target, wish.cones, options});
+  BestEmbedding embedded =
+      fitted ? BestEmbedding{objective, {}, 0, embed_fitted(*surface, arguments.orbifold, *fitted, options)}
+             : embed_wish(surface, wish, {objective, wish.target, wish.cones, options});
   EmbedResult& result = embedded.result;
   if (arguments.floor) measure_floor(*surface, options, result);
   result.warnings.insert(result.warnings.begin(), reader_warnings.begin(), reader_warnings.end());

@@ -516,6 +516,15 @@ class Euclidean(CommandLine):
             energies.append(json.loads((self.folder / 'cones.json').read_text())['energy'])
         self.assertAlmostEqual(*energies, delta=1e-9 * energies[0])
 
+    def test_fitted_cones_that_are_not_certified_give_way_to_milder_ones_and_a_warning_says_so(self):
+        self.expect(0, 'sample', '--faces', 600, '-o', 'coarse.obj')
+        fitted = ['embed', 'coarse.obj', '--orbifold', 'cones', '--angles', 'fitted', '--cones', 'extremities', '--count']
+        self.expect(0, *fitted, 16, '--report', 'milder.json', says=['warning: .*not certified; others, of a sigma of .* were taken', 'certified: bijective'])
+        report = json.loads((self.folder / 'milder.json').read_text())
+        self.assertLessEqual(max(cone['angle'] for cone in report['cones']), 3.2 * math.pi + 1e-9)
+        self.assertTrue(any('were taken' in warning for warning in report['warnings']))
+        self.assertNotIn('were taken', self.expect(0, *fitted, 5).stderr)
+
 
 class WholeSphere(CommandLine):
     def setUp(self):

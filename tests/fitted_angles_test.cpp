@@ -6,14 +6,17 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 
+#include "orbitutte/choose.h"
 #include "orbitutte/cones/extremities.h"
 #include "orbitutte/cones/fitted_cones.h"
 #include "orbitutte/cones/marked_cones.h"
 #include "orbitutte/embed.h"
 #include "orbitutte/samples/sample.h"
+#include "orbitutte/verify/distortion.h"
 #include "orbitutte/weights/weights.h"
 #include "test_meshes.h"
 
@@ -216,16 +219,52 @@ TEST(FittedAngles, OfConesThatTakeTooMuchAreLarger) {
   };
   FitOptions options;
   options.greatest_share = 1;
+  options.greatest_excess = std::numeric_limits<double>::infinity();
   const FittedAngles least = fit_angles(mask().kernel, corners, options);
   options.greatest_share = 0.85 * greatest_share(least);
   options.sigma_for_shares = 1;
   const FittedAngles spared = fit_angles(mask().kernel, corners, options);
   EXPECT_LE(greatest_share(spared), options.greatest_share);
   EXPECT_GT(spared.sigma, least.sigma);
-  options.sigma_for_shares = 0.5 * (spared.sigma / least.sigma - 1);
+  options.sigma_for_shares = options.sigma_in_vain = 0.5 * (spared.sigma / least.sigma - 1);
   const FittedAngles between = fit_angles(mask().kernel, corners, options);
   EXPECT_LE(between.sigma, (1 + options.sigma_for_shares) * least.sigma);
   EXPECT_GT(greatest_share(between), options.greatest_share);
+}
+
+// What the triangles around a cone add to E/2A in the surface's own metric.
+double excess_around(const Surface& surface, const Embedding& map, int vertex) {
+  const std::vector<FaceDistortion> faces = measure_triangles(surface, map);
+  double excess = 0;
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    if ((surface.triangles.row(static_cast<Eigen::Index>(f)).array() == vertex).any())
+      excess += faces[f].share * faces[f].area * ((faces[f].angle + 1 / faces[f].angle) / 2 - 1);
+  return excess;
+}
+
+// The triangles around a cone stretch as little as they may, whatever sigma becomes.
+TEST(FittedAngles, OfConesThatStretchTheirTrianglesAreLarger) {
+  const Fitted coarse(sample_mesh({SampleShape::figure, 2000}));
+  const std::vector<int> cones = coarse.extremities(8);
+  const auto worst = [&](const FittedAngles& fit) {
+    const MarkedCones marked = marked_cones(coarse.surface, "cones", cones, fit.angles);
+    const Embedding map = embed(coarse.surface, marked.target, marked.vertices).embedding;
+    double excess = 0;
+    for (std::size_t k = 0; k < cones.size(); ++k)
+      if (fit.angles[k] < pi) excess = std::max(excess, excess_around(coarse.surface, map, cones[k]));
+    return excess;
+  };
+  FitOptions options;
+  options.greatest_share = 1;
+  options.greatest_excess = std::numeric_limits<double>::infinity();
+  const FittedAngles least = fit_angles(coarse.kernel, cones, options);
+  options.greatest_excess = worst(least) / 4;
+  options.sigma_for_shares = 1;
+  const FittedAngles spared = fit_angles(coarse.kernel, cones, options);
+  EXPECT_LT(worst(spared), 2 * options.greatest_excess) << "as well as the Laplacian predicts it";
+  EXPECT_GT(spared.sigma, least.sigma);
+  EXPECT_GT(*std::min_element(spared.angles.begin(), spared.angles.end()),
+            *std::min_element(least.angles.begin(), least.angles.end()));
 }
 
 // With three equal cones the target is the orbifold 333, onto which the surface can be mapped.
@@ -297,6 +336,66 @@ TEST(FittedCones, OrdersAreThoseOfAnOrbifold) {
     EXPECT_LE(order, 12 + 1e-9);
   }
   EXPECT_GE(fit.sigma, fit_angles(figure().kernel, cones, {std::nullopt, 1e-9, 1}).sigma);
+}
+
+// ---------------------------------------------------------------------------------------------- their maps
+
+bool says_what_was_taken(const EmbedResult& result) {
+  return std::any_of(result.warnings.begin(), result.warnings.end(), [](const std::string& warning) {
+    return warning.find("were taken") != std::string::npos;
+  });
+}
+
+ConeWishes wishes_for(const std::vector<int>& kept) {
+  ConeWishes wishes;
+  wishes.kept = kept;
+  wishes.count = static_cast<int>(kept.size());
+  return wishes;
+}
+
+// On a mesh too coarse for 16 cones, milder angles are taken, and a warning says so.
+TEST(FittedEmbedding, IsCertifiedWithMilderAnglesWhereItIsNotWithTheFirst) {
+  const Fitted coarse(sample_mesh({SampleShape::figure, 600}));
+  const ConeWishes wishes = wishes_for(coarse.extremities(16));
+  const FittedCones found = find_cones(coarse.surface, wishes);
+  const MarkedCones marked = marked_cones(coarse.surface, "cones", found.vertices, found.fit.angles);
+  ASSERT_FALSE(embed(coarse.surface, marked.target, marked.vertices).certificate.bijective);
+  const EmbedResult result = embed_fitted(coarse.surface, "cones", {wishes, found});
+  EXPECT_TRUE(result.certificate.bijective);
+  EXPECT_TRUE(says_what_was_taken(result));
+  for (const ConeCopies& cone : result.embedding.cones) {
+    EXPECT_TRUE(std::count(wishes.kept.begin(), wishes.kept.end(), cone.vertex)) << "places were given";
+    EXPECT_LE(cone.mark.angle, 1.6 * 2 * pi + 1e-9);
+  }
+}
+
+TEST(FittedEmbedding, IsThatOfTheFirstConesWhereNothingIsWrongWithIt) {
+  const ConeWishes wishes = wishes_for(figure().extremities(5));
+  const FittedCones found = find_cones(figure().surface, wishes);
+  const MarkedCones marked = marked_cones(figure().surface, "cones", found.vertices, found.fit.angles);
+  const EmbedResult result = embed_fitted(figure().surface, "cones", {wishes, found});
+  EXPECT_EQ(result.embedding.positions,
+            embed(figure().surface, marked.target, marked.vertices).embedding.positions);
+  EXPECT_FALSE(says_what_was_taken(result));
+}
+
+// The tip of an arm turns faces over. It is drawn to its centre by weights, so that only its neighbours move.
+TEST(FittedEmbedding, OfTurnedTipsMovesTheirNeighboursAlone) {
+  const Fitted coarse(sample_mesh({SampleShape::figure, 2000}));
+  const std::vector<int> cones = coarse.extremities(6);
+  FitOptions options;
+  options.greatest_share = 1;
+  options.greatest_excess = std::numeric_limits<double>::infinity();
+  const MarkedCones marked =
+      marked_cones(coarse.surface, "cones", cones, fit_angles(coarse.kernel, cones, options).angles);
+  const EmbedResult result = embed(coarse.surface, marked.target, marked.vertices);
+  ASSERT_TRUE(result.certificate.bijective);
+  ASSERT_FALSE(result.moved_vertices.empty());
+  std::vector<char> is_near(coarse.surface.vertex_count(), 0);
+  for (const auto& [a, b] : coarse.surface.connectivity.edges)
+    for (const int cone : cones)
+      if (a == cone || b == cone) is_near[a] = is_near[b] = 1;
+  for (const int v : result.moved_vertices) EXPECT_TRUE(is_near[v]) << v;
 }
 
 }  // namespace

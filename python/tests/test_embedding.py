@@ -311,7 +311,8 @@ def test_floor_lies_below_the_map_and_does_not_depend_on_the_weights():
     assert floor == orbitutte.distortion_floor(V, F, "432", "auto")
 
 
-def test_fitted_cones_distort_as_little_as_expected(figure):
+def test_fitted_cones_distort_as_little_as_expected():
+    figure = orbitutte.sample_mesh("figure", 2000)
     few, many = (orbitutte.fitted_cones(*figure, count) for count in (4, 8))
     assert many.sigma < few.sigma and len(many.vertices) == len(many.angles) == 8
     assert np.isclose(np.sum(2 * np.pi - many.angles), 4 * np.pi)

@@ -11,8 +11,10 @@
 #include <set>
 
 #include "orbitutte/cones/extremities.h"
+#include "orbitutte/cones/marked_cones.h"
 #include "orbitutte/cones/search.h"
 #include "orbitutte/orbifold/families.h"
+#include "orbitutte/orbifold/polygon.h"
 #include "orbitutte/orbifold/signature.h"
 #include "orbitutte/orbifold/target_words.h"
 #include "orbitutte/parallel.h"
@@ -597,6 +599,64 @@ auto with_threads_for(const ChooseOptions& options, const Compute& compute) {
   return with_threads(options.embed.threads, compute);
 }
 
+// What can be said against the map of fitted cones, the worst last.
+enum class FittedFault { none, not_conformal, other_weights, not_certified };
+
+FittedFault fault_of(const EmbedResult& result, const ConeWishes& wishes) {
+  constexpr double far_from_conformal = 1.1;
+  if (!result.certificate.bijective) return FittedFault::not_certified;
+  if (result.requested_weights) return FittedFault::other_weights;
+  const double conformality = result.minimum.energy / (2 * target_area(result.embedding.target));
+  return are_placed(wishes) && conformality > far_from_conformal ? FittedFault::not_conformal
+                                                                 : FittedFault::none;
+}
+
+const char* text_of(FittedFault fault) {
+  if (fault == FittedFault::not_certified) return "their map is not certified";
+  if (fault == FittedFault::other_weights) return "their map is certified with other weights only";
+  return "their map is far from conformal";
+}
+
+// What is tried in place of these, in this order.
+std::vector<FitOptions> milder_fits(const FitOptions& options) {
+  constexpr double milder_angle = 1.6, milder_excess = 0.01, whatever_sigma = 1;
+  std::vector<FitOptions> result;
+  FitOptions milder = options;
+  milder.greatest_angle = std::min(options.greatest(), milder_angle);
+  if (milder.greatest() < options.greatest()) result.push_back(milder);
+  milder.greatest_excess = std::min(options.greatest_excess, milder_excess);
+  milder.sigma_for_shares = milder.sigma_in_vain = whatever_sigma;
+  result.push_back(milder);
+  return result;
+}
+
+// And what where none of that is certified: at last angles below 2 pi, for which the minimum is the only one.
+std::vector<FitOptions> mildest_fits(const FitOptions& options) {
+  std::vector<FitOptions> result;
+  for (const double angle : {1.4, 1.2, 0.99})
+    if (angle < options.greatest()) {
+      FitOptions& milder = result.emplace_back(milder_fits(options).back());
+      milder.greatest_angle = angle;
+    }
+  return result;
+}
+
+// The cones for milder angles; none if there are no such.
+std::optional<FittedCones> milder_cones(const Surface& surface, ConeWishes wishes, const FitOptions& fit) {
+  wishes.fit = fit;
+  try {
+    return find_cones(surface, wishes);
+  } catch (const MeshError&) {
+    return std::nullopt;
+  }
+}
+
+EmbedResult embed_cones(const Surface& surface, const std::string& signature, const FittedCones& cones,
+                        const EmbedOptions& options) {
+  const MarkedCones marked = marked_cones(surface, signature, cones.vertices, cones.fit.angles);
+  return embed(surface, marked.target, marked.vertices, options);
+}
+
 }  // namespace
 
 Candidates cone_candidates(const Surface& surface) {
@@ -642,6 +702,41 @@ BestEmbedding embed_best(const std::shared_ptr<const Surface>& surface, const Ch
     if (options.target) keep_what_was_taken(best);
     return best;
   });
+}
+
+EmbedResult embed_fitted(const Surface& surface, const std::string& signature, const FittedChoice& choice,
+                         const EmbedOptions& options) {
+  const ConeWishes& wishes = choice.wishes;
+  const FittedCones& first = choice.cones;
+  EmbedResult best = embed_cones(surface, signature, first, options);
+  const FittedFault fault = fault_of(best, wishes);
+  if (fault == FittedFault::none || wishes.are_orders) return best;
+  FittedFault least = fault;
+  Timings timings = best.timings;
+  double sigma = first.fit.sigma;
+  const auto try_all = [&](const std::vector<FitOptions>& fits) {
+    for (const FitOptions& fit : fits) {
+      if (least == FittedFault::none) return;
+      const std::optional<FittedCones> cones = milder_cones(surface, wishes, fit);
+      if (!cones) continue;
+      EmbedResult next = embed_cones(surface, signature, *cones, options);
+      timings.insert(timings.end(), next.timings.begin(), next.timings.end());
+      const FittedFault its_fault = fault_of(next, wishes);
+      if (!(its_fault < least)) continue;
+      least = its_fault;
+      sigma = cones->fit.sigma;
+      best = std::move(next);
+    }
+  };
+  try_all(milder_fits(wishes.fit));
+  if (least == FittedFault::not_certified) try_all(mildest_fits(wishes.fit));
+  best.timings = std::move(timings);
+  if (least != fault)
+    best.warnings.push_back(fmt::format(
+        "the cones of the least expected sigma, {:.3f}, were not taken, since {}; others, of a sigma of "
+        "{:.3f}, were taken",
+        first.fit.sigma, text_of(fault), sigma));
+  return best;
 }
 
 std::vector<Choice> choose(std::shared_ptr<const Surface> surface, const ChooseOptions& options, int solved) {

@@ -5,8 +5,10 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "orbitutte/cones/cone_wishes.h"
 #include "orbitutte/cones/objective.h"
 #include "orbitutte/embed.h"
 
@@ -68,6 +70,22 @@ BestEmbedding embed_best(const std::shared_ptr<const Surface>& surface, const Ch
 /// The vertices that the search begins with: the extremities that its first map marks, and then the farthest
 /// from those before. Throws MeshError unless the surface is a sphere, a disk or a projective plane.
 Candidates cone_candidates(const Surface& surface);
+
+/// What is asked of cones of fitted angles, and the cones that find_cones finds for it.
+struct FittedChoice {
+  ConeWishes wishes;
+  FittedCones cones;
+};
+
+/// Embeds into the target that fitted cones make; signature: `cones` or `*cones`. Where the map is not
+/// certified, or with other weights than those that were wanted, or far from conformal though places are free
+/// (E/2A above 1.1), cones of milder angles are sought, at other places as far as these are free: first of
+/// at most 1.6 times the flat angle, then with small angles that spare their triangles whatever sigma
+/// becomes, and, where none of that is certified, of at most 1.4, 1.2 and 0.99 times the flat angle. The
+/// first choice without such a fault is taken, or else the first with the least, and EmbedResult::warnings
+/// says so. With `are_orders` nothing else is tried. Throws as embed does.
+EmbedResult embed_fitted(const Surface& surface, const std::string& signature, const FittedChoice& choice,
+                         const EmbedOptions& options = {});
 
 /// The table, each symbol once, the first `solved` rows of it embedded. Where nothing is predicted, all are
 /// embedded.

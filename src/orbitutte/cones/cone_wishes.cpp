@@ -51,9 +51,9 @@ FittedCones find_cones(const Surface& surface, const ConeWishes& wishes, const W
   const ScaleKernel kernel(surface, edge_weights(surface, weights), available_backends().front());
   ConeWishes wanted = wishes;
   if (wishes.are_orders) wanted.fit.area.reset();
-  const bool are_placed = wishes.sigma || wishes.count > static_cast<int>(wishes.kept.size());
-  FittedCones found = are_placed ? place_cones(kernel, wanted)
-                                 : FittedCones{wishes.kept, fit_angles(kernel, wishes.kept, wanted.fit)};
+  FittedCones found = are_placed(wishes)
+                          ? place_cones(kernel, wanted)
+                          : FittedCones{wishes.kept, fit_angles(kernel, wishes.kept, wanted.fit)};
   if (wishes.are_orders) found.fit = fit_orders(kernel, found.vertices);
   return in_order_of_boundary(surface, found);
 }

@@ -24,10 +24,12 @@ struct FitOptions {
   std::optional<double> greatest_angle = {};
 
   /// The triangles around a cone are stretched as much as its angle differs from theirs. A small angle
-  /// is therefore made larger until they have no more than this share of the target's area, or until sigma
-  /// has grown by this part. A share of 1 keeps the angles of least sigma.
-  double greatest_share = 0.05;
-  double sigma_for_shares = 0.01;
+  /// is therefore made larger until they have no more than this share of the target's area and add no more
+  /// than this excess to E/2A (by their stretch in the surface's own metric), unless sigma would grow by more
+  /// than the part `sigma_for_shares`; then until it has grown by the part `sigma_in_vain`. A share of 1 and
+  /// an infinite excess keep the angles of least sigma.
+  double greatest_share = 0.03, greatest_excess = 0.05;
+  double sigma_for_shares = 0.1, sigma_in_vain = 0.01;
 
   double greatest() const { return greatest_angle.value_or(area && *area == 0 ? 1.95 : 0.99); }
 };
@@ -61,6 +63,11 @@ struct ConeWishes {
   /// Are the angles to be those of an orbifold, 2 pi/n, and pi/n at corners? Their area is then their own.
   bool are_orders = false;
 };
+
+/// Are there more cones than those that are kept?
+inline bool are_placed(const ConeWishes& wishes) {
+  return wishes.sigma || wishes.count > static_cast<int>(wishes.kept.size());
+}
 
 /// Cones and their angles.
 struct FittedCones {

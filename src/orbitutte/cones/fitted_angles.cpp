@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace orbitutte {
 namespace {
@@ -108,36 +109,77 @@ struct AngleFit {
   CurvatureBounds bounds;
 };
 
-// Bounds for the angles of cones that take too much of the target: a little above what they are. Nothing if
-// there are no such cones, or if no angles would be left.
-std::optional<CurvatureBounds> with_larger_angles(const AngleFit& at, const Eigen::VectorXd& curvatures,
-                                                  double greatest_share) {
-  constexpr double growth = 1.1;
-  const Eigen::VectorXd shares = at.kernel.target_shares(at.cones, curvatures);
-  CurvatureBounds result = at.bounds;
-  bool are_changed = false;
-  for (Eigen::Index i = 0; i < shares.size(); ++i) {
-    const double flat = at.kernel.flat_angle(at.cones[i]), own = at.kernel.curvature(at.cones[i]);
-    if (!(shares[i] > greatest_share && curvatures[i] > own)) continue;
-    result.greatest[i] = flat - growth * (flat - curvatures[i]);
-    are_changed = true;
-  }
-  const bool are_possible = result.can_be_met() && (result.greatest - result.least).minCoeff() > 0;
-  return are_changed && are_possible ? std::optional(result) : std::nullopt;
+// Of each cone the number of its triangles.
+std::vector<int> triangles_around(const Surface& surface, const std::vector<int>& cones) {
+  std::vector<int> at_vertex(surface.vertex_count(), 0), result;
+  for (const int v : surface.triangles.reshaped()) ++at_vertex[v];
+  result.reserve(cones.size());
+  for (const int v : cones) result.push_back(at_vertex[v]);
+  return result;
 }
 
-// The curvatures of least sigma, but for those of cones that would take too much of the target.
-Eigen::VectorXd with_spared_cones(AngleFit at, const FitOptions& options) {
-  Eigen::VectorXd curvatures = least_sigma(at.fit, at.bounds);
-  const double most = (1 + options.sigma_for_shares) * at.fit.sigma(curvatures);
-  while (const auto bounds = with_larger_angles(at, curvatures, options.greatest_share)) {
-    const Eigen::VectorXd spared = least_sigma(at.fit, *bounds);
-    if (!(at.fit.sigma(spared) <= most)) break;
-    at.bounds = *bounds;
-    curvatures = spared;
-  }
-  return curvatures;
+// What equal triangles around a cone add to E/2A for each part of the target that they get: (K + 1/K)/2 - 1,
+// K the ratio of singular values where an isosceles triangle gets another angle at its tip.
+double excess_around(int triangles, double own_angle, double angle) {
+  const double ratio = std::tan(own_angle / (2 * triangles)) / std::tan(angle / (2 * triangles));
+  return (ratio + 1 / ratio) / 2 - 1;
 }
+
+// Angles that spare the triangles around small cones.
+class SparedCones {
+ public:
+  SparedCones(AngleFit at, const FitOptions& options)
+      : at_(std::move(at)),
+        options_(options),
+        triangles_(triangles_around(at_.kernel.surface(), at_.cones)) {}
+
+  // The curvatures of least sigma; or, step by step, those with larger angles at the cones whose triangles
+  // bear too much, until there are none. Where sigma would grow too much for that, the last step for which it
+  // grows by as much as it may in vain: often the cones only vie with each other.
+  Eigen::VectorXd run() {
+    Eigen::VectorXd curvatures = least_sigma(at_.fit, at_.bounds), in_vain = curvatures;
+    const double sigma = at_.fit.sigma(curvatures);
+    const auto grows_by_at_most = [&](double part) {
+      return at_.fit.sigma(curvatures) <= (1 + part) * sigma;
+    };
+    for (Eigen::VectorXd loads = loads_of(curvatures); loads.maxCoeff() > 1; loads = loads_of(curvatures)) {
+      if (!enlarge(curvatures, loads)) return in_vain;
+      curvatures = least_sigma(at_.fit, at_.bounds);
+      if (!grows_by_at_most(options_.sigma_for_shares)) return in_vain;
+      if (grows_by_at_most(options_.sigma_in_vain)) in_vain = curvatures;
+    }
+    return curvatures;
+  }
+
+ private:
+  // What the triangles around each cone get of the target and add to E/2A, whichever is more, 1 being as much
+  // as they may. Nothing where the angle is not smaller than theirs.
+  Eigen::VectorXd loads_of(const Eigen::VectorXd& curvatures) const {
+    Eigen::VectorXd loads = at_.kernel.target_shares(at_.cones, curvatures);
+    for (Eigen::Index i = 0; i < loads.size(); ++i) {
+      const double flat = at_.kernel.flat_angle(at_.cones[i]),
+                   own = flat - at_.kernel.curvature(at_.cones[i]), angle = flat - curvatures[i],
+                   excess = excess_around(triangles_[i], own, angle);
+      loads[i] *= angle < own ? std::max(1 / options_.greatest_share, excess / options_.greatest_excess) : 0;
+    }
+    return loads;
+  }
+
+  // Bounds a little above the angles with too much load. False if no angles would be left.
+  bool enlarge(const Eigen::VectorXd& curvatures, const Eigen::VectorXd& loads) {
+    constexpr double growth = 1.05;
+    CurvatureBounds& bounds = at_.bounds;
+    for (Eigen::Index i = 0; i < loads.size(); ++i) {
+      const double flat = at_.kernel.flat_angle(at_.cones[i]);
+      if (loads[i] > 1) bounds.greatest[i] = flat - growth * (flat - curvatures[i]);
+    }
+    return bounds.can_be_met() && (bounds.greatest - bounds.least).minCoeff() > 0;
+  }
+
+  AngleFit at_;
+  const FitOptions& options_;
+  std::vector<int> triangles_;
+};
 
 void require_vertices(const ScaleKernel& kernel, const std::vector<int>& cones) {
   for (const int v : cones) {
@@ -191,7 +233,7 @@ FittedAngles fit_angles(const ScaleKernel& kernel, const std::vector<int>& cones
   if (!bounds.can_be_met()) refuse_bounds(bounds);
   const CurvatureFit fit = {kernel.potentials(cones)(cones, Eigen::all), kernel.even_potential()(cones),
                             kernel.even_variance()};
-  const Eigen::VectorXd curvatures = with_spared_cones({kernel, cones, fit, bounds}, options);
+  const Eigen::VectorXd curvatures = SparedCones({kernel, cones, fit, bounds}, options).run();
   const double area = options.area.value_or(kernel.total_curvature() - curvatures.sum());
   FittedAngles result = {{}, area, fit.sigma(curvatures)};
   for (std::size_t i = 0; i < cones.size(); ++i)

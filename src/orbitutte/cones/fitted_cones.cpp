@@ -281,7 +281,13 @@ FittedCones place_cones(const ScaleKernel& kernel, const ConeWishes& wishes) {
   ConePolish polish(kernel, wishes, std::move(cones));
   polish.run();
   FittedCones found = in_order(kernel, polish, wishes.kept.size());
-  const FittedAngles spared = fit_angles(kernel, found.vertices, wishes.fit);
+  FitOptions options = wishes.fit;
+  if (wishes.sigma) {  // what is reached stays reached
+    const double room = *wishes.sigma / found.fit.sigma - 1;
+    options.sigma_for_shares = std::min(options.sigma_for_shares, room);
+    options.sigma_in_vain = std::min(options.sigma_in_vain, room);
+  }
+  const FittedAngles spared = fit_angles(kernel, found.vertices, options);
   if (!wishes.sigma || spared.sigma <= *wishes.sigma) found.fit = spared;
   return found;
 }
