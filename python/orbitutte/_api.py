@@ -211,7 +211,7 @@ class FittedCones(NamedTuple):
 
 
 def fitted_cones(V: npt.ArrayLike, F: Any, count: int | None = None, *, kept: Sequence[int] = (), sigma: float | None = None, area: float | None = 0.0,
-                 orders: bool = False) -> FittedCones:
+                 orders: bool = False, greatest: float | None = None) -> FittedCones:
     """Cones of the angles, and as far as wanted at the vertices, that distort a sphere or disk least: least squares on the Laplacian.
 
     Parameters
@@ -229,6 +229,9 @@ def fitted_cones(V: npt.ArrayLike, F: Any, count: int | None = None, *, kept: Se
         it, too.
     orders : bool
         Round the angles to those of an orbifold, 2 pi/n, and pi/n on the boundary. Their area is then their own.
+    greatest : float, optional
+        The greatest angle of a cone, as a share of the flat one (2 pi inside, pi on the boundary): 1.95 in the plane if it is not given, 0.99
+        elsewhere. If the map with the cones is not certified, take milder ones: 1.6, then 1.4, as the command line does by itself.
 
     Raises
     ------
@@ -240,6 +243,7 @@ def fitted_cones(V: npt.ArrayLike, F: Any, count: int | None = None, *, kept: Se
     wishes = _options.cone_wishes(count, kept, sigma)
     wishes.area = None if area is None else _options.real(area, "area")
     wishes.are_orders = _options.flag(orders, "orders")
+    wishes.greatest = None if greatest is None else _options.real(greatest, "greatest")
     found = _orbitutte.fitted_cones(_arrays.mesh(V, F), wishes)
     return FittedCones(found.vertices, np.array(found.angles), found.area, found.sigma)
 

@@ -26,7 +26,10 @@ void bind_cones(py::module_& module) {
       .def_readwrite("are_orders", &ConeWishes::are_orders)
       .def_property(
           "area", [](const ConeWishes& wishes) { return wishes.fit.area; },
-          [](ConeWishes& wishes, const std::optional<double>& area) { wishes.fit.area = area; });
+          [](ConeWishes& wishes, const std::optional<double>& area) { wishes.fit.area = area; })
+      .def_property(
+          "greatest", [](const ConeWishes& wishes) { return wishes.fit.greatest_angle; },
+          [](ConeWishes& wishes, const std::optional<double>& share) { wishes.fit.greatest_angle = share; });
   py::class_<FittedCones>(module, "FittedCones")
       .def_readonly("vertices", &FittedCones::vertices)
       .def_property_readonly("angles", [](const FittedCones& cones) { return cones.fit.angles; })

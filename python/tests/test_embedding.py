@@ -330,6 +330,13 @@ def test_kept_cones_come_first_and_the_area_is_as_given(figure):
     assert np.allclose(turns, np.round(turns))
 
 
+def test_no_fitted_cone_is_greater_than_the_greatest(figure):
+    free, mild = (orbitutte.fitted_cones(*figure, 8, greatest=share) for share in (None, 1.2))
+    assert max(free.angles) > 1.2 * 2 * np.pi > max(mild.angles) - 1e-9
+    assert mild.sigma >= free.sigma
+    assert orbitutte.embed(*figure, "cones", mild.vertices, angles=mild.angles).bijective
+
+
 def test_fitted_cones_say_what_is_missing(figure):
     with pytest.raises(orbitutte.ArgumentError, match="count is missing"):
         orbitutte.fitted_cones(*figure)
@@ -337,6 +344,8 @@ def test_fitted_cones_say_what_is_missing(figure):
         orbitutte.fitted_cones(*figure, 1, kept=[1, 2])
     with pytest.raises(orbitutte.MeshError, match="out of reach|sigma"):
         orbitutte.fitted_cones(*figure, sigma=1e-9)
+    with pytest.raises(orbitutte.ArgumentError, match="the greatest angle is 2 of the flat one"):
+        orbitutte.fitted_cones(*figure, 8, greatest=2)
 
 
 # Its ears are thin: where maps to 22 come to rest is not what the closed form takes for it.

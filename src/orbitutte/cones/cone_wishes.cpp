@@ -44,10 +44,21 @@ void require_sphere_or_disk(const Surface& surface) {
                               text_of(surface.topology)));
 }
 
+void require_angles(const FitOptions& options) {
+  FitOptions unbounded = options;
+  unbounded.greatest_angle.reset();
+  const double greatest = options.greatest(), most = unbounded.greatest();
+  if (!(greatest > options.least_angle && greatest <= most))
+    throw ArgumentError(
+        fmt::format("the greatest angle is {:.4g} of the flat one; take more than {:.4g} and at most {:.4g}",
+                    greatest, options.least_angle, most));
+}
+
 }  // namespace
 
 FittedCones find_cones(const Surface& surface, const ConeWishes& wishes, const WeightOptions& weights) {
   require_sphere_or_disk(surface);
+  require_angles(wishes.fit);
   const ScaleKernel kernel(surface, edge_weights(surface, weights), available_backends().front());
   ConeWishes wanted = wishes;
   if (wishes.are_orders) wanted.fit.area.reset();
