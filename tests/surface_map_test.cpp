@@ -10,6 +10,7 @@
 #include "orbitutte/cut/cut.h"
 #include "orbitutte/inspect/recognition.h"
 #include "orbitutte/io/landmark_file.h"
+#include "orbitutte/map/vertex_map.h"
 #include "orbitutte/orbifold/polygon.h"
 #include "orbitutte/samples/sample.h"
 #include "sample_embeddings.h"
@@ -189,6 +190,29 @@ TEST(LandmarksOnMasks, AreMappedAlikeWhicheverTheTour) {
 }
 
 // Both surfaces are cut and factorised at the same time.
+// Many faces of so rough a disk are thin; those that come out turned over are repaired.
+TEST(LandmarksOnRoughDisks, MapThemToThemselvesByTheIdentityWhicheverTheCuts) {
+  constexpr int rings = 12;
+  const Mesh mesh = test::perturbed(test::round_disk(rings), 0.7 / rings, 1);
+  const Surface surface = make_surface(mesh);
+  const int on_boundary = 3 * rings * (rings - 1) + 1;
+  for (const std::uint32_t seed : {1, 2, 5}) {
+    MapOptions options;
+    options.cut_b.seed = seed;
+    const SurfaceMap map = map_between(surface, surface, {{0, 0}, {on_boundary, on_boundary}}, options);
+    EXPECT_TRUE(map.is_bijective());
+    EXPECT_FALSE(map.a.moved_vertices.empty());
+    EXPECT_EQ(map.a.moved_vertices, map.b.moved_vertices) << seed;
+    const VertexMap to_b = images_of_vertices(map.a.embedding, map.b.embedding);
+    for (int v = 0; v < mesh.V.rows(); ++v) {
+      Vector3 image = Vector3::Zero();
+      for (int k = 0; k < 3; ++k)
+        image += to_b.images.barycentric(v, k) * mesh.V.row(mesh.F(to_b.images.triangle[v], k)).transpose();
+      EXPECT_LT((image - mesh.V.row(v).transpose()).norm(), 1e-6) << v;
+    }
+  }
+}
+
 TEST(Landmarks, GiveTheSameMapOnEveryRunAndForAnyNumberOfThreads) {
   const Mesh mesh = sample_mesh({SampleShape::figure, 20000});
   const Surface surface = make_surface(mesh);
