@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <random>
+#include <ranges>
 
 #include "orbitutte/embed.h"
 #include "orbitutte/orbifold/cone_target.h"
@@ -153,11 +154,9 @@ TEST_P(EveryFamilyMended, ATurnedStarIsRepairedAndNothingElseMoves) {
   const StarTriangle first = c.stars.around(v).front();
   positions.move(v, 1.5 * positions.difference(v, first.a, first.element_a));
   const Points before = c.positions;
-  std::vector<int> turned;
-  for (int f = 0; f < static_cast<int>(c.of->cut.F.rows()); ++f)
-    if (!positions.is_positive(f)) turned.push_back(f);
-  ASSERT_FALSE(turned.empty());
-  const std::vector<int> moved = repair({c.surface, c.gluing, c.stars, c.may_move}, turned, positions);
+  const auto is_turned = [&](int f) { return !positions.is_positive(f); };
+  ASSERT_TRUE(std::ranges::any_of(std::views::iota(0, static_cast<int>(c.of->cut.F.rows())), is_turned));
+  const std::vector<int> moved = repair({c.surface, c.gluing, c.stars, c.may_move}, positions);
   ASSERT_FALSE(moved.empty());
   for (int f = 0; f < static_cast<int>(c.of->cut.F.rows()); ++f) EXPECT_TRUE(positions.is_positive(f)) << f;
   for (int u = 0; u < static_cast<int>(c.may_move.size()); ++u) {

@@ -10,6 +10,7 @@
 #include "orbitutte/cut/cut.h"
 #include "orbitutte/inspect/recognition.h"
 #include "orbitutte/io/landmark_file.h"
+#include "orbitutte/map/vertex_map.h"
 #include "orbitutte/orbifold/polygon.h"
 #include "orbitutte/samples/sample.h"
 #include "sample_embeddings.h"
@@ -189,6 +190,29 @@ TEST(LandmarksOnMasks, AreMappedAlikeWhicheverTheTour) {
 }
 
 // Both surfaces are cut and factorised at the same time.
+// Many faces of such a crumpled disk are thin; those that come out turned over are repaired.
+TEST(LandmarksOnCrumpledDisks, MapThemToThemselvesByTheIdentityWhicheverTheCuts) {
+  constexpr int rings = 12, on_boundary = 3 * rings * (rings - 1) + 1;
+  for (const std::uint32_t roughness : {1, 2, 3}) {
+    Mesh mesh = test::perturbed(test::round_disk(rings), 1.2 / rings, roughness);
+    mesh.V.col(2) *= 0.2;
+    const Surface surface = make_surface(mesh);
+    MapOptions options;
+    options.cut_b.seed = 5;
+    const SurfaceMap map = map_between(surface, surface, {{0, 0}, {on_boundary, on_boundary}}, options);
+    EXPECT_TRUE(map.is_bijective());
+    EXPECT_FALSE(map.a.moved_vertices.empty()) << "nothing was repaired";
+    EXPECT_EQ(map.a.moved_vertices, map.b.moved_vertices);
+    const SurfacePoints images = images_of_vertices(map.a.embedding, map.b.embedding).images;
+    for (int v = 0; v < mesh.V.rows(); ++v) {
+      Vector3 image = Vector3::Zero();
+      for (int k = 0; k < 3; ++k)
+        image += images.barycentric(v, k) * mesh.V.row(mesh.F(images.triangle[v], k)).transpose();
+      EXPECT_LT((image - mesh.V.row(v).transpose()).norm(), 1e-6) << v;
+    }
+  }
+}
+
 TEST(Landmarks, GiveTheSameMapOnEveryRunAndForAnyNumberOfThreads) {
   const Mesh mesh = sample_mesh({SampleShape::figure, 20000});
   const Surface surface = make_surface(mesh);

@@ -2,6 +2,7 @@
 #include "orbitutte/map/divided_ears.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "orbitutte/geometry/precise_isometry.h"
@@ -47,36 +48,67 @@ std::vector<int> inner_halfedges_of_ears(const Embedding& embedding) {
   return result;
 }
 
-// The half-edge from one cut vertex to another, or -1.
-int find_halfedge(const Triangles& F, int from, int to) {
-  for (int h = 0; h < static_cast<int>(F.size()); ++h)
-    if (halfedge_origin(F, h) == from && halfedge_target(F, h) == to) return h;
-  return -1;
+// The inner edges of ears that have a triangle behind them: the ear's half-edge and the one behind. Two ears
+// may share theirs.
+std::vector<std::array<int, 2>> inner_edges_of_ears(const Embedding& embedding) {
+  const std::vector<int> ears = inner_halfedges_of_ears(embedding);
+  if (ears.empty()) return {};
+  const int vertices = static_cast<int>(embedding.source_vertex.size());
+  const std::vector<int> opposite = connectivity_of(embedding.triangles, vertices).opposite;
+  std::vector<std::array<int, 2>> result;
+  std::set<int> met;
+  for (const int inner : ears) {
+    const int behind = opposite[inner];
+    if (behind < 0 || met.contains(behind)) continue;
+    met.insert(inner);
+    result.push_back({inner, behind});
+  }
+  return result;
 }
+
+// Where the half-edges of the whole lie while its triangles are divided.
+class MovingHalfedges {
+ public:
+  int now(int halfedge) const {
+    const auto moved = now_.find(halfedge);
+    return moved == now_.end() ? halfedge : moved->second;
+  }
+
+  // The edge y z moves to the added row, as a half-edge of this triangle of the whole.
+  void divide(int whole_triangle, const DividedTriangle& division) {
+    const int y = (division.corner + 1) % 3;
+    for (int h = 3 * whole_triangle; h < 3 * whole_triangle + 3; ++h)
+      if (now(h) == 3 * division.row + y) {
+        now_[h] = 3 * division.added + y;
+        return;
+      }
+  }
+
+ private:
+  std::unordered_map<int, int> now_;
+};
 
 // A quarter of the way from the middle of a half-edge to the third corner of its triangle, with as many
 // digits as the corners have.
-void place_middle(Embedding& parts, const Embedding& whole, int halfedge, int middle) {
-  const ExactPositions positions(whole);
+void place_middle(Embedding& parts, const ExactPositions& whole, int halfedge, int middle) {
   const int x = halfedge_origin(parts.triangles, halfedge), y = halfedge_target(parts.triangles, halfedge),
             z = halfedge_origin(parts.triangles, previous_halfedge(halfedge));
   const auto exact = [&](int v) {
-    return v < whole.positions.rows() ? positions.exact(v)
-                                      : Vector3Of<MostPrecise>(parts.positions.row(v).cast<MostPrecise>());
+    return v < whole.count() ? whole.exact(v)
+                             : Vector3Of<MostPrecise>(parts.positions.row(v).cast<MostPrecise>());
   };
-  const auto offsets = [&](int v) { return v < whole.positions.rows() ? positions.offset_count(v) : 0; };
+  const auto offsets = [&](int v) { return v < whole.count() ? whole.offset_count(v) : 0; };
   const Vector3Of<MostPrecise> sum =
       MostPrecise(3) * (exact(x) + exact(y)) + MostPrecise(2) * exact(z);  // 3/8, 3/8, 1/4
-  store(parts, middle, precise_retract(whole.space(), sum), std::max({offsets(x), offsets(y), offsets(z)}));
+  store(parts, middle, precise_retract(parts.space(), sum), std::max({offsets(x), offsets(y), offsets(z)}));
 }
 
 // Divides the triangle of a half-edge from a middle, whose vertices are cut vertices.
-DividedTriangle divide_at(Embedding& parts, int halfedge, int middle) {
-  const int row = halfedge / 3, corner = halfedge % 3, added = static_cast<int>(parts.triangles.rows());
+DividedTriangle divide_at(Embedding& parts, int halfedge, int middle, int added) {
+  const int row = halfedge / 3, corner = halfedge % 3;
   const auto vertex = [&](int k) { return parts.source_vertex[parts.triangles(row, (corner + k) % 3)]; };
   const DividedTriangle division = {
       row, corner, added, parts.source_vertex[middle], {vertex(0), vertex(1), vertex(2)}};
-  parts.triangles.conservativeResize(added + 1, 3);
   parts.triangles.row(added) = parts.triangles.row(row);
   parts.triangles(added, corner) = middle;
   parts.triangles(row, (corner + 1) % 3) = middle;
@@ -175,24 +207,29 @@ SurfacePoints crossing_median(const DividedTriangle& division, const TrianglesBy
 }  // namespace
 
 DividedEars::DividedEars(const Embedding& embedding) : whole_(embedding) {
-  int vertices = 0;
-  for (const int v : embedding.source_vertex) vertices = std::max(vertices, v + 1);
-  for (const int inner : inner_halfedges_of_ears(embedding)) {
-    // Ears are divided once, but perhaps after their neighbours: corners x and y are what they were.
-    const Triangles& F = parts().triangles;
-    const int x = halfedge_origin(embedding.triangles, inner),
-              y = halfedge_target(embedding.triangles, inner), ear = find_halfedge(F, x, y),
-              behind = find_halfedge(F, y, x);
-    if (ear < 0 || behind < 0) continue;
-    if (!parts_) {
-      parts_ = embedding;
-      parts_->polygons = {};
+  const std::vector<std::array<int, 2>> inner_edges = inner_edges_of_ears(embedding);
+  if (inner_edges.empty()) return;
+  const int ears = static_cast<int>(inner_edges.size()),
+            triangles = static_cast<int>(embedding.triangles.rows()),
+            cut_vertices = static_cast<int>(embedding.source_vertex.size());
+  const ExactPositions positions(embedding);
+  parts_ = embedding;
+  parts_->polygons = {};
+  parts_->triangles.conservativeResize(triangles + 2 * ears, 3);
+  parts_->positions.conservativeResize(cut_vertices + ears, 3);
+  const int first_middle =
+      1 + *std::max_element(embedding.source_vertex.begin(), embedding.source_vertex.end());
+  MovingHalfedges halfedges;
+  for (int k = 0; k < ears; ++k) {
+    const int middle = cut_vertices + k;
+    parts_->source_vertex.push_back(first_middle + k);
+    place_middle(*parts_, positions, halfedges.now(inner_edges[k][1]), middle);
+    for (const int halfedge : inner_edges[k]) {
+      const int added = triangles + static_cast<int>(divisions_.size());
+      divisions_.push_back(divide_at(*parts_, halfedges.now(halfedge), middle, added));
+      halfedges.divide(halfedge / 3, divisions_.back());
+      divisions_of_[halfedge / 3].push_back(divisions_.back());
     }
-    const int middle = static_cast<int>(parts_->source_vertex.size());
-    parts_->source_vertex.push_back(vertices++);
-    parts_->positions.conservativeResize(middle + 1, 3);
-    place_middle(*parts_, embedding, behind, middle);
-    for (const int halfedge : {ear, behind}) divisions_.push_back(divide_at(*parts_, halfedge, middle));
   }
 }
 
@@ -202,13 +239,20 @@ int DividedEars::halfedge_of_middle(int vertex) const {
 }
 
 int DividedEars::whole_triangle(int part) const {
-  for (auto at = divisions_.rbegin(); at != divisions_.rend(); ++at)
-    if (part == at->added) part = at->row;
+  if (!any()) return part;
+  for (const int first = divisions_.front().added; part >= first;) part = divisions_[part - first].row;
   return part;
 }
 
+const std::vector<DividedTriangle>& DividedEars::divisions_of(int whole_triangle) const {
+  static const std::vector<DividedTriangle> none;
+  const auto found = divisions_of_.find(whole_triangle);
+  return found == divisions_of_.end() ? none : found->second;
+}
+
 int DividedEars::whole_halfedge(int halfedge) const {
-  for (auto at = divisions_.rbegin(); at != divisions_.rend() && halfedge >= 0; ++at) {
+  const std::vector<DividedTriangle>& divisions = divisions_of(whole_triangle(halfedge / 3));
+  for (auto at = divisions.rbegin(); at != divisions.rend() && halfedge >= 0; ++at) {
     const auto [x, y, z] = corners_from(*at);
     const int row = halfedge / 3, corner = halfedge % 3;
     if (row != at->row && row != at->added) continue;
@@ -219,14 +263,16 @@ int DividedEars::whole_halfedge(int halfedge) const {
 }
 
 SurfacePoints DividedEars::on_parts(SurfacePoints points) const {
-  for (const DividedTriangle& division : divisions_)
-    for (int k = 0; k < points.count(); ++k) put_on_part(division, points, k);
+  for (int k = 0; k < points.count(); ++k)
+    for (const DividedTriangle& division : divisions_of(points.triangle[k])) put_on_part(division, points, k);
   return points;
 }
 
 SurfacePoints DividedEars::on_whole(SurfacePoints points) const {
-  for (auto at = divisions_.rbegin(); at != divisions_.rend(); ++at)
-    for (int k = 0; k < points.count(); ++k) put_on_whole(*at, points, k);
+  for (int k = 0; k < points.count(); ++k) {
+    const std::vector<DividedTriangle>& divisions = divisions_of(whole_triangle(points.triangle[k]));
+    for (auto at = divisions.rbegin(); at != divisions.rend(); ++at) put_on_whole(*at, points, k);
+  }
   return points;
 }
 

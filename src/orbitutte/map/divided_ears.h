@@ -5,6 +5,7 @@
 
 #include <array>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 #include "orbitutte/map/point_map.h"
@@ -62,11 +63,17 @@ class DividedEars {
   SurfacePoints polyline_on_parts(SurfacePoints points) const;
 
  private:
+  /// Those that a triangle of the whole went through, in their order.
+  const std::vector<DividedTriangle>& divisions_of(int whole_triangle) const;
+
   const Embedding& whole_;
   std::optional<Embedding> parts_;
 
-  /// In the order in which they were made: two for each ear.
+  /// In the order in which they were made: two for each ear, of whose parts the added rows follow each other.
   std::vector<DividedTriangle> divisions_;
+
+  /// The same by the triangle of the whole that the divided part belongs to.
+  std::unordered_map<int, std::vector<DividedTriangle>> divisions_of_;
 };
 
 }  // namespace orbitutte

@@ -46,6 +46,9 @@ class ExactPositions {
  public:
   explicit ExactPositions(const Embedding& embedding);
 
+  /// The number of vertices.
+  int count() const { return static_cast<int>(X_.rows()); }
+
   /// Does any vertex have an offset other than 0?
   bool has_offsets() const { return !start_.empty(); }
   bool has_offsets(int v) const { return has_offsets() && start_[v + 1] > start_[v]; }

@@ -199,7 +199,7 @@ std::optional<std::vector<int>> put_right(Site& site, const std::vector<int>& tu
   if (!turned.empty()) {
     std::vector<double> parts;
     for (const Ear& ear : site.ears) parts.push_back(beside_tip(site, positions, ear).part());
-    moved = repair({site.problem.surface, site.gluing, site.stars, site.may_move}, turned, positions);
+    moved = repair({site.problem.surface, site.gluing, site.stars, site.may_move}, positions);
     if (moved.empty()) return std::nullopt;
     take_along(site, parts, positions, moved);
   }

@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 
+#include "orbitutte/parallel.h"
 #include "orbitutte/solve/kernel.h"
 #include "orbitutte/solve/star_shape.h"
 
@@ -23,6 +24,12 @@ constexpr double enough_gain = 1e-3;    // of a star's distortion, for its verte
 constexpr double gain_of_sweep = 2e-2;  // of one star at least, for another sweep
 constexpr double flattest = 1e-6;       // twice the area of a source triangle, in squared edges
 
+// Below these, rounding decides: the gain of a star's least margin, relative to its radius; the height of a
+// triangle; and, where there are more digits, its part of the longest edge. What is all smaller than
+// limb_edge is a limb.
+constexpr double least_gain_of_margin = 1e-10, least_height_in_doubles = 5e-14, least_part_of_edge = 1e-12,
+                 limb_edge = 1e-10;
+
 enum class PatchWeights { cotan, mean_value };
 
 class Repair {
@@ -30,13 +37,55 @@ class Repair {
   Repair(const RepairSite& site, MovablePositions& positions)
       : site_(site), positions_(positions), space_(site.gluing.boundary.space) {}
 
-  std::vector<int> run(const std::vector<int>& turned) {
+  std::vector<int> run() {
+    const std::vector<int> turned = unclear_faces();
     if (!open_stars(turned) && !relax_patches(turned) && !repair_groups(turned)) return {};
     smooth_around(vertices_of(turned));
     return {moved_.begin(), moved_.end()};
   }
 
  private:
+  // Those that are turned over, and those that rounding alone may decide about: which these are depends on
+  // the cut, and what is repaired must not.
+  std::vector<int> unclear_faces() const {
+    const int m = static_cast<int>(site_.gluing.cut.F.rows());
+    std::vector<char> may_be_unclear(m);
+    parallel_ranges(m, [&](int begin, int end) {
+      for (int f = begin; f < end; ++f) may_be_unclear[f] = !is_plain(f);
+    });
+    std::vector<int> faces;
+    for (int f = 0; f < m; ++f)
+      if (may_be_unclear[f]) faces.push_back(f);
+    return unclear_at(vertices_of(faces));
+  }
+
+  // Is a face so large and so high, in doubles, that no closer look is needed?
+  bool is_plain(int face) const {
+    constexpr double least_edge = 1e-6, least_part = 1e-7;
+    const CutMesh& cut = site_.gluing.cut;
+    const auto corner = [&](int k) -> Vector3 {
+      const int v = cut.F(face, k), source = cut.source_vertex[v];
+      const Vector3 p = positions_.rounded(source);
+      return v == source ? p : site_.gluing.boundary.transform(v) * p;
+    };
+    const Vector3 p = corner(0), a = corner(1) - p, b = corner(2) - p;
+    const double longest = std::max({a.squaredNorm(), b.squaredNorm(), (b - a).squaredNorm()});
+    return longest > least_edge * least_edge && p.dot(a.cross(b)) > least_part * longest;
+  }
+
+  // Is a triangle of the star positive, and higher than rounding? In limbs that have no more digits, where
+  // whole triangles are as small as rounding, the sign must do.
+  bool is_clearly_positive(int v, const StarTriangle& at) const {
+    if (!positions_.is_positive(at.face)) return false;
+    const Vector3 p = positions_.rounded(v), a = positions_.difference(v, at.a, at.element_a),
+                  b = positions_.difference(v, at.b, at.element_b);
+    const double longest = std::max({space_.norm(a), space_.norm(b), space_.norm(b - a)});
+    double least_height = longest < limb_edge ? 0 : least_height_in_doubles;
+    if (positions_.is_refined(v) && positions_.is_refined(at.a) && positions_.is_refined(at.b))
+      least_height = least_part_of_edge * longest;
+    return p.dot(a.cross(b)) > least_height * longest;
+  }
+
   // Sweeps over the vertices and their neighbours. A vertex waits for its turn if something in its star has
   // moved since the last one.
   void smooth_around(const std::set<int>& vertices) {
@@ -53,7 +102,8 @@ class Repair {
     }
   }
 
-  // Single vertices, sweep by sweep, in reach of the faces that are not positive.
+  // Single vertices, sweep by sweep, in reach of the faces that are not clearly positive. If all are
+  // positive, those that stay flat may.
   bool open_stars(const std::vector<int>& turned) {
     const std::size_t before = positions_.moves();
     const std::set<int> moved_before = moved_;
@@ -65,9 +115,11 @@ class Repair {
         vertices = site_.stars.with_neighbours(vertices);
       for (const int v : vertices) open_star(v);
       reached.merge(vertices);
-      broken = nonpositive_at(reached);
+      const std::size_t left = broken.size();
+      broken = unclear_at(reached);
+      if (broken.size() >= left && nonpositive_at(reached).empty()) break;
     }
-    if (broken.empty()) return true;
+    if (broken.empty() || nonpositive_at(reached).empty()) return true;
     positions_.take_back(before);
     moved_ = moved_before;
     return false;
@@ -171,13 +223,21 @@ class Repair {
   }
 
   std::vector<int> nonpositive_at(const std::set<int>& vertices) const {
+    return faces_at(vertices, [&](int, const StarTriangle& at) { return !positions_.is_positive(at.face); });
+  }
+
+  std::vector<int> unclear_at(const std::set<int>& vertices) const {
+    return faces_at(vertices, [&](int v, const StarTriangle& at) { return !is_clearly_positive(v, at); });
+  }
+
+  // The faces around vertices that a test (vertex, triangle of its star) holds for, ascending.
+  template <typename Test>
+  std::vector<int> faces_at(const std::set<int>& vertices, const Test& holds) const {
     std::set<int> faces;
     for (const int v : vertices)
-      for (const StarTriangle& triangle : site_.stars.around(v)) faces.insert(triangle.face);
-    std::vector<int> result;
-    for (const int f : faces)
-      if (!positions_.is_positive(f)) result.push_back(f);
-    return result;
+      for (const StarTriangle& at : site_.stars.around(v))
+        if (holds(v, at)) faces.insert(at.face);
+    return {faces.begin(), faces.end()};
   }
 
   StarShape shape_of(int v, const std::vector<StarTriangle>& star) const {
@@ -236,26 +296,36 @@ class Repair {
     shape.axes << first, second / space_.norm(second);
   }
 
-  // Moves v to where its triangles have room, if one of them has none.
+  // Moves v to where its triangles have room, if one of them has none. Lengths are taken along the tangent
+  // plane, so that it does not matter where the star lies.
   void open_star(int v) {
     if (!site_.may_move[v]) return;
     const std::vector<StarTriangle> star = site_.stars.around(v);
-    if (are_positive(star)) return;
+    const auto is_open = [&](const StarTriangle& at) { return is_clearly_positive(v, at); };
+    if (std::all_of(star.begin(), star.end(), is_open)) return;
     const StarShape shape = shape_of(v, star);
     if (!(shape.radius > 0)) return;
     const double source_radius = longest_source_edge(shape);
     std::vector<KernelCondition> conditions;
     for (const StarShape::Triangle& triangle : shape.triangles) {
       const Eigen::Vector2d gradient = shape.axes.transpose() * triangle.gradient;
-      const double length = std::max(triangle.gradient.norm(), std::numeric_limits<double>::min());
+      const double length = std::max(gradient.norm(), std::numeric_limits<double>::min());
       conditions.push_back({gradient / length, triangle.value / length / shape.radius,
                             source_radius > 0 ? triangle.height / source_radius : 1});
     }
     const KernelStep widest = widest_step(conditions, {1, shape.on_mirror ? 0 : 1});
+    if (!(widest.margin > least_margin(conditions) + least_gain_of_margin)) return;
     double fraction = 1;  // of the way, on which the least margin grows at least in proportion
     if (widest.margin > 0) fraction = shortest_fraction(conditions, widest);
     positions_.move(v, shape.axes * (fraction * shape.radius * widest.step));
     moved_.insert(v);
+  }
+
+  // Without a step.
+  static double least_margin(const std::vector<KernelCondition>& conditions) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const KernelCondition& at : conditions) least = std::min(least, at.margin({0, 0}));
+    return least;
   }
 
   bool are_positive(const std::vector<StarTriangle>& star) const {
@@ -273,7 +343,7 @@ class Repair {
   // How far towards the widest step the least margin is enough, by bisection of a concave function.
   static double shortest_fraction(const std::vector<KernelCondition>& conditions, const KernelStep& widest) {
     double low = 0, high = 1;
-    for (int k = 0; k < 30; ++k) {
+    for (int k = 0; k < 52; ++k) {
       const double middle = 0.5 * (low + high);
       const bool holds = std::all_of(conditions.begin(), conditions.end(), [&](const KernelCondition& at) {
         return at.margin(middle * widest.step) >= enough * widest.margin;
@@ -311,8 +381,8 @@ class Repair {
 
 }  // namespace
 
-std::vector<int> repair(const RepairSite& site, const std::vector<int>& turned, MovablePositions& positions) {
-  return Repair(site, positions).run(turned);
+std::vector<int> repair(const RepairSite& site, MovablePositions& positions) {
+  return Repair(site, positions).run();
 }
 
 }  // namespace orbitutte

@@ -22,8 +22,10 @@ struct RepairSite {
 
 /// Thin triangles of the input that are no faces of the triangulation that has the weights may come out
 /// turned over. Their vertices are moved into the kernels of their stars, sweep by sweep, and the vertices
-/// around are smoothed. Returns the vertices that moved, ascending, if all faces are positive then; otherwise
-/// every vertex is where it was, and nothing is returned. turned: the faces that are not positive.
-std::vector<int> repair(const RepairSite& site, const std::vector<int>& turned, MovablePositions& positions);
+/// around are smoothed. So are those of triangles that are flat up to rounding, be their signs as they may:
+/// up to what rounding does to positions, the map does not depend on how the surface was cut. Returns the
+/// vertices that moved, ascending, if all faces are positive then; otherwise every vertex is where it was,
+/// and nothing is returned.
+std::vector<int> repair(const RepairSite& site, MovablePositions& positions);
 
 }  // namespace orbitutte

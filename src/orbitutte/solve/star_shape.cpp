@@ -10,17 +10,22 @@
 namespace orbitutte {
 namespace {
 
-constexpr int most_newton_steps = 6, most_halvings = 6;
+constexpr int most_newton_steps = 60, most_halvings = 6;
 constexpr double negligible_gain = 1e-3;   // of the distortion, by a step of Newton's
 constexpr double flat_part = 0.01;         // of a ratio, that the area of a flat triangle counts for
 constexpr double flattest_of_star = 1e-6;  // a source triangle's least height, relative to its base
 constexpr double no_bound = std::numeric_limits<double>::infinity();
 
-// The Dirichlet energy of the linear map of a triangle, were the star's vertex moved by a tangent step,
-// from the squared lengths of both triangles (U. Pinkall, K. Polthier 1993).
+// The altitude of the source triangle in the image, were the star's vertex moved by a tangent step.
+Vector3 image_of_altitude(const StarShape::Triangle& triangle, const Vector3& step) {
+  return triangle.a + triangle.foot * (triangle.b - triangle.a) - step;
+}
+
+// The Dirichlet energy of the linear map of a triangle, its base c mapped to c', its height h to h':
+//   (b h/2) (|c'|^2/b^2 + |h'|^2/h^2)
+// Sums of cotangents (U. Pinkall, K. Polthier 1993) are the same, but lose digits in thin triangles.
 double energy_of_image(const StarShape::Triangle& triangle, const Vector3& step) {
-  return triangle.weight_a * (triangle.a - step).squaredNorm() +
-         triangle.weight_b * (triangle.b - step).squaredNorm() + triangle.fixed_energy;
+  return triangle.weight * image_of_altitude(triangle, step).squaredNorm() + triangle.fixed_energy;
 }
 
 // s1/s2; infinite unless the triangle is positive then. The energy over the area of the image is
@@ -49,11 +54,10 @@ void add_derivatives(const StarShape& shape, const StarShape::Triangle& triangle
   const double s = energy_of_image(triangle, step) / area, r = std::sqrt(std::max(s * s - 4, 1e-8)),
                q = 0.5 * (s + r);
   const Eigen::Vector2d area_1 = 0.5 * shape.axes.transpose() * triangle.gradient;
-  const Vector3 pull = triangle.weight_a * (triangle.a - step) + triangle.weight_b * (triangle.b - step);
+  const Vector3 pull = triangle.weight * image_of_altitude(triangle, step);
   const Eigen::Vector2d s_1 = (-2 * shape.axes.transpose() * pull - s * area_1) / area;
   const Eigen::Matrix2d mixed = s_1 * area_1.transpose(),
-                        energy_2 =
-                            2 * (triangle.weight_a + triangle.weight_b) * shape.axes.transpose() * shape.axes;
+                        energy_2 = 2 * triangle.weight * shape.axes.transpose() * shape.axes;
   sum.gradient += q / r * s_1;
   sum.hessian += q / r * (energy_2 - mixed - mixed.transpose()) / area +
                  q / (r * r) * (1 - s / r) * s_1 * s_1.transpose();
@@ -81,16 +85,16 @@ Eigen::Vector2d newton_step(const StarShape& shape, const Vector3& from) {
 
 void set_source(const Vector3& va, const Vector3& vb, StarShape::Triangle& triangle) {
   triangle.source = {va.squaredNorm(), vb.squaredNorm(), (vb - va).squaredNorm()};
-  const auto& [A2, B2, C2] = triangle.source;
+  const double C2 = triangle.source[2];
   triangle.base = std::sqrt(C2);
   const double height = triangle.base > 0 ? va.cross(vb).norm() / triangle.base : 0.0,
                least = flattest_of_star * std::max(triangle.base, va.norm());
   triangle.is_flat = !(height > least);
   triangle.height = std::max(height, least);
-  const double scale = 1 / (8 * std::max(0.5 * triangle.height * triangle.base, 1e-300));
-  triangle.weight_a = scale * (B2 + C2 - A2);
-  triangle.weight_b = scale * (A2 + C2 - B2);
-  triangle.fixed_energy = scale * (A2 + B2 - C2) * (triangle.b - triangle.a).squaredNorm();
+  triangle.foot = C2 > 0 ? -va.dot(vb - va) / C2 : 0.0;
+  triangle.weight = triangle.base / (2 * triangle.height);
+  const double base = std::max(triangle.base, 1e-300);
+  triangle.fixed_energy = triangle.height / (2 * base) * (triangle.b - triangle.a).squaredNorm();
 }
 
 double distortion(const StarShape& shape, const Vector3& step, double bound) {

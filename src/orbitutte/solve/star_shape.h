@@ -23,9 +23,10 @@ struct StarShape {
     double height, base;           // in the source
     bool is_flat;                  // there
     std::array<double, 3> source;  // squared lengths of (v, a), (v, b), (a, b)
-    // In the source: half the cotangents of the angles opposite to (v, a) and (v, b); and that opposite to
-    // (a, b), times the squared length of the image of (a, b), which the star's vertex does not move.
-    double weight_a, weight_b, fixed_energy;
+    // Where the altitude from v meets (a, b) in the source, as a part of the way from a to b; base/(2
+    // height); and height/(2 base) times the squared length of the image of (a, b), which the star's vertex
+    // does not move.
+    double foot, weight, fixed_energy;
   };
   std::vector<Triangle> triangles;
 };
