@@ -679,7 +679,6 @@ BestEmbedding embed_best(const std::shared_ptr<const Surface>& surface, const Ch
       const bool has_certified = best.taken >= 0 && best.choice().is_certified;
       if (has_certified && !may_be_better(choice, choosing.relative_error(choice), least, options.objective))
         continue;
-
       try {
         EmbedResult result = choosing.solve(choice);
         const double value = value_of(result.distortion, choice.predicted, options.objective);

@@ -359,8 +359,7 @@ class Repair {
     if (!site_.may_move[v]) return 0;
     const std::vector<StarTriangle> star = site_.stars.around(v);
     const StarShape shape = shape_of(v, star);
-    const double at_first = distortion(shape, Vector3::Zero(), std::numeric_limits<double>::infinity());
-    const auto [step, least] = least_distortion(shape);
+    const auto [step, at_first, least] = least_distortion(shape);
     const double gain = 1 - least / at_first;
     if (!(gain > enough_gain)) return 0;
     const std::size_t before = positions_.moves();

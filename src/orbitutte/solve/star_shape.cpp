@@ -116,7 +116,8 @@ DistortionDerivatives derivatives_of_distortion(const StarShape& shape, const Ve
 
 SmoothedStar least_distortion(const StarShape& shape) {
   Eigen::Vector2d best(0, 0);
-  double least = distortion(shape, Vector3::Zero(), no_bound);
+  const double at_first = distortion(shape, Vector3::Zero(), no_bound);
+  double least = at_first;
   for (int k = 0; k < most_newton_steps && std::isfinite(least); ++k) {
     Eigen::Vector2d step = newton_step(shape, shape.axes * best);
     if (!step.allFinite()) break;
@@ -129,7 +130,7 @@ SmoothedStar least_distortion(const StarShape& shape) {
       }
     if (!(least < (1 - negligible_gain) * before)) break;
   }
-  return {best, least};
+  return {best, at_first, least};
 }
 
 }  // namespace orbitutte

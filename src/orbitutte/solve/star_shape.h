@@ -48,10 +48,10 @@ struct DistortionDerivatives {
 
 DistortionDerivatives derivatives_of_distortion(const StarShape& shape, const Vector3& step);
 
-/// A step along the axes, and the distortion there.
+/// A step along the axes, and the distortion before it and after.
 struct SmoothedStar {
   Eigen::Vector2d step;
-  double distortion;
+  double before, distortion;
 };
 
 /// Where the distortion is least near the vertex, along the first axis if it lies on a mirror; the step is 0
