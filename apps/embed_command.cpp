@@ -76,7 +76,7 @@ ConeWishes cone_wishes(const EmbedArguments& arguments, const Surface& surface) 
 // Cones whose angles, and places as far as they are not given, fit the surface best.
 FittedChoice choose_fitted(const EmbedArguments& arguments, const Surface& surface) {
   const ConeWishes wishes = cone_wishes(arguments, surface);
-  const FittedChoice choice = {wishes, find_cones(surface, wishes)};
+  FittedChoice choice = {wishes, find_cones(surface, wishes)};
   if (!arguments.quiet)
     tell("orbitutte: {} cones of fitted angles; sigma {:.3f} is expected\n", choice.cones.vertices.size(),
          choice.cones.fit.sigma);
