@@ -28,7 +28,7 @@ constexpr double flattest = 1e-6;       // twice the area of a source triangle, 
 // triangle; and, where there are more digits, its part of the longest edge. What is all smaller than
 // limb_edge is a limb.
 constexpr double least_gain_of_margin = 1e-10, least_height_in_doubles = 5e-14, least_part_of_edge = 1e-12,
-                 limb_edge = 1e-10;
+                 limb_edge = 1e-7;
 
 enum class PatchWeights { cotan, mean_value };
 
