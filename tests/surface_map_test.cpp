@@ -189,7 +189,6 @@ TEST(LandmarksOnMasks, AreMappedAlikeWhicheverTheTour) {
   } while (std::next_permutation(options.tour.begin(), options.tour.end()));
 }
 
-// Both surfaces are cut and factorised at the same time.
 // Many faces of such a crumpled disk are thin; those that come out turned over are repaired.
 TEST(LandmarksOnCrumpledDisks, MapThemToThemselvesByTheIdentityWhicheverTheCuts) {
   constexpr int rings = 12, on_boundary = 3 * rings * (rings - 1) + 1;
@@ -213,6 +212,7 @@ TEST(LandmarksOnCrumpledDisks, MapThemToThemselvesByTheIdentityWhicheverTheCuts)
   }
 }
 
+// Both surfaces are cut and factorised at the same time.
 TEST(Landmarks, GiveTheSameMapOnEveryRunAndForAnyNumberOfThreads) {
   const Mesh mesh = sample_mesh({SampleShape::figure, 20000});
   const Surface surface = make_surface(mesh);
