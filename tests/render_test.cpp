@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <numbers>
 #include <numeric>
@@ -21,7 +22,9 @@
 #include "orbitutte/parallel.h"
 #include "orbitutte/render/chart_drawing.h"
 #include "orbitutte/render/checkerboard.h"
+#include "orbitutte/render/colour_table.h"
 #include "orbitutte/render/default_view.h"
+#include "orbitutte/render/exposure_grid.h"
 #include "orbitutte/render/sphere_figure.h"
 #include "orbitutte/report/charts.h"
 #include "orbitutte/report/comparison.h"
@@ -509,6 +512,20 @@ TEST(Camera, ProjectsPointsOfARayToTheRay) {
       << "up points at the viewer";
 }
 
+TEST(Camera, NoTwoRaysOfAPixelShareAColumnOrARow) {
+  const Camera camera = fit_camera({Vector3(1, 2, 3), Vector3::UnitZ()}, icosphere(1).V, {200, 100}, 0.8);
+  std::set<int> columns, rows;  // in eighths of a pixel
+  for (const Ray& ray : camera.rays(37, 81, 5)) {
+    const Vector3 place = camera.project(ray.origin.cast<double>());
+    EXPECT_NEAR(place[2], 5, 1e-5);
+    columns.insert(static_cast<int>(std::floor(8 * (place[0] - 37) + 0.01)));
+    rows.insert(static_cast<int>(std::floor(8 * (place[1] - 81) + 0.01)));
+  }
+  const std::set<int> all = {0, 1, 2, 3, 4, 5, 6, 7};
+  EXPECT_EQ(columns, all);
+  EXPECT_EQ(rows, all);
+}
+
 TEST(RayScene, HitsTheNearestShapeOfMirroredCopiesToo) {
   RayScene original;
   original.add_ball({2, 0.5, 0}, 0.25);
@@ -534,6 +551,112 @@ TEST(RayScene, HitsTheNearestShapeOfMirroredCopiesToo) {
   EXPECT_FALSE(scene.is_blocked({{3, -0.9F, 0}, {-1, 0, 0}, 1}));
 }
 
+TEST(RayScene, PacketsMeetWhatTheirRaysMeetAlone) {
+  RayScene original;
+  original.add_triangles(icosphere(2).V, icosphere(2).F);
+  original.add_ball({0, 0, 1.2}, 0.3);
+  original.commit();
+  RayScene scene;
+  scene.add_copy(original, Matrix3::Identity());
+  scene.add_ball({0.5, 0.5, 0.5}, 0.6);
+  scene.commit();
+  int hits = 0, blocked = 0;
+  for (int first = 0; first < 400; first += packet_size) {
+    Packet rays;
+    for (int k = 0; k < packet_size; ++k) {
+      const int i = first + k;
+      const auto aside = [](int steps) { return -1.4F + 0.15F * static_cast<float>(steps); };
+      rays[k] = {{aside(i % 20), aside(i / 20), 3}, {0.1F * static_cast<float>(k), 0, -1}};
+      if (i % 3 == 0) rays[k].length = 2;
+    }
+    rays[5].length = -1;
+    const Hits found = scene.first_hits(rays);
+    const std::bitset<packet_size> are_blocked = scene.are_blocked(rays);
+    for (int k = 0; k < packet_size; ++k) {
+      const auto alone = k == 5 ? std::nullopt : scene.first_hit(rays[k]);
+      ASSERT_EQ(found[k].has_value(), alone.has_value());
+      EXPECT_EQ(are_blocked[k], alone.has_value());
+      blocked += are_blocked[k] ? 1 : 0;
+      if (!alone) continue;
+      EXPECT_NEAR(found[k]->distance, alone->distance, 1e-4);
+      EXPECT_EQ(found[k]->copy, alone->copy);
+      EXPECT_LT((found[k]->normal - alone->normal).norm(), 1e-3);
+      ++hits;
+    }
+  }
+  EXPECT_GT(hits, 50);
+  EXPECT_EQ(hits, blocked);
+}
+
+// What is seen of a plane z = slope |x|, whose exposure is known.
+LitSurface lit_fold(float slope, const std::function<Exposure(const Vector3f&)>& exposure) {
+  const auto seen = [slope](const Packet& rays) {
+    Normals normals;
+    for (int k = 0; k < packet_size; ++k) {
+      const float x = rays[k].origin[0];
+      normals[k] = {{x, rays[k].origin[1], slope * std::abs(x)},
+                    Vector3f(x < 0 ? slope : -slope, 0, 1).normalized()};
+    }
+    return normals;
+  };
+  return {seen, [exposure](const Ray& normal, float) { return exposure(normal.origin); }};
+}
+
+// The exposure of its grid in the middle of a pixel.
+Exposure exposure_at(const ExposureGrid& grid, const Camera& camera, const LitSurface& surface, int column,
+                     int row) {
+  Packet rays;
+  rays.fill(camera.ray(static_cast<float>(column) + 0.5F, static_cast<float>(row) + 0.5F, 5));
+  return grid.at(column, row, surface.seen(rays)[0].value());
+}
+
+TEST(ExposureGrid, FollowsLightThatChangesSlowly) {
+  const Camera camera = {.pixel = 0.02, .size = {101, 80}};
+  const LitSurface plane = lit_fold(0, [](const Vector3f& at) -> Exposure {
+    return {0.5F + 0.3F * at[0] - 0.2F * at[1], 0.5F + 0.4F * at[1]};
+  });
+  const ExposureGrid grid(camera, 5, plane);
+  for (int row = 6; row < 74; ++row)
+    for (int column = 6; column < 95; ++column) {
+      const Exposure found = exposure_at(grid, camera, plane, column, row);
+      const float x = 0.02F * (static_cast<float>(column) - 50),
+                  y = 0.02F * (39.5F - static_cast<float>(row));
+      EXPECT_NEAR(found.openness, 0.5F + 0.3F * x - 0.2F * y, 1e-4);
+      EXPECT_NEAR(found.lit, 0.5F + 0.4F * y, 1e-4);
+    }
+}
+
+TEST(ExposureGrid, LightStaysOnItsSideOfACrease) {
+  const Camera camera = {.pixel = 0.02, .size = {100, 20}};
+  const LitSurface fold = lit_fold(1, [](const Vector3f& at) -> Exposure {
+    return {at[0] < 0 ? 0.2F : 0.9F, 1};
+  });
+  const ExposureGrid grid(camera, 5, fold);
+  for (int column = 0; column < 100; ++column)
+    EXPECT_NEAR(exposure_at(grid, camera, fold, column, 9).openness, column < 50 ? 0.2F : 0.9F, 1e-5)
+        << column;
+}
+
+TEST(ExposureGrid, APointUnlikeAllAroundItIsLitByItself) {
+  const Camera camera = {.pixel = 0.02, .size = {20, 20}};
+  const LitSurface plane = lit_fold(0, [](const Vector3f& at) -> Exposure {
+    return {at[2] > 0.5F ? 0.F : 1.F, 1};
+  });
+  const ExposureGrid grid(camera, 5, plane);
+  EXPECT_EQ(grid.at(7, 8, {{-0.05F, 0.03F, 0}, Vector3f::UnitZ()}).openness, 1);
+  EXPECT_EQ(grid.at(7, 8, {{-0.05F, 0.03F, 1}, Vector3f::UnitZ()}).openness, 0) << "high above the plane";
+}
+
+TEST(ColourTable, HasTheColoursOfItsScale) {
+  for (const Measure measure : {Measure::area, Measure::angle}) {
+    const ColourScale scale = {measure, {.title = "", .low = -2, .high = 3, .ticks = {}}};
+    const ColourTable table(scale);
+    for (int k = -20; k < 120; ++k)
+      EXPECT_LT((table.at(-2 + 0.05 * k) - scale_colour(measure, 0.01 * k)).abs().maxCoeff(), 2e-3F);
+    EXPECT_TRUE((table.at(std::nan("")) == linear(ink::unmeasured)).all());
+  }
+}
+
 TEST(Lighting, NormalsAreSmoothOnSpheresAndFlatOnCubes) {
   const Mesh sphere = icosphere(3);
   const CornerNormals smooth = corner_normals(sphere.V, sphere.F, 0.7);
@@ -548,12 +671,16 @@ TEST(Lighting, NormalsAreSmoothOnSpheresAndFlatOnCubes) {
   for (Eigen::Index c = 0; c < F.size(); ++c) EXPECT_NEAR(flat.row(c).cwiseAbs().maxCoeff(), 1, 1e-6);
 }
 
-/// The mean openness over the samples of a pixel.
-double mean_openness(const RayScene& scene, const Ray& from) {
-  const Blocker is_blocked = [&](const Ray& ray) { return scene.is_blocked(ray); };
+/// The mean of estimate(turn) over turns of their rays.
+double mean_over_turns(const std::function<float(float)>& estimate) {
   double sum = 0;
-  for (int k = 0; k < 9; ++k) sum += openness(is_blocked, from, 3, {100.5F, 60.5F, k});
+  for (int k = 0; k < 9; ++k) sum += estimate(static_cast<float>(k) / 9);
   return sum / 9;
+}
+
+double mean_openness(const RayScene& scene, const Ray& from) {
+  const Blocker are_blocked = [&](const Packet& rays) { return scene.are_blocked(rays); };
+  return mean_over_turns([&](float turn) { return openness(are_blocked, from, turn); });
 }
 
 /// Two squares that meet along the y axis, each rising by the slope (negative: falling) away from it.
@@ -572,8 +699,8 @@ TEST(Lighting, ConcaveCreasesAreDarkerAndConvexTopsAreNot) {
   const Ray above = {Vector3f(0, 0, 0.01F), Vector3f::UnitZ(), 0.6F};
   const double steep = mean_openness(folded_squares(2), above),
                flatter = mean_openness(folded_squares(1), above);
-  EXPECT_NEAR(steep, 0.447, 0.08) << "the cosine of the slope's angle, for squares without end";
-  EXPECT_NEAR(flatter, 0.707, 0.08);
+  EXPECT_NEAR(steep, 0.447, 0.04) << "the cosine of the slope's angle, for squares without end";
+  EXPECT_NEAR(flatter, 0.707, 0.04);
   EXPECT_EQ(mean_openness(folded_squares(-1), above), 1);
   EXPECT_EQ(mean_openness(folded_squares(0), above), 1);
 }
@@ -582,11 +709,9 @@ TEST(Lighting, BallsThrowShadowsAwayFromTheMainLight) {
   RayScene scene;
   scene.add_ball({0, 0, 0.5}, 0.2);
   scene.commit();
-  const Blocker is_blocked = [&](const Ray& ray) { return scene.is_blocked(ray); };
+  const Blocker are_blocked = [&](const Packet& rays) { return scene.are_blocked(rays); };
   const auto share = [&](const Vector3f& origin) {
-    float sum = 0;
-    for (int k = 0; k < 9; ++k) sum += lit(is_blocked, origin, Matrix3::Identity(), {100.5F, 60.5F, k});
-    return sum / 9;
+    return mean_over_turns([&](float turn) { return lit(are_blocked, origin, Matrix3::Identity(), turn); });
   };
   EXPECT_LT(share({0.3F, -0.43F, 0}), 0.5F) << "the light is above the viewer's left shoulder";
   EXPECT_EQ(share({-0.3F, 0.43F, 0}), 1);

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 
 namespace orbitutte {
 
@@ -27,6 +28,21 @@ Ray Camera::ray(float x, float y, double distance) const {
   const Vector3 in_view((x - 0.5 * size.width) * pixel, (0.5 * size.height - y) * pixel, distance);
   const Vector3 origin = centre + axes.transpose() * in_view;
   return {origin.cast<float>(), -axes.row(2).transpose().cast<float>()};
+}
+
+Packet Camera::rays(int column, int row, double distance) const {
+  // In sixteenths of a pixel: the points for eight samples of common graphics hardware.
+  constexpr std::array<std::array<int, 2>, packet_size> places = {
+      {{9, 5}, {7, 11}, {13, 9}, {5, 3}, {3, 13}, {1, 7}, {11, 15}, {15, 1}}};
+  const Ray corner = ray(static_cast<float>(column), static_cast<float>(row), distance);
+  const Vector3f right = (pixel / 16 * axes.row(0)).cast<float>(),
+                 down = (-pixel / 16 * axes.row(1)).cast<float>();
+  Packet rays;
+  for (int k = 0; k < packet_size; ++k)
+    rays[k] = {
+        corner.origin + static_cast<float>(places[k][0]) * right + static_cast<float>(places[k][1]) * down,
+        corner.direction};
+  return rays;
 }
 
 Vector3 Camera::project(const Vector3& point) const {

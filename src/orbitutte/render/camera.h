@@ -28,6 +28,10 @@ struct Camera {
   /// the centre.
   Ray ray(float x, float y, double distance) const;
 
+  /// Rays through one pixel. No two of them are in one column or row, so that edges near an axis are drawn as
+  /// smoothly as others.
+  Packet rays(int column, int row, double distance) const;
+
   /// Where a point appears: x, y in pixels, and its depth towards the viewer in the world's unit.
   Vector3 project(const Vector3& point) const;
 };

@@ -5,6 +5,7 @@
 
 #include "orbitutte/io/file.h"
 #include "orbitutte/render/chart_drawing.h"
+#include "orbitutte/render/colour_table.h"
 #include "orbitutte/render/default_view.h"
 #include "orbitutte/render/render.h"
 #include "orbitutte/report/charts.h"
@@ -76,9 +77,10 @@ void draw_figures(Canvas& canvas, double top, const Comparison& comparison, cons
                                    {static_cast<int>(box.width), static_cast<int>(box.height)}, 0.95);
   Ornaments none;
   none.commit();
+  const ColourTable colours(scale);
   for (std::size_t k = 0; k < comparison.maps.size(); ++k) {
     const std::vector<FaceDistortion>& faces = comparison.maps[k].faces;
-    const auto colour = [&](const Hit& hit) { return face_colour(scale, faces[hit.primitive]); };
+    const auto colour = [&](const Hit& hit) { return colours.of_face(faces[hit.primitive]); };
     canvas.image({box.x + static_cast<double>(k) * column, top}, figure.draw(camera, colour, none));
   }
   draw_scale(canvas, {0, top + figure_row, canvas.size().width * 1.0, scale_row}, scale);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures as arrays of pixels, and how samples make them.
+// Pictures as arrays of pixels.
 #pragma once
 
 #include <functional>
@@ -32,19 +32,7 @@ struct Image {
   }
 };
 
-/// Where a sample lies: x to the right and y down, in pixels from the top left corner of the picture.
-struct Sample {
-  float x = 0;
-  float y = 0;
-  /// In the pixel, 0 .. samples_across^2 - 1.
-  int number = 0;
-};
-
-/// The number of samples along each side of a pixel.
-constexpr int samples_across = 3;
-
-/// Every pixel is the mean of shade(sample) over a grid of samples. Pixels are independent, rows run on all
-/// threads.
-Image supersample(const PictureSize& size, const std::function<Rgba(const Sample&)>& shade);
+/// Every pixel is colour(column, row). Pixels are independent, rows run on all threads.
+Image picture_of(const PictureSize& size, const std::function<Rgba(int column, int row)>& colour);
 
 }  // namespace orbitutte

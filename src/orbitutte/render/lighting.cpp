@@ -3,12 +3,12 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "orbitutte/mesh/connectivity.h"
 #include "orbitutte/mesh/disjoint_sets.h"
-#include "orbitutte/render/image.h"
 
 namespace orbitutte {
 namespace {
@@ -41,19 +41,41 @@ DisjointSets smooth_corners(const Points& V, const Triangles& F, const CornerNor
   return corners;
 }
 
-float fraction(float x) { return x - std::floor(x); }
+// The k-th of so many points that fill the unit disk evenly: H. Vogel, "A better way to construct the
+// sunflower head", Mathematical Biosciences 44, 1979.
+Eigen::Vector2f sunflower(int k, int count) {
+  constexpr float golden_angle = 2.3999632F;
+  const float angle = golden_angle * static_cast<float>(k);
+  return std::sqrt((static_cast<float>(k) + 0.5F) / static_cast<float>(count)) *
+         Eigen::Vector2f(std::cos(angle), std::sin(angle));
+}
 
-// Interleaved gradient noise (J. Jimenez, "Next Generation Post Processing in Call of Duty", 2014): a number
-// 0 .. 1 for every pixel that takes all values in every small block of pixels.
-float dither(float x, float y) { return fraction(52.9829189F * fraction(0.06711056F * x + 0.00583715F * y)); }
+constexpr int packets_to_surroundings = 2;
 
-// The k-th direction of a pixel on the hemisphere about the z axis, cosine-weighted: M. Roberts' R2 sequence,
-// which fills the unit square evenly, shifted by the pixel's own number.
-Vector3f hemisphere_direction(float shift, int k) {
-  const float u = fraction(shift + 0.7548776662F * static_cast<float>(k));
-  const float v = fraction(7 * shift + 0.5698402910F * static_cast<float>(k));
-  const float angle = 2 * std::numbers::pi_v<float> * v, radius = std::sqrt(u);
-  return {radius * std::cos(angle), radius * std::sin(angle), std::sqrt(1 - u)};
+// On the hemisphere about the z axis, cosine-weighted: above points that fill the disk.
+std::array<Vector3f, packets_to_surroundings * packet_size> hemisphere_directions() {
+  std::array<Vector3f, packets_to_surroundings * packet_size> directions;
+  for (std::size_t k = 0; k < directions.size(); ++k) {
+    const Eigen::Vector2f place = sunflower(static_cast<int>(k), static_cast<int>(directions.size()));
+    directions[k] << place, std::sqrt(1 - place.squaredNorm());
+  }
+  return directions;
+}
+
+std::array<Vector3f, packet_size> lamp_points() {
+  std::array<Vector3f, packet_size> points;
+  for (int k = 0; k < packet_size; ++k) points[k] << sunflower(k, packet_size), 0;
+  return points;
+}
+
+// Columns: two directions across an axis, turned about it by a share of a full turn, and the axis.
+Eigen::Matrix3f frame_about(const Vector3f& axis, float turn) {
+  const float angle = 2 * std::numbers::pi_v<float> * turn;
+  const Vector3f across = axis.unitOrthogonal(), further = axis.cross(across);
+  Eigen::Matrix3f frame;
+  frame << std::cos(angle) * across + std::sin(angle) * further,
+      std::cos(angle) * further - std::sin(angle) * across, axis;
+  return frame;
 }
 
 Vector3f unit(float x, float y, float z) { return Vector3f(x, y, z).normalized(); }
@@ -97,27 +119,31 @@ float brightness(const Vector3f& normal, const Exposure& exposure) {
 
 float gloss(const Vector3f& normal) {
   static const Vector3f halfway = (main_light() + Vector3f::UnitZ()).normalized();
-  return 0.07F * std::pow(std::max(0.0F, normal.dot(halfway)), 40.0F);
+  const float cosine = std::max(0.0F, normal.dot(halfway)), to_2 = cosine * cosine, to_4 = to_2 * to_2,
+              to_8 = to_4 * to_4, to_16 = to_8 * to_8;
+  return 0.07F * to_16 * to_16 * to_8;
 }
 
-float openness(const Blocker& is_blocked, const Ray& from, int rays, const Sample& sample) {
-  const float shift = dither(std::floor(sample.x), std::floor(sample.y));
-  const Eigen::Quaternionf turn = Eigen::Quaternionf::FromTwoVectors(Vector3f::UnitZ(), from.direction);
-  int open = 0;
-  for (int k = 0; k < rays; ++k) {
-    const Vector3f direction = turn * hemisphere_direction(shift, rays * sample.number + k);
-    open += is_blocked({from.origin, direction, from.length}) ? 0 : 1;
+float openness(const Blocker& are_blocked, const Ray& from, float turn) {
+  static const auto directions = hemisphere_directions();
+  const Eigen::Matrix3f frame = frame_about(from.direction, turn);
+  std::size_t blocked = 0;
+  for (int p = 0; p < packets_to_surroundings; ++p) {
+    Packet rays;
+    for (int k = 0; k < packet_size; ++k)
+      rays[k] = {from.origin, frame * directions[packet_size * p + k], from.length};
+    blocked += are_blocked(rays).count();
   }
-  return static_cast<float>(open) / static_cast<float>(rays);
+  return 1 - static_cast<float>(blocked) / static_cast<float>(directions.size());
 }
 
-float lit(const Blocker& is_blocked, const Vector3f& origin, const Matrix3& axes, const Sample& sample) {
-  const float shift = dither(std::floor(sample.x), std::floor(sample.y));
+float lit(const Blocker& are_blocked, const Vector3f& origin, const Matrix3& axes, float turn) {
+  static const auto points = lamp_points();
   const Vector3f centre = axes.transpose().cast<float>() * main_light();
-  const Eigen::Quaternionf turn = Eigen::Quaternionf::FromTwoVectors(Vector3f::UnitZ(), centre);
-  Vector3f aside = hemisphere_direction(shift, sample.number);
-  aside[2] = 0;
-  return is_blocked({origin, centre + lamp_radius * (turn * aside)}) ? 0.0F : 1.0F;
+  const Eigen::Matrix3f frame = frame_about(centre, turn);
+  Packet rays;
+  for (int k = 0; k < packet_size; ++k) rays[k] = {origin, centre + lamp_radius * (frame * points[k])};
+  return 1 - static_cast<float>(are_blocked(rays).count()) / packet_size;
 }
 
 }  // namespace orbitutte

@@ -2,9 +2,9 @@
 // Normals, lights and shade.
 #pragma once
 
+#include <bitset>
 #include <functional>
 
-#include "orbitutte/render/image.h"
 #include "orbitutte/render/ray_scene.h"
 
 namespace orbitutte {
@@ -32,17 +32,16 @@ float brightness(const Vector3f& normal, const Exposure& exposure);
 /// What a slightly glossy surface reflects of the main light besides, about 0 .. 0.1.
 float gloss(const Vector3f& normal);
 
-/// Does anything lie on a ray?
-using Blocker = std::function<bool(const Ray&)>;
+/// Which of these rays does anything lie on?
+using Blocker = std::function<std::bitset<packet_size>(const Packet&)>;
 
-/// The share of the hemisphere above a point that nothing blocks within `from.length`, estimated with so
-/// many rays. Their directions are spread evenly over the samples of a pixel, and turned from pixel to pixel
-/// so that the remaining noise is finely grained. from: its origin just above the surface, its direction the
-/// unit normal.
-float openness(const Blocker& is_blocked, const Ray& from, int rays, const Sample& sample);
+/// The share of the hemisphere above a point that nothing blocks within `from.length`, estimated with a few
+/// rays, whose directions are turned by a share 0 .. 1 of a full turn. from: its origin just above the
+/// surface, its direction the unit normal.
+float openness(const Blocker& are_blocked, const Ray& from, float turn);
 
-/// Does the main light, which is as wide as a lamp near by, reach a point? 1 or 0; the mean over the samples
-/// of a pixel is its share. origin: just above the surface; axes: the camera's (rows).
-float lit(const Blocker& is_blocked, const Vector3f& origin, const Matrix3& axes, const Sample& sample);
+/// The share of the main light, which is as wide as a lamp near by, that reaches a point, estimated in the
+/// same way. origin: just above the surface; axes: the camera's (rows).
+float lit(const Blocker& are_blocked, const Vector3f& origin, const Matrix3& axes, float turn);
 
 }  // namespace orbitutte

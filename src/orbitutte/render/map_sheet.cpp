@@ -12,6 +12,7 @@
 #include "orbitutte/io/file.h"
 #include "orbitutte/render/ball_labels.h"
 #include "orbitutte/render/chart_drawing.h"
+#include "orbitutte/render/colour_table.h"
 #include "orbitutte/render/default_view.h"
 #include "orbitutte/render/panels.h"
 #include "orbitutte/render/piece_finder.h"
@@ -109,13 +110,12 @@ class SheetParts {
     return at.piece < 0 ? linear(ink::unmeasured)
                         : checkered(on_corners(on_b_, pieces_.triangles, at.piece, at.weights));
   }
-  // The colour on a scale of what `value` takes from the distortion there; grey if that is not a number.
+  // The colour of what `value` takes from the distortion there; grey if that is not a finite number.
   template <typename Value>
-  Colour a_on_scale(const Hit& hit, const ColourScale& scale, const Value& value) const {
+  Colour a_on_scale(const Hit& hit, const ColourTable& colours, const Value& value) const {
     const PiecePoint at = finder_.find(hit.primitive, weights_of(hit));
     const double number = at.piece < 0 ? NAN : value(distortion_[at.piece]);
-    return std::isfinite(number) ? scale_colour(scale.measure, share_along(scale.axis, number))
-                                 : linear(ink::unmeasured);
+    return colours.at(std::isfinite(number) ? number : NAN);
   }
 
  private:
@@ -157,9 +157,10 @@ void draw_side(Canvas& canvas, const Box& box, const SheetParts& parts, Shown of
 template <typename Value>
 void draw_measure(Canvas& canvas, const Box& box, const SheetParts& parts, const ColourScale& scale,
                   const Value& value) {
+  const ColourTable colours(scale);
   const double below = sheet_scale_height * canvas.em();
   draw_side(canvas, box.inset(0, 0, 0, below), parts, Shown::a,
-            [&](const Hit& hit) { return parts.a_on_scale(hit, scale, value); });
+            [&](const Hit& hit) { return parts.a_on_scale(hit, colours, value); });
   draw_scale(canvas, {box.x, box.bottom() - below, box.width, below}, scale);
 }
 

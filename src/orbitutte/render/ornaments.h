@@ -22,7 +22,8 @@ class Ornaments {
   void commit() { scene_.commit(); }
 
   std::optional<Hit> first_hit(const Ray& ray) const { return scene_.first_hit(ray); }
-  bool is_blocked(const Ray& ray) const { return scene_.is_blocked(ray); }
+  Hits first_hits(const Packet& rays) const { return scene_.first_hits(rays); }
+  std::bitset<packet_size> are_blocked(const Packet& rays) const { return scene_.are_blocked(rays); }
   Colour colour(const Hit& hit) const;
 
  private:

@@ -74,21 +74,92 @@ RTCRay to_rtc(const Ray& ray) {
   return result;
 }
 
-// The two calls whose signatures changed with Embree 4.
+// For each ray -1, or 0 if it is to be left out.
+struct alignas(32) Valid {
+  std::array<int, packet_size> rays;
+};
+
+Valid valid_of(const Packet& rays) {
+  Valid valid;
+  for (int k = 0; k < packet_size; ++k) valid.rays[k] = rays[k].length >= 0 ? -1 : 0;
+  return valid;
+}
+
+RTCRay8 to_rtc(const Packet& rays) {
+  RTCRay8 result;
+  for (int k = 0; k < packet_size; ++k) {
+    const Ray& ray = rays[k];
+    result.org_x[k] = ray.origin[0], result.org_y[k] = ray.origin[1], result.org_z[k] = ray.origin[2];
+    result.dir_x[k] = ray.direction[0], result.dir_y[k] = ray.direction[1];
+    result.dir_z[k] = ray.direction[2];
+    result.tnear[k] = 0, result.tfar[k] = ray.length, result.time[k] = 0;
+    result.mask[k] = ~0U, result.id[k] = result.flags[k] = 0;
+  }
+  return result;
+}
+
+// The k-th hit of a packet.
+RTCHit hit_in(const RTCHit8& hits, int k) {
+  RTCHit hit = {};
+  hit.Ng_x = hits.Ng_x[k], hit.Ng_y = hits.Ng_y[k], hit.Ng_z = hits.Ng_z[k];
+  hit.u = hits.u[k], hit.v = hits.v[k];
+  hit.primID = hits.primID[k], hit.geomID = hits.geomID[k], hit.instID[0] = hits.instID[0][k];
+  return hit;
+}
+
+// In the shape's own coordinates.
+Hit to_hit(float distance, const RTCHit& found) {
+  Hit hit;
+  hit.distance = distance;
+  hit.shape = static_cast<int>(found.geomID);
+  hit.primitive = static_cast<int>(found.primID);
+  if (found.instID[0] != RTC_INVALID_GEOMETRY_ID) hit.copy = static_cast<int>(found.instID[0]);
+  hit.u = found.u, hit.v = found.v;
+  hit.normal = Vector3f(found.Ng_x, found.Ng_y, found.Ng_z).normalized();
+  return hit;
+}
+
+// The calls whose signatures changed with Embree 4.
 #if RTC_VERSION_MAJOR >= 4
 void intersect(RTCScene scene, RTCRayHit& query) { rtcIntersect1(scene, &query); }
 void occlude(RTCScene scene, RTCRay& query) { rtcOccluded1(scene, &query); }
+
+void intersect(RTCScene scene, const Valid& valid, RTCRayHit8& query) {
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+  rtcIntersect8(valid.rays.data(), scene, &query, &arguments);
+}
+
+void occlude(RTCScene scene, const Valid& valid, RTCRay8& query) {
+  rtcOccluded8(valid.rays.data(), scene, &query);
+}
 #else
-void intersect(RTCScene scene, RTCRayHit& query) {
+RTCIntersectContext context_of(RTCIntersectContextFlags flags) {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
+  context.flags = flags;
+  return context;
+}
+
+void intersect(RTCScene scene, RTCRayHit& query) {
+  RTCIntersectContext context = context_of(RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
   rtcIntersect1(scene, &context, &query);
 }
 
 void occlude(RTCScene scene, RTCRay& query) {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
+  RTCIntersectContext context = context_of(RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
   rtcOccluded1(scene, &context, &query);
+}
+
+void intersect(RTCScene scene, const Valid& valid, RTCRayHit8& query) {
+  RTCIntersectContext context = context_of(RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
+  rtcIntersect8(valid.rays.data(), scene, &context, &query);
+}
+
+void occlude(RTCScene scene, const Valid& valid, RTCRay8& query) {
+  RTCIntersectContext context = context_of(RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
+  rtcOccluded8(valid.rays.data(), scene, &context, &query);
 }
 #endif
 
@@ -152,21 +223,9 @@ void RayScene::commit() {
   check_device();
 }
 
-std::optional<Hit> RayScene::first_hit(const Ray& ray) const {
-  RTCRayHit query = {to_rtc(ray), {}};
-  query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  intersect(scene_.get(), query);
-  const RTCHit& found = query.hit;
-  if (found.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-  Hit hit;
-  hit.distance = query.ray.tfar;
-  hit.shape = static_cast<int>(found.geomID);
-  hit.primitive = static_cast<int>(found.primID);
-  hit.u = found.u, hit.v = found.v;
-  hit.normal = Vector3f(found.Ng_x, found.Ng_y, found.Ng_z).normalized();
+Hit RayScene::in_its_shape(Hit hit) const {
   const std::vector<Shape>* shapes = shapes_.get();
-  if (found.instID[0] != RTC_INVALID_GEOMETRY_ID) {
-    hit.copy = static_cast<int>(found.instID[0]);
+  if (hit.copy >= 0) {
     const Shape& copy = (*shapes)[hit.copy];
     hit.normal = copy.transform * hit.normal;
     shapes = copy.original.get();
@@ -180,10 +239,38 @@ std::optional<Hit> RayScene::first_hit(const Ray& ray) const {
   return hit;
 }
 
+std::optional<Hit> RayScene::first_hit(const Ray& ray) const {
+  RTCRayHit query = {to_rtc(ray), {}};
+  query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  intersect(scene_.get(), query);
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  return in_its_shape(to_hit(query.ray.tfar, query.hit));
+}
+
+Hits RayScene::first_hits(const Packet& rays) const {
+  RTCRayHit8 query = {to_rtc(rays), {}};
+  for (int k = 0; k < packet_size; ++k)
+    query.hit.geomID[k] = query.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
+  intersect(scene_.get(), valid_of(rays), query);
+  Hits hits;
+  for (int k = 0; k < packet_size; ++k)
+    if (query.hit.geomID[k] != RTC_INVALID_GEOMETRY_ID)
+      hits[k] = in_its_shape(to_hit(query.ray.tfar[k], hit_in(query.hit, k)));
+  return hits;
+}
+
 bool RayScene::is_blocked(const Ray& ray) const {
   RTCRay query = to_rtc(ray);
   occlude(scene_.get(), query);
   return query.tfar < 0;
+}
+
+std::bitset<packet_size> RayScene::are_blocked(const Packet& rays) const {
+  RTCRay8 query = to_rtc(rays);
+  occlude(scene_.get(), valid_of(rays), query);
+  std::bitset<packet_size> blocked;
+  for (int k = 0; k < packet_size; ++k) blocked[k] = rays[k].length >= 0 && query.tfar[k] < 0;
+  return blocked;
 }
 
 }  // namespace orbitutte

@@ -2,6 +2,8 @@
 // What rays can hit: triangles, tubes, balls and copies of whole scenes, through Embree.
 #pragma once
 
+#include <array>
+#include <bitset>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -23,6 +25,11 @@ struct Ray {
   float length = std::numeric_limits<float>::infinity();
 };
 
+/// Rays that are cast together: eight that run side by side cost no more than two or three alone. Those of
+/// negative length meet nothing.
+constexpr int packet_size = 8;
+using Packet = std::array<Ray, packet_size>;
+
 /// The first thing on a ray.
 struct Hit {
   /// In lengths of the ray's direction.
@@ -38,6 +45,9 @@ struct Hit {
   /// Unit, of the shape as it stands, on either side.
   Vector3f normal;
 };
+
+/// Of every ray of a packet.
+using Hits = std::array<std::optional<Hit>, packet_size>;
 
 /// In single precision: coordinates should be of the order of one. Triangles are those of an edge-manifold
 /// mesh. Add shapes, commit, then cast rays from
@@ -58,7 +68,10 @@ class RayScene {
   void commit();
 
   std::optional<Hit> first_hit(const Ray& ray) const;
+  Hits first_hits(const Packet& rays) const;
+
   bool is_blocked(const Ray& ray) const;
+  std::bitset<packet_size> are_blocked(const Packet& rays) const;
 
  private:
   struct Shape {
@@ -68,6 +81,9 @@ class RayScene {
     Eigen::Matrix3f transform = Eigen::Matrix3f::Identity();
     std::shared_ptr<const std::vector<Shape>> original = {};
   };
+
+  /// The hit in the coordinates of its face, with the normal of its copy.
+  Hit in_its_shape(Hit hit) const;
 
   std::shared_ptr<RTCSceneTy> scene_;
   /// Shared with the copies of the scene.

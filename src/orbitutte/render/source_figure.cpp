@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "orbitutte/parallel.h"
+#include "orbitutte/render/exposure_grid.h"
 
 namespace orbitutte {
 namespace {
@@ -14,7 +14,6 @@ constexpr double crease = 40 * std::numbers::pi / 180;
 constexpr double distance_to_source = 4;  // the figure lies in the unit ball
 constexpr float surface_offset = 2e-4F;   // how far above the surface rays begin that leave it
 constexpr float reach_of_shade = 0.6F;
-constexpr int rays_to_surroundings = 3;  // for each sample
 
 // Vertices that no face uses are put on the first face's first corner, so that they do not make the figure
 // small.
@@ -35,6 +34,20 @@ Vector3f interpolate(const CornerNormals& normals, const Hit& hit) {
   return ((1 - hit.u - hit.v) * corner(0) + hit.u * corner(1) + hit.v * corner(2)).transpose();
 }
 
+bool is_before(const std::optional<Hit>& ornament, const std::optional<Hit>& surface) {
+  return ornament && (!surface || ornament->distance < surface->distance);
+}
+
+// What reaches the viewer from a surface, diffusely and in a highlight.
+struct Shade {
+  float diffuse = 1, highlight = 0;
+};
+
+Shade shade_of(const Camera& camera, const Vector3f& normal, const Exposure& exposure) {
+  const Vector3f in_view = camera.axes.cast<float>() * normal;
+  return {brightness(in_view, exposure), gloss(in_view) * exposure.openness * exposure.lit};
+}
+
 Vector3f towards(const Vector3f& normal, const Vector3f& viewer) {
   return normal.dot(viewer) < 0 ? Vector3f(-normal) : normal;
 }
@@ -49,21 +62,39 @@ SourceFigure::SourceFigure(const Points& V, const Triangles& F)
 
 Image SourceFigure::draw(const Camera& camera, const SurfaceColour& colour,
                          const Ornaments& ornaments) const {
-  const Blocker is_blocked = [&](const Ray& ray) {
-    return scene_.is_blocked(ray) || ornaments.is_blocked(ray);
+  const Blocker are_blocked = [&](const Packet& rays) {
+    return scene_.are_blocked(rays) | ornaments.are_blocked(rays);
   };
-  return supersample(camera.size, [&](const Sample& sample) -> Rgba {
-    const Ray ray = camera.ray(sample.x, sample.y, distance_to_source);
-    const auto surface = scene_.first_hit(ray), ornament = ornaments.first_hit(ray);
-    if (ornament && (!surface || ornament->distance < surface->distance))
-      return shade_ornament(camera, ornaments, *ornament);
-    if (!surface) return Rgba::Zero();
-    const Ray above = normal_at(ray, *surface);
-    const Exposure exposure = {openness(is_blocked, above, rays_to_surroundings, sample),
-                               lit(is_blocked, above.origin, camera.axes, sample)};
-    const Vector3f normal = camera.axes.cast<float>() * above.direction;
-    return opaque(brightness(normal, exposure) * colour(*surface) +
-                  gloss(normal) * exposure.openness * exposure.lit);
+  const auto exposure = [&](const Ray& above, float turn) -> Exposure {
+    return {openness(are_blocked, above, turn), lit(are_blocked, above.origin, camera.axes, turn)};
+  };
+  const auto seen = [&](const Packet& rays) {
+    const Hits surface = scene_.first_hits(rays), ornament = ornaments.first_hits(rays);
+    Normals normals;
+    for (int k = 0; k < packet_size; ++k)
+      if (surface[k] && !is_before(ornament[k], surface[k])) normals[k] = normal_at(rays[k], *surface[k]);
+    return normals;
+  };
+  const ExposureGrid light(camera, distance_to_source, {seen, exposure});
+  return picture_of(camera.size, [&](int column, int row) -> Rgba {
+    const Packet rays = camera.rays(column, row, distance_to_source);
+    const Hits surface = scene_.first_hits(rays), ornament = ornaments.first_hits(rays);
+    Rgba sum = Rgba::Zero();
+    int shaded = -1;  // the face that this is the shade of, as everywhere in the pixel
+    Shade shade;
+    for (int k = 0; k < packet_size; ++k) {
+      if (is_before(ornament[k], surface[k])) {
+        sum += shade_ornament(camera, ornaments, *ornament[k]);
+      } else if (surface[k]) {
+        if (shaded != surface[k]->primitive) {
+          const Ray above = normal_at(rays[k], *surface[k]);
+          shade = shade_of(camera, above.direction, light.at(column, row, above));
+          shaded = surface[k]->primitive;
+        }
+        sum += opaque(shade.diffuse * colour(*surface[k]) + shade.highlight);
+      }
+    }
+    return sum / packet_size;
   });
 }
 

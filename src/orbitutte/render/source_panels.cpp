@@ -5,6 +5,7 @@
 #include "orbitutte/render/ball_labels.h"
 #include "orbitutte/render/chart_drawing.h"
 #include "orbitutte/render/checkerboard.h"
+#include "orbitutte/render/colour_table.h"
 #include "orbitutte/render/mesh_lines.h"
 #include "orbitutte/render/panels.h"
 #include "orbitutte/render/sphere_figure.h"
@@ -122,11 +123,11 @@ void draw_area_panel(Canvas& canvas, const Box& box, PictureParts& parts) {
   const std::vector<FaceDistortion>& faces = parts.distortion();
   const std::vector<double> areas = values_of(Measure::area, faces);
   const ColourScale scale = colour_scale(Measure::area, areas);
+  const ColourTable colours(scale);
   const double em = canvas.em(), bars = histogram_height(box, parts) * em,
                below = scale_height * em + bars + (bars > 0 ? em : 0);
   const Box above = box.inset(0, 0, 0, below);
-  draw_surface(canvas, above, parts,
-               [&](const Hit& hit) { return face_colour(scale, faces[hit.primitive]); });
+  draw_surface(canvas, above, parts, [&](const Hit& hit) { return colours.of_face(faces[hit.primitive]); });
   if (!parts.subject().candidates.empty()) draw_orders(canvas, above, parts);
   const Box legend = {box.x, box.bottom() - scale_height * em, box.width, scale_height * em};
   draw_scale(canvas, legend, scale);
@@ -137,9 +138,10 @@ void draw_area_panel(Canvas& canvas, const Box& box, PictureParts& parts) {
 void draw_angle_panel(Canvas& canvas, const Box& box, PictureParts& parts) {
   const std::vector<FaceDistortion>& faces = parts.distortion();
   const ColourScale scale = colour_scale(Measure::angle, values_of(Measure::angle, faces));
+  const ColourTable colours(scale);
   const double below = scale_height * canvas.em();
   draw_surface(canvas, box.inset(0, 0, 0, below), parts,
-               [&](const Hit& hit) { return face_colour(scale, faces[hit.primitive]); });
+               [&](const Hit& hit) { return colours.of_face(faces[hit.primitive]); });
   draw_scale(canvas, {box.x, box.bottom() - below, box.width, below}, scale);
 }
 

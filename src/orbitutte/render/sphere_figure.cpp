@@ -6,12 +6,14 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "orbitutte/orbifold/polygon.h"
 #include "orbitutte/orbifold/symmetry_group.h"
 #include "orbitutte/render/ball_labels.h"
+#include "orbitutte/render/exposure_grid.h"
 #include "orbitutte/render/mesh_lines.h"
 #include "orbitutte/render/source_figure.h"
 
@@ -119,9 +121,16 @@ Ornaments seams_of_copies(const Embedding& embedding, const std::vector<TileCopy
   return result;
 }
 
-Colour copy_colour(const TileCopy& copy) {
-  return mix(linear(tile_colour(copy.colour, false)), linear(ink::paper), copy.mirrored ? 0.45F : 0.6F);
+// Those of the copies, the first in bold.
+std::vector<Colour> colours_of_copies(const std::vector<TileCopy>& copies) {
+  std::vector<Colour> colours = {linear(bold_colour)};
+  for (std::size_t c = 1; c < copies.size(); ++c)
+    colours.push_back(mix(linear(tile_colour(copies[c].colour, false)), linear(ink::paper),
+                          copies[c].mirrored ? 0.45F : 0.6F));
+  return colours;
 }
+
+Ray nowhere() { return {Vector3f::Zero(), Vector3f::UnitZ(), -1}; }
 
 }  // namespace
 
@@ -131,42 +140,70 @@ SphereFigure::SphereFigure(const Embedding& embedding, std::vector<float> relief
       faces_(embedding.triangles),
       relief_(std::move(relief)),
       copies_(copies_of(embedding)),
+      copy_colours_(colours_of_copies(copies_)),
       edge_length_(mean_edge_length(positions_, faces_)),
       scene_(copies_of_tile(positions_, faces_, copies_)) {}
 
-Colour SphereFigure::surface_colour(const Vector3f& point, double pixel) const {
-  const auto hit = scene_.first_hit({Vector3f::Zero(), point});
-  if (!hit) return linear(ink::figure);  // outside of a tile that has no copies
-  const TileCopy& copy = copies_[hit->copy];
+Colour SphereFigure::surface_colour(const std::optional<Hit>& hit, double pixel) const {
+  if (!hit) return around_;  // outside of a tile that has no copies
   const auto corner = faces_.row(hit->primitive);
   const float relief =
       (1 - hit->u - hit->v) * relief_[corner[0]] + hit->u * relief_[corner[1]] + hit->v * relief_[corner[2]];
-  const Colour base = hit->copy == 0 ? linear(bold_colour) : copy_colour(copy);
   const float strength = hit->copy == 0 ? 0.7F : 0.3F;
   const float line = line_strength(edge_length_ / pixel) * line_coverage(positions_, faces_, *hit, pixel);
-  return base * (1 - strength + strength * relief) * (1 - 0.5F * line);
+  return copy_colours_[hit->copy] * (1 - strength + strength * relief) * (1 - 0.5F * line);
+}
+
+// Nothing where a ray passes the surface, or an ornament hides it.
+SphereFigure::Seen SphereFigure::seen_on(const Ray& ray, const std::optional<Hit>& ornament) const {
+  const auto distance = drawn_.surface().meeting(ray.origin.cast<double>(), ray.direction.cast<double>());
+  // Copies' seams do not stand out: the outline stays round.
+  if (ornament && (distance ? ornament->distance < *distance : ornament->copy < 0))
+    return {.is_hidden = true};
+  if (!distance) return {};
+  const Vector3 at =
+      drawn_.surface().retract(ray.origin.cast<double>() + *distance * ray.direction.cast<double>());
+  const std::optional<Vector3> point = drawn_.point_at(at);
+  if (!point) return {};
+  return {.point = point,
+          .normal = {above_sphere * at.cast<float>(), drawn_.surface().upright(at).cast<float>(),
+                     reach_of_contact}};
 }
 
 Image SphereFigure::draw(const Camera& camera, const Ornaments& ornaments) const {
-  const Blocker is_blocked = [&](const Ray& ray) { return ornaments.is_blocked(ray); };
-  return supersample(camera.size, [&](const Sample& sample) -> Rgba {
-    const Ray ray = camera.ray(sample.x, sample.y, camera_distance);
-    const auto distance = drawn_.surface().meeting(ray.origin.cast<double>(), ray.direction.cast<double>());
-    const auto ornament = ornaments.first_hit(ray);
-    if (ornament && (distance ? ornament->distance < *distance : ornament->copy < 0))
-      return shade_ornament(camera, ornaments, *ornament);
-    if (!distance) return Rgba::Zero();  // copies' seams do not stand out: the outline stays round
-    const Vector3 at =
-        drawn_.surface().retract(ray.origin.cast<double>() + *distance * ray.direction.cast<double>());
-    const std::optional<Vector3> seen = drawn_.point_at(at);
-    if (!seen) return Rgba::Zero();
-    const Vector3f point = at.cast<float>(), upright = drawn_.surface().upright(at).cast<float>();
-    const Vector3f normal = camera.axes.cast<float>() * upright;
-    const float open = openness(is_blocked, {above_sphere * point, upright, reach_of_contact}, 1, sample);
-    const float shade = 1 - contact + contact * open;
-    return opaque((0.40F + 0.62F * brightness(normal, {})) * shade *
-                      surface_colour(seen->cast<float>(), camera.pixel / drawn_.scale(*seen)) +
-                  0.6F * gloss(normal));
+  const Blocker are_blocked = [&](const Packet& rays) { return ornaments.are_blocked(rays); };
+  const auto exposure = [&](const Ray& normal, float turn) -> Exposure {
+    return {.openness = openness(are_blocked, normal, turn)};
+  };
+  const auto normals_seen = [&](const Packet& rays) {
+    const Hits ornament = ornaments.first_hits(rays);
+    Normals normals;
+    for (int k = 0; k < packet_size; ++k)
+      if (const Seen seen = seen_on(rays[k], ornament[k]); seen.point) normals[k] = seen.normal;
+    return normals;
+  };
+  const ExposureGrid light(camera, camera_distance, {normals_seen, exposure});
+  return picture_of(camera.size, [&](int column, int row) -> Rgba {
+    const Packet rays = camera.rays(column, row, camera_distance);
+    const Hits ornament = ornaments.first_hits(rays);
+    std::array<Seen, packet_size> seen;
+    Packet outwards;
+    for (int k = 0; k < packet_size; ++k) {
+      seen[k] = seen_on(rays[k], ornament[k]);
+      outwards[k] = seen[k].point ? Ray{Vector3f::Zero(), seen[k].point->cast<float>()} : nowhere();
+    }
+    const Hits surface = scene_.first_hits(outwards);
+    Rgba sum = Rgba::Zero();
+    for (int k = 0; k < packet_size; ++k) {
+      if (seen[k].is_hidden) sum += shade_ornament(camera, ornaments, *ornament[k]);
+      if (!seen[k].point) continue;
+      const Vector3f normal = camera.axes.cast<float>() * seen[k].normal.direction;
+      const float shade = 1 - contact + contact * light.at(column, row, seen[k].normal).openness;
+      const double pixel = camera.pixel / drawn_.scale(*seen[k].point);
+      sum += opaque((0.40F + 0.62F * brightness(normal, {})) * shade * surface_colour(surface[k], pixel) +
+                    0.6F * gloss(normal));
+    }
+    return sum / packet_size;
   });
 }
 

@@ -22,13 +22,24 @@ class SphereFigure {
   Image draw(const Camera& camera, const Ornaments& ornaments) const;
 
  private:
-  Colour surface_colour(const Vector3f& point, double pixel) const;
+  /// What a ray sees.
+  struct Seen {
+    bool is_hidden = false;  // by an ornament
+    /// Of the embedding's space.
+    std::optional<Vector3> point = {};
+    Ray normal = {};
+  };
+
+  Seen seen_on(const Ray& ray, const std::optional<Hit>& ornament) const;
+  Colour surface_colour(const std::optional<Hit>& hit, double pixel) const;
 
   DrawnSpace drawn_;
   Points positions_;
   Triangles faces_;
   std::vector<float> relief_;
   std::vector<TileCopy> copies_;
+  std::vector<Colour> copy_colours_;
+  Colour around_ = linear(ink::figure);
   /// The mean, on the sphere.
   double edge_length_ = 0;
   RayScene scene_;
