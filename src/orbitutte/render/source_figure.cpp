@@ -34,8 +34,11 @@ Vector3f interpolate(const CornerNormals& normals, const Hit& hit) {
   return ((1 - hit.u - hit.v) * corner(0) + hit.u * corner(1) + hit.v * corner(2)).transpose();
 }
 
-bool is_before(const std::optional<Hit>& ornament, const std::optional<Hit>& surface) {
-  return ornament && (!surface || ornament->distance < surface->distance);
+// The ornaments that rays meet before the surface.
+Hits ornaments_before(const Hits& surface, const Ornaments& ornaments, Packet rays) {
+  for (int k = 0; k < packet_size; ++k)
+    if (surface[k]) rays[k].length = surface[k]->distance;
+  return ornaments.first_hits(rays);
 }
 
 // What reaches the viewer from a surface, diffusely and in a highlight.
@@ -69,21 +72,21 @@ Image SourceFigure::draw(const Camera& camera, const SurfaceColour& colour,
     return {openness(are_blocked, above, turn), lit(are_blocked, above.origin, camera.axes, turn)};
   };
   const auto seen = [&](const Packet& rays) {
-    const Hits surface = scene_.first_hits(rays), ornament = ornaments.first_hits(rays);
+    const Hits surface = scene_.first_hits(rays), ornament = ornaments_before(surface, ornaments, rays);
     Normals normals;
     for (int k = 0; k < packet_size; ++k)
-      if (surface[k] && !is_before(ornament[k], surface[k])) normals[k] = normal_at(rays[k], *surface[k]);
+      if (surface[k] && !ornament[k]) normals[k] = normal_at(rays[k], *surface[k]);
     return normals;
   };
   const ExposureGrid light(camera, distance_to_source, {seen, exposure});
   return picture_of(camera.size, [&](int column, int row) -> Rgba {
     const Packet rays = camera.rays(column, row, distance_to_source);
-    const Hits surface = scene_.first_hits(rays), ornament = ornaments.first_hits(rays);
+    const Hits surface = scene_.first_hits(rays), ornament = ornaments_before(surface, ornaments, rays);
     Rgba sum = Rgba::Zero();
     int shaded = -1;  // the face that this is the shade of, as everywhere in the pixel
     Shade shade;
     for (int k = 0; k < packet_size; ++k) {
-      if (is_before(ornament[k], surface[k])) {
+      if (ornament[k]) {
         sum += shade_ornament(camera, ornaments, *ornament[k]);
       } else if (surface[k]) {
         if (shaded != surface[k]->primitive) {

@@ -130,8 +130,6 @@ std::vector<Colour> colours_of_copies(const std::vector<TileCopy>& copies) {
   return colours;
 }
 
-Ray nowhere() { return {Vector3f::Zero(), Vector3f::UnitZ(), -1}; }
-
 }  // namespace
 
 SphereFigure::SphereFigure(const Embedding& embedding, std::vector<float> relief)
@@ -154,20 +152,54 @@ Colour SphereFigure::surface_colour(const std::optional<Hit>& hit, double pixel)
   return copy_colours_[hit->copy] * (1 - strength + strength * relief) * (1 - 0.5F * line);
 }
 
-// Nothing where a ray passes the surface, or an ornament hides it.
-SphereFigure::Seen SphereFigure::seen_on(const Ray& ray, const std::optional<Hit>& ornament) const {
-  const auto distance = drawn_.surface().meeting(ray.origin.cast<double>(), ray.direction.cast<double>());
-  // Copies' seams do not stand out: the outline stays round.
-  if (ornament && (distance ? ornament->distance < *distance : ornament->copy < 0))
-    return {.is_hidden = true};
+SphereFigure::Meeting SphereFigure::meeting(const Ray& ray) const {
+  const Vector3 origin = ray.origin.cast<double>(), direction = ray.direction.cast<double>();
+  const std::optional<double> distance = drawn_.surface().meeting(origin, direction);
   if (!distance) return {};
-  const Vector3 at =
-      drawn_.surface().retract(ray.origin.cast<double>() + *distance * ray.direction.cast<double>());
-  const std::optional<Vector3> point = drawn_.point_at(at);
-  if (!point) return {};
-  return {.point = point,
+  const Vector3 at = drawn_.surface().retract(origin + *distance * direction);
+  return {.distance = static_cast<float>(*distance),
+          .point = drawn_.point_at(at),
           .normal = {above_sphere * at.cast<float>(), drawn_.surface().upright(at).cast<float>(),
                      reach_of_contact}};
+}
+
+SphereFigure::Seen SphereFigure::look(const Ornaments& ornaments, Packet rays) const {
+  Seen seen;
+  for (int k = 0; k < packet_size; ++k) {
+    seen.surface[k] = meeting(rays[k]);
+    rays[k].length = seen.surface[k].distance;
+  }
+  seen.ornaments = ornaments.first_hits(rays);
+  for (int k = 0; k < packet_size; ++k) {
+    const bool passes = std::isinf(seen.surface[k].distance);
+    // Copies' seams do not stand out: the outline stays round.
+    if (passes && seen.ornaments[k] && seen.ornaments[k]->copy >= 0) seen.ornaments[k].reset();
+    if (seen.ornaments[k]) seen.surface[k].point.reset();
+  }
+  return seen;
+}
+
+// The sum over the points seen through a pixel. The light there, and the scale, are those of the first.
+Rgba SphereFigure::surface_sum(const Seen& seen, const Camera& camera, const SurfaceLight& light) const {
+  const auto first = std::find_if(seen.surface.begin(), seen.surface.end(),
+                                  [](const Meeting& meeting) { return meeting.point.has_value(); });
+  if (first == seen.surface.end()) return Rgba::Zero();
+  const Vector3f normal = camera.axes.cast<float>() * first->normal.direction;
+  const float shade = 1 - contact + contact * light(first->normal).openness,
+              diffuse = (0.40F + 0.62F * brightness(normal, {})) * shade, highlight = 0.6F * gloss(normal);
+  const double pixel = camera.pixel / drawn_.scale(*first->point);
+  Packet outwards;
+  for (int k = 0; k < packet_size; ++k)
+    if (const auto& point = seen.surface[k].point) {
+      outwards[k] = {Vector3f::Zero(), point->cast<float>()};
+    } else {
+      outwards[k].length = -1;
+    }
+  const Hits hits = scene_.first_hits(outwards);
+  Rgba sum = Rgba::Zero();
+  for (int k = 0; k < packet_size; ++k)
+    if (seen.surface[k].point) sum += opaque(diffuse * surface_colour(hits[k], pixel) + highlight);
+  return sum;
 }
 
 Image SphereFigure::draw(const Camera& camera, const Ornaments& ornaments) const {
@@ -175,34 +207,19 @@ Image SphereFigure::draw(const Camera& camera, const Ornaments& ornaments) const
   const auto exposure = [&](const Ray& normal, float turn) -> Exposure {
     return {.openness = openness(are_blocked, normal, turn)};
   };
-  const auto normals_seen = [&](const Packet& rays) {
-    const Hits ornament = ornaments.first_hits(rays);
-    Normals normals;
+  const auto normals = [&](const Packet& rays) {
+    const Seen seen = look(ornaments, rays);
+    Normals result;
     for (int k = 0; k < packet_size; ++k)
-      if (const Seen seen = seen_on(rays[k], ornament[k]); seen.point) normals[k] = seen.normal;
-    return normals;
+      if (seen.surface[k].point) result[k] = seen.surface[k].normal;
+    return result;
   };
-  const ExposureGrid light(camera, camera_distance, {normals_seen, exposure});
+  const ExposureGrid grid(camera, camera_distance, {normals, exposure});
   return picture_of(camera.size, [&](int column, int row) -> Rgba {
-    const Packet rays = camera.rays(column, row, camera_distance);
-    const Hits ornament = ornaments.first_hits(rays);
-    std::array<Seen, packet_size> seen;
-    Packet outwards;
-    for (int k = 0; k < packet_size; ++k) {
-      seen[k] = seen_on(rays[k], ornament[k]);
-      outwards[k] = seen[k].point ? Ray{Vector3f::Zero(), seen[k].point->cast<float>()} : nowhere();
-    }
-    const Hits surface = scene_.first_hits(outwards);
-    Rgba sum = Rgba::Zero();
-    for (int k = 0; k < packet_size; ++k) {
-      if (seen[k].is_hidden) sum += shade_ornament(camera, ornaments, *ornament[k]);
-      if (!seen[k].point) continue;
-      const Vector3f normal = camera.axes.cast<float>() * seen[k].normal.direction;
-      const float shade = 1 - contact + contact * light.at(column, row, seen[k].normal).openness;
-      const double pixel = camera.pixel / drawn_.scale(*seen[k].point);
-      sum += opaque((0.40F + 0.62F * brightness(normal, {})) * shade * surface_colour(surface[k], pixel) +
-                    0.6F * gloss(normal));
-    }
+    const Seen seen = look(ornaments, camera.rays(column, row, camera_distance));
+    Rgba sum = surface_sum(seen, camera, [&](const Ray& normal) { return grid.at(column, row, normal); });
+    for (const std::optional<Hit>& ornament : seen.ornaments)
+      if (ornament) sum += shade_ornament(camera, ornaments, *ornament);
     return sum / packet_size;
   });
 }

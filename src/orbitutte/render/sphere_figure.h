@@ -2,6 +2,11 @@
 // The tile on the sphere, in the plane or in Poincaré's disk, in bold colour, among its pale copies.
 #pragma once
 
+#include <array>
+#include <functional>
+#include <limits>
+#include <optional>
+
 #include "orbitutte/export/tiling.h"
 #include "orbitutte/geometry/drawn_space.h"
 #include "orbitutte/orbifold/embedding.h"
@@ -22,15 +27,23 @@ class SphereFigure {
   Image draw(const Camera& camera, const Ornaments& ornaments) const;
 
  private:
-  /// What a ray sees.
-  struct Seen {
-    bool is_hidden = false;  // by an ornament
+  /// Where a ray meets the surface.
+  struct Meeting {
+    float distance = std::numeric_limits<float>::infinity();
     /// Of the embedding's space.
     std::optional<Vector3> point = {};
     Ray normal = {};
   };
+  /// What the rays of a packet see. Where there is an ornament, there is no point of the surface.
+  struct Seen {
+    std::array<Meeting, packet_size> surface;
+    Hits ornaments;
+  };
+  using SurfaceLight = std::function<Exposure(const Ray& normal)>;
 
-  Seen seen_on(const Ray& ray, const std::optional<Hit>& ornament) const;
+  Meeting meeting(const Ray& ray) const;
+  Seen look(const Ornaments& ornaments, Packet rays) const;
+  Rgba surface_sum(const Seen& seen, const Camera& camera, const SurfaceLight& light) const;
   Colour surface_colour(const std::optional<Hit>& hit, double pixel) const;
 
   DrawnSpace drawn_;
