@@ -10,6 +10,8 @@
 #include <new>
 #include <numbers>
 
+#include "orbitutte/parallel.h"
+
 namespace orbitutte {
 namespace {
 
@@ -34,6 +36,7 @@ void set_source(cairo_t* context, const Rgb& colour) {
 // Cairo's ARGB32: channels times coverage, in sRGB. Blending happens in linear light against white paper, and
 // the result is opaque: what Cairo would do with transparent sRGB darkens outlines.
 std::uint32_t on_paper(const Rgba& pixel) {
+  if (pixel[3] == 0) return 0xffffffffU;
   const Rgb colour = srgb(pixel.head<3>() + (1 - pixel[3]));
   return 0xff000000U | static_cast<std::uint32_t>(colour.red) << 16U |
          static_cast<std::uint32_t>(colour.green) << 8U | colour.blue;
@@ -148,10 +151,10 @@ void Canvas::image(const Place& top_left, const Image& image) {
   check(cairo_surface_status(pixels));
   unsigned char* const data = cairo_image_surface_get_data(pixels);
   const int stride = cairo_image_surface_get_stride(pixels);
-  for (int row = 0; row < image.size.height; ++row) {
+  parallel_for(image.size.height, [&](int row) {
     auto* const line = reinterpret_cast<std::uint32_t*>(data + static_cast<std::ptrdiff_t>(row) * stride);
     for (int column = 0; column < image.size.width; ++column) line[column] = on_paper(image.at(column, row));
-  }
+  });
   cairo_surface_mark_dirty(pixels);
   cairo_set_source_surface(state_->context, pixels, std::round(top_left[0]), std::round(top_left[1]));
   cairo_paint(state_->context);

@@ -10,7 +10,7 @@
 namespace orbitutte {
 namespace {
 
-constexpr int grid_spacing = 2;  // pixels
+constexpr int grid_spacing = 3;  // pixels
 
 float fraction(float x) { return x - std::floor(x); }
 
@@ -38,8 +38,8 @@ struct ExposureSum {
 ExposureGrid::ExposureGrid(const Camera& camera, double distance, LitSurface surface)
     : surface_(std::move(surface)),
       pixel_(static_cast<float>(camera.pixel)),
-      columns_((camera.size.width + 1) / grid_spacing + 1),
-      rows_((camera.size.height + 1) / grid_spacing + 1),
+      columns_((camera.size.width - 1) / grid_spacing + 2),
+      rows_((camera.size.height - 1) / grid_spacing + 2),
       nodes_(static_cast<std::size_t>(columns_) * rows_) {
   parallel_for(rows_, [&](int row) { find_row(camera, distance, row); });
   std::vector<Exposure> exposures(nodes_.size());
@@ -74,7 +74,7 @@ float ExposureGrid::likeness(const Node& node, const Vector3f& origin, const Vec
 
 // Over the nodes around.
 Exposure ExposureGrid::smoothed(int column, int row) const {
-  constexpr int reach = 2;
+  constexpr int reach = 1;
   const Node& middle = node(column, row);
   if (middle.normal.isZero(0)) return {};
   ExposureSum sum;

@@ -248,6 +248,7 @@ std::optional<Hit> RayScene::first_hit(const Ray& ray) const {
 }
 
 Hits RayScene::first_hits(const Packet& rays) const {
+  if (shapes_->empty()) return {};
   RTCRayHit8 query = {to_rtc(rays), {}};
   for (int k = 0; k < packet_size; ++k)
     query.hit.geomID[k] = query.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
@@ -266,6 +267,7 @@ bool RayScene::is_blocked(const Ray& ray) const {
 }
 
 std::bitset<packet_size> RayScene::are_blocked(const Packet& rays) const {
+  if (shapes_->empty()) return {};
   RTCRay8 query = to_rtc(rays);
   occlude(scene_.get(), valid_of(rays), query);
   std::bitset<packet_size> blocked;
