@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "orbitutte/export/palette.h"
 #include "orbitutte/export/tiling.h"
 #include "orbitutte/geometry/drawn_space.h"
 #include "orbitutte/orbifold/embedding.h"
