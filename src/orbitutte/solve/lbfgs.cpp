@@ -254,16 +254,11 @@ bool is_noise(double change, const State& state, const Eigen::VectorXd& rounding
          std::abs(change) <= energy_rounding_at(state.x) * state.value.energy;
 }
 
-// Is a step so long that the Hessian is another at its end? What y tells of it is off by about the longest
-// step of a vertex, in units of the radius of curvature, and P by a tenth. In the plane the Hessian is one.
-bool is_long(Space space, const Points& from, const Points& to) {
-  constexpr double longest = 0.1;
-  if (space.curvature() == 0) return false;
-  const double squared = parallel_max(static_cast<int>(from.rows()), [&](int v) {
-    const Vector3 step = to.row(v) - from.row(v);
-    return space.dot(step, step);
-  });
-  return squared > longest * longest;
+// Does a step lower the energy by so much that the Hessian is another at its end? What y tells of it is then
+// less true than P. The length of a step says less: slow modes are long and change nothing.
+bool is_far(double energy_before, double energy_after) {
+  constexpr double share = 0.01;
+  return energy_before - energy_after > share * energy_before;
 }
 
 void check(const LbfgsOptions& options) {
@@ -321,7 +316,7 @@ Minimum minimize(const DirichletEnergy& energy, const Preconditioner& preconditi
     Points next_preconditioned = preconditioner.precondition(next.value.gradient);
     const double change = next.value.energy - state.value.energy;
     if (is_noise(change, state, rounding_floor, options.tolerance) ||
-        is_long(energy.space(), state.x, next.x))
+        is_far(state.value.energy, next.value.energy))
       inverse_hessian.forget();
     else
       inverse_hessian.update({difference(next.x, state.x),
