@@ -313,6 +313,49 @@ TEST_P(EveryFamily, MinimumDoesNotDependOnTheStart) {
   EXPECT_NEAR(one.energy, two.energy, 1e-12 * one.energy);
 }
 
+// Where a step ends that lowers the energy by far, the Hessian is another: what follows is as if it began
+// there.
+TEST(Lbfgs, StepsFromFarAreNotRememberedAndOthersAre) {
+  const auto c = solve_case("432");
+  const LaplacianSolver laplacian(c->cut, c->glued, c->weights, c->boundary);
+  const DirichletEnergy energy(c->glued, c->weights, c->boundary);
+  const Points start = feasible_positions(*c, 20);
+  const Minimum whole = minimize(energy, laplacian, start);
+  const auto steps_of_a_fresh_start_after = [&](int iterations) {
+    LbfgsOptions options;
+    options.max_iterations = iterations;
+    const Minimum rest = minimize(energy, laplacian, minimize(energy, laplacian, start, options).positions);
+    std::vector<double> steps;
+    for (std::size_t k = 1; k < rest.history.size(); ++k) steps.push_back(rest.history[k].step);
+    return steps;
+  };
+  std::size_t first_near = 1;
+  while (whole.history[first_near].energy < 0.99 * whole.history[first_near - 1].energy) ++first_near;
+  ASSERT_GT(first_near, 1U);
+  ASSERT_LT(first_near + 3, whole.history.size());
+  const std::vector<double> afresh = steps_of_a_fresh_start_after(static_cast<int>(first_near) - 1);
+  ASSERT_EQ(afresh.size(), whole.history.size() - first_near);
+  for (std::size_t k = 0; k < afresh.size(); ++k) EXPECT_EQ(afresh[k], whole.history[first_near + k].step);
+  const std::vector<double> forgetful = steps_of_a_fresh_start_after(static_cast<int>(first_near));
+  EXPECT_GT(forgetful[1], whole.history[first_near + 2].step);
+}
+
+// The preconditioner inverts the Hessian but for 2/(l(l + 1)) of the spherical harmonics of degree l that the
+// group leaves as they are: l is at least 4 here.
+TEST(Lbfgs, StepsNearTheMinimumLeaveLittle) {
+  for (const char* signature : {"532", "432", "*532", "*432"}) {
+    const auto c = solve_case(signature);
+    const LaplacianSolver laplacian(c->cut, c->glued, c->weights, c->boundary);
+    const DirichletEnergy energy(c->glued, c->weights, c->boundary);
+    const Points minimum = minimize(energy, laplacian, feasible_positions(*c, 20)).positions;
+    const Points start = moved(*c, minimum, 1e-3, random_feasible(*c, 11));
+    const Minimum back = minimize(energy, laplacian, start);
+    ASSERT_GE(back.history.size(), 4U);
+    for (std::size_t k = 2; k < back.history.size(); ++k)
+      EXPECT_LT(back.history[k].step, 0.12 * back.history[k - 1].step) << signature << ' ' << k;
+  }
+}
+
 TEST(Lbfgs, OptionsOutOfRangeAreRefused) {
   const auto c = solve_case("432");
   const LaplacianSolver laplacian(c->cut, c->glued, c->weights, c->boundary);

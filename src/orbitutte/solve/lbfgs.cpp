@@ -78,10 +78,11 @@ Remembered difference(const Points& a, const Points& b) {
   return result;
 }
 
-// H g of the quasi-Newton matrix whose initial one is gamma P, gamma = s'y/(y' P y) of the newest pair. P g
-// and the P y are given, and P is linear, so that each iteration solves with the Laplacian once. The two
-// loops run over inner products (W. Chen, Z. Wang, J. Zhou, "Large-scale L-BFGS using MapReduce", NIPS 2014),
-// of which only the newest are computed.
+// H g of the quasi-Newton matrix whose initial one is P. No multiple of P is a better one: P inverts the
+// Hessian but for a term without derivatives, which only few smooth modes feel, so that almost all of its
+// spectrum is 1. P g and the P y are given, and P is linear, so that each iteration solves with the Laplacian
+// once. The two loops run over inner products (W. Chen, Z. Wang, J. Zhou, "Large-scale L-BFGS using
+// MapReduce", NIPS 2014), of which only the newest are computed.
 class InverseHessian {
  public:
   explicit InverseHessian(int memory) : memory_(static_cast<std::size_t>(memory)) {}
@@ -102,16 +103,15 @@ class InverseHessian {
     for (std::size_t k = 0; k < count; ++k) {  // oldest to newest: beta_k = y_k' r/s_k' y_k
       double yr = products[count + k];
       for (std::size_t j = 0; j < count; ++j) yr -= alpha[j] * ypy_[k][j];
-      yr *= gamma_;
       for (std::size_t j = 0; j < k; ++j) yr += along_s[j] * sy_[j][k];
       along_s[k] = alpha[k] - yr / sy_[k][k];
     }
     for (const double a : along_s) coefficients.push_back(-a);
-    for (const double a : alpha) coefficients.push_back(gamma_ * a);
+    for (const double a : alpha) coefficients.push_back(a);
     Points direction(gradient.rows(), 3);
     for_ranges(direction.rows(), [&](int, Eigen::Index begin, Eigen::Index length) {
       double* const sum = direction.data() + begin;
-      for (Eigen::Index i = 0; i < length; ++i) sum[i] = -gamma_ * preconditioned.data()[begin + i];
+      for (Eigen::Index i = 0; i < length; ++i) sum[i] = -preconditioned.data()[begin + i];
       for (std::size_t k = 0; k < vectors.size(); ++k) {
         const float* const vector = vectors[k]->data() + begin;
         const double factor = coefficients[k];
@@ -142,7 +142,6 @@ class InverseHessian {
       pairs_.pop_back();
       return;
     }
-    gamma_ = column.back() / products.back();
     for (std::size_t k = 0; k < sy_.size(); ++k) {
       sy_[k].push_back(column[k]);
       ypy_[k].push_back(products[k]);
@@ -157,7 +156,6 @@ class InverseHessian {
     pairs_.clear();
     sy_.clear();
     ypy_.clear();
-    gamma_ = 1;
   }
 
   bool empty() const { return pairs_.empty(); }
@@ -174,7 +172,6 @@ class InverseHessian {
   }
 
   std::size_t memory_;
-  double gamma_ = 1;
   std::deque<Pair> pairs_;  // oldest first
   Table sy_, ypy_;          // s_i' y_j, and y_i' P y_j
 };
@@ -257,6 +254,13 @@ bool is_noise(double change, const State& state, const Eigen::VectorXd& rounding
          std::abs(change) <= energy_rounding_at(state.x) * state.value.energy;
 }
 
+// Does a step lower the energy by so much that the Hessian is another at its end? What y tells of it is then
+// less true than P. The length of a step says less: slow modes are long and change nothing.
+bool is_far(double energy_before, double energy_after) {
+  constexpr double share = 0.01;
+  return energy_before - energy_after > share * energy_before;
+}
+
 void check(const LbfgsOptions& options) {
   if (!(options.tolerance > 0)) throw ArgumentError("the tolerance must be positive");
   if (options.max_iterations < 0) throw ArgumentError("the number of iterations must not be negative");
@@ -311,7 +315,8 @@ Minimum minimize(const DirichletEnergy& energy, const Preconditioner& preconditi
     last_step = max_difference(next.x, state.x);
     Points next_preconditioned = preconditioner.precondition(next.value.gradient);
     const double change = next.value.energy - state.value.energy;
-    if (is_noise(change, state, rounding_floor, options.tolerance))
+    if (is_noise(change, state, rounding_floor, options.tolerance) ||
+        is_far(state.value.energy, next.value.energy))
       inverse_hessian.forget();
     else
       inverse_hessian.update({difference(next.x, state.x),
