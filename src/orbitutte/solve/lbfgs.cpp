@@ -97,13 +97,13 @@ class InverseHessian {
     std::vector<double> alpha(count), along_s(count), coefficients;
     for (std::size_t k = count; k-- > 0;) {  // newest to oldest: alpha_k = s_k' q/s_k' y_k
       double sq = products[k];
-      for (std::size_t j = k + 1; j < count; ++j) sq -= alpha[j] * sy_[k][j];
+      for (std::size_t j = k + 1; j < count; ++j) sq -= alpha[j] * sy_[j][k];
       alpha[k] = sq / sy_[k][k];
     }
     for (std::size_t k = 0; k < count; ++k) {  // oldest to newest: beta_k = y_k' r/s_k' y_k
       double yr = products[count + k];
-      for (std::size_t j = 0; j < count; ++j) yr -= alpha[j] * ypy_[k][j];
-      for (std::size_t j = 0; j < k; ++j) yr += along_s[j] * sy_[j][k];
+      for (std::size_t j = 0; j < count; ++j) yr -= alpha[j] * ypy_[std::max(j, k)][std::min(j, k)];
+      for (std::size_t j = 0; j < k; ++j) yr += along_s[j] * sy_[k][j];
       along_s[k] = alpha[k] - yr / sy_[k][k];
     }
     for (const double a : along_s) coefficients.push_back(-a);
@@ -121,34 +121,22 @@ class InverseHessian {
     return direction;
   }
 
-  struct Pair {
-    Remembered s, y, Py;  // step, difference of gradients, its image under the preconditioner
-  };
-
-  // Keeps the pair unless its curvature is not positive.
-  void update(Pair newest) {
-    pairs_.push_back(std::move(newest));
-    const auto& [s, y, Py] = pairs_.back();
-    Vectors<Remembered> all_s, all_y, all_images;
+  // Keeps a step s and the difference y of the gradients, of which only products are needed later, with its
+  // image Py under the preconditioner; unless their curvature is not positive.
+  void update(Remembered s, const Remembered& y, Remembered Py) {
+    pairs_.push_back({std::move(s), std::move(Py)});
+    Vectors<Remembered> all_s, all_images;
     for (const Pair& pair : pairs_) {
       all_s.push_back(&pair.s);
-      all_y.push_back(&pair.y);
       all_images.push_back(&pair.Py);
     }
-    all_y.pop_back();
-    const std::vector<double> row = inner_products(all_y, s), column = inner_products(all_s, y),
-                              products = inner_products(all_images, y);
-    if (!(column.back() > 0) || !(products.back() > 0)) {
+    const std::vector<double> sy = inner_products(all_s, y), ypy = inner_products(all_images, y);
+    if (!(sy.back() > 0) || !(ypy.back() > 0)) {
       pairs_.pop_back();
       return;
     }
-    for (std::size_t k = 0; k < sy_.size(); ++k) {
-      sy_[k].push_back(column[k]);
-      ypy_[k].push_back(products[k]);
-    }
-    sy_.emplace_back(row.begin(), row.end());
-    sy_.back().push_back(column.back());
-    ypy_.emplace_back(products.begin(), products.end());
+    sy_.emplace_back(sy.begin(), sy.end());
+    ypy_.emplace_back(ypy.begin(), ypy.end());
     if (pairs_.size() > memory_) drop_oldest();
   }
 
@@ -161,6 +149,10 @@ class InverseHessian {
   bool empty() const { return pairs_.empty(); }
 
  private:
+  struct Pair {
+    Remembered s, Py;
+  };
+
   using Table = std::deque<std::deque<double>>;
 
   void drop_oldest() {
@@ -173,7 +165,7 @@ class InverseHessian {
 
   std::size_t memory_;
   std::deque<Pair> pairs_;  // oldest first
-  Table sy_, ypy_;          // s_i' y_j, and y_i' P y_j
+  Table sy_, ypy_;          // sy_[j][i] = s_i' y_j, and y_i' P y_j, for i <= j
 };
 
 // Changes of the energy below this share of it are hidden by rounding: of positions of length one by their
@@ -319,9 +311,9 @@ Minimum minimize(const DirichletEnergy& energy, const Preconditioner& preconditi
         is_far(state.value.energy, next.value.energy))
       inverse_hessian.forget();
     else
-      inverse_hessian.update({difference(next.x, state.x),
-                              difference(next.value.gradient, state.value.gradient),
-                              difference(next_preconditioned, preconditioned)});
+      inverse_hessian.update(difference(next.x, state.x),
+                             difference(next.value.gradient, state.value.gradient),
+                             difference(next_preconditioned, preconditioned));
     preconditioned = std::move(next_preconditioned);
     std::swap(state, next);
     record();
