@@ -143,8 +143,12 @@ std::optional<Surface> judge_quickly(const Mesh& mesh) {
   Surface result;
   result.connectivity = connectivity_of(mesh.F, n);
   const std::vector<int>& opposite = result.connectivity.opposite;
-  if (!is_oriented_manifold(mesh.F, result.connectivity)) return std::nullopt;
-  if (!is_connected_across_edges(opposite)) return std::nullopt;
+  bool is_manifold = false, is_connected = false;
+  parallel_for(2, [&](int task) {
+    if (task == 0) is_manifold = is_oriented_manifold(mesh.F, result.connectivity);
+    if (task == 1) is_connected = is_connected_across_edges(opposite);
+  });
+  if (!is_manifold || !is_connected) return std::nullopt;
 
   const std::vector<char> used = used_by_faces(mesh.F, n);
   result.unreferenced_vertices = static_cast<int>(std::count(used.begin(), used.end(), 0));
