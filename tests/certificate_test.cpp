@@ -12,11 +12,13 @@
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <random>
 #include <set>
 
 #include "hand_made.h"
 #include "orbitutte/export/tiling.h"
+#include "orbitutte/inspect/recognition.h"
 #include "sample_embeddings.h"
 
 namespace orbitutte::certificate_test {
@@ -41,11 +43,27 @@ Names failed_checks(const Certificate& certificate) {
   return names;
 }
 
+// A surface that has been judged knows its edges; the certificate says the same as of its faces alone.
+void expect_the_same_of_the_judged(const Mesh& mesh, const Embedding& embedding,
+                                   const Certificate& certificate) {
+  const std::optional<Surface> surface = recognize_sphere_or_disk(Mesh(mesh));
+  if (!surface) return;
+  const Certificate other = certify(*surface, embedding);
+  EXPECT_EQ(other.bijective, certificate.bijective);
+  ASSERT_EQ(other.checks.size(), certificate.checks.size());
+  for (std::size_t k = 0; k < other.checks.size(); ++k) {
+    EXPECT_EQ(other.checks[k].name, certificate.checks[k].name);
+    EXPECT_EQ(other.checks[k].passed, certificate.checks[k].passed) << other.checks[k].name;
+    EXPECT_EQ(other.checks[k].detail, certificate.checks[k].detail);
+  }
+}
+
 // The names of the checks that fail; also sees to it that a failure is never bijective, and always explained.
 Names rejection(const Mesh& mesh, const Embedding& embedding) {
   const Certificate certificate = certify(test::unjudged(mesh), embedding);
   EXPECT_FALSE(certificate.bijective);
   for (const Check& check : certificate.checks) EXPECT_EQ(check.passed, check.detail.empty()) << check.name;
+  expect_the_same_of_the_judged(mesh, embedding, certificate);
   return failed_checks(certificate);
 }
 
@@ -135,6 +153,7 @@ TEST(Certificate, EmbeddingsOfEveryFamilyAreBijective) {
         certify(test::unjudged(sample(signature).mesh), sample(signature).embedding());
     EXPECT_TRUE(certificate.bijective) << signature;
     EXPECT_THAT(failed_checks(certificate), IsEmpty()) << signature;
+    expect_the_same_of_the_judged(sample(signature).mesh, sample(signature).embedding(), certificate);
     EXPECT_THAT(certificate.nonpositive_faces, IsEmpty());
     EXPECT_NEAR(certificate.expected_area, 4 * pi / sample(signature).embedding().target.group_order, 1e-15);
     EXPECT_NEAR(certificate.signed_area, certificate.expected_area, 1e-9);

@@ -30,21 +30,26 @@ void expect_agreement(const Mesh& mesh) {
   EXPECT_EQ(static_cast<int>(quick->connectivity.edges.size()), thorough.edges);
 }
 
+Mesh spheres() { return test::united(test::icosphere(1), test::icosphere(2)); }
+
+// Two components with the Euler characteristic of one sphere, which share vertices but no edge.
+Mesh spheres_that_touch_twice() {
+  return test::with_vertices_merged(test::with_vertices_merged(spheres(), 0, 60), 30, 100);
+}
+
 class Recognition : public testing::TestWithParam<Mesh> {};
-INSTANTIATE_TEST_SUITE_P(Meshes, Recognition,
-                         testing::Values(Mesh(), test::tetrahedron(), test::icosphere(3),
-                                         test::grid_disk(1, 1), test::grid_disk(5, 4), test::round_disk(4),
-                                         test::annulus(6), test::moebius_strip(7), test::torus(8, 5),
-                                         test::klein_bottle(8, 6), test::projective_plane(2),
-                                         test::united(test::icosphere(1), test::icosphere(2)),
-                                         test::with_vertices_merged(test::icosphere(2), 0, 50),
-                                         test::with_face_turned(test::icosphere(2), 17),
-                                         test::with_face(test::icosphere(1), 0, 1, 30),
-                                         test::with_face(test::grid_disk(3, 3), 0, 1, 99),
-                                         test::with_face(test::grid_disk(3, 3), 0, 0, 5),
-                                         test::with_face(test::grid_disk(3, 3), 0, -1, 5),
-                                         test::without_faces(test::icosphere(2), {3}),
-                                         test::without_faces(test::icosphere(2), {3, 100})));
+INSTANTIATE_TEST_SUITE_P(
+    Meshes, Recognition,
+    testing::Values(
+        Mesh(), test::tetrahedron(), test::icosphere(3), test::grid_disk(1, 1), test::grid_disk(5, 4),
+        test::round_disk(4), test::annulus(6), test::moebius_strip(7), test::torus(8, 5),
+        test::klein_bottle(8, 6), test::projective_plane(2),
+        test::united(test::icosphere(1), test::icosphere(2)),
+        test::with_vertices_merged(test::icosphere(2), 0, 50), test::with_vertices_merged(spheres(), 0, 60),
+        spheres_that_touch_twice(), test::with_face_turned(test::icosphere(2), 17),
+        test::with_face(test::icosphere(1), 0, 1, 30), test::with_face(test::grid_disk(3, 3), 0, 1, 99),
+        test::with_face(test::grid_disk(3, 3), 0, 0, 5), test::with_face(test::grid_disk(3, 3), 0, -1, 5),
+        test::without_faces(test::icosphere(2), {3}), test::without_faces(test::icosphere(2), {3, 100})));
 
 TEST_P(Recognition, AgreesWithInspection) { expect_agreement(GetParam()); }
 

@@ -140,7 +140,7 @@ class Embedding:
     def _of(cls, core: _orbitutte.Embedding) -> Embedding:
         self = object.__new__(cls)
         object.__setattr__(self, "_core", core)
-        object.__setattr__(self, "_report", json.loads(core.report))
+        object.__setattr__(self, "_report", json.loads(core.brief_report))
         object.__setattr__(self, "_locator", None)
         return self
 
@@ -253,7 +253,7 @@ class Embedding:
     @property
     def certificate(self) -> dict[str, Any]:
         """``bijective``, ``nonpositive_faces``, ``signed_area``, ``expected_area``, ``max_edge_length``, ..., ``checks``."""
-        return self.report["certificate"]
+        return json.loads(self._core.brief_report)["certificate"]
 
     @property
     def distortion(self) -> dict[str, Any]:

@@ -133,7 +133,7 @@ MaybeMesh as_embedded(MaybeMesh mesh, const Report& report) {
 // if they are known.
 std::string verify_again(const HeldEmbedding& held, const MaybeMesh& mesh, const std::string& weights_file,
                          const std::string& depth) {
-  const Report claims = parse_report(held.report);
+  const Report claims = parse_report(held.brief_report());
   const MaybeMesh given = as_embedded(mesh, claims);
   const SourceMesh& judge = given ? *given : held.source("verification");
   return verdict_json(
@@ -171,8 +171,9 @@ Held loaded(Embedding embedding, std::string report, MaybeMesh mesh) {
   embedding = with_report(std::move(embedding), claims);
   mesh = as_embedded(std::move(mesh), claims);
   if (mesh) embedding = mesh->belonging(std::move(embedding));
+  auto held = std::make_shared<HeldReport>(std::move(report), HeldReport::Strain::included);
   return std::make_shared<HeldEmbedding>(
-      HeldEmbedding{std::move(embedding), std::move(report), std::move(mesh), std::nullopt});
+      HeldEmbedding{std::move(embedding), std::move(held), std::move(mesh), std::nullopt});
 }
 
 // Messages begin with the path concerned.
@@ -187,12 +188,13 @@ Held unpickled(const py::bytes& ply, std::string report, MaybeMesh mesh) {
 
 void save(const HeldEmbedding& held, const std::string& ply, const std::string& json) {
   write_file(ply, serialize_embedding(held.embedding));
-  if (!json.empty()) write_file(json, held.report);
+  if (!json.empty()) write_file(json, held.report());
 }
 
 Held with_mesh(const HeldEmbedding& held, MaybeMesh mesh) {
+  held.report();  // its strain is that of the mesh that was embedded
   auto result = std::make_shared<HeldEmbedding>(held);
-  mesh = as_embedded(std::move(mesh), parse_report(held.report));
+  mesh = as_embedded(std::move(mesh), parse_report(held.brief_report()));
   result->embedding = mesh->belonging(std::move(result->embedding));
   result->mesh = std::move(mesh);
   return result;
@@ -225,7 +227,8 @@ void bind_embedding(py::module_& module) {
       .def_property_readonly("group", &group)
       .def_property_readonly(
           "mesh", [](const HeldEmbedding& held) { return std::const_pointer_cast<SourceMesh>(held.mesh); })
-      .def_readonly("report", &HeldEmbedding::report)
+      .def_property_readonly("report", py::cpp_function(&HeldEmbedding::report, Release()))
+      .def_property_readonly("brief_report", &HeldEmbedding::brief_report)
       .def("ply", [](const HeldEmbedding& held) { return py::bytes(serialize_embedding(held.embedding)); })
       .def("weights", &weights)
       .def("face_distortion", &face_distortion)

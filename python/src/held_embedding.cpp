@@ -24,10 +24,15 @@ const SourceMesh& HeldEmbedding::source(const char* purpose) const {
       "{} needs the mesh that was embedded; load the embedding with it, or give V and F", purpose));
 }
 
+const std::string& HeldEmbedding::report() const {
+  return held_report->complete(
+      [&] { return strain_statistics(measure_strain(*mesh->surface(), embedding).at_vertices); });
+}
+
 EdgeWeights HeldEmbedding::edge_weights() const {
   if (weights) return *weights;
   const SourceMesh& known = source("the computation of weights");
-  const Report claims = parse_report(report);
+  const Report claims = parse_report(brief_report());
   if (claims.weights.kind == WeightKind::file)
     throw ArgumentError("the weights were given by the caller, and files of embeddings do not hold them");
   return weights_of(*known.surface(), embedding, claims);
@@ -41,11 +46,9 @@ HeldEmbedding hold(BestEmbedding best, std::shared_ptr<const SourceMesh> mesh, d
   RunRecord run;
   run.total_seconds = total_seconds;
   run.peak_memory_bytes = peak_memory_bytes();
-  if (mesh) {
-    run.repair = mesh->repair();
-    run.strain = strain_statistics(measure_strain(*mesh->surface(), best.result.embedding).at_vertices);
-  }
-  std::string report = report_json(best, run);
+  if (mesh) run.repair = mesh->repair();
+  auto report = std::make_shared<HeldReport>(
+      report_json(best, run), mesh ? HeldReport::Strain::missing : HeldReport::Strain::included);
   EmbedResult& result = best.result;
   return {std::move(result.embedding), std::move(report), std::move(mesh), std::move(result.weights)};
 }

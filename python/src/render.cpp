@@ -24,7 +24,7 @@ RenderOptions options_from(const std::map<std::string, std::string>& texts, cons
 void render(const HeldEmbedding& held, const std::string& path, const std::string& title,
             const std::map<std::string, std::string>& texts) {
   const std::shared_ptr<const Surface> surface = held.source("a picture").surface();
-  write_picture(path, {*surface, held.embedding, parse_report(held.report), title},
+  write_picture(path, {*surface, held.embedding, parse_report(held.brief_report()), title},
                 options_from(texts, *surface));
 }
 

@@ -2,6 +2,7 @@
 """What an embedding is, checked from its arrays alone."""
 import copy
 import gc
+import json
 import pathlib
 import pickle
 import warnings
@@ -97,6 +98,18 @@ def test_pickles_and_copies_are_the_same(embedding):
     assert np.array_equal(twin.positions, embedding.positions) and twin.report == embedding.report
     assert np.array_equal(twin.mesh[0], embedding.mesh[0]) and orbitutte.verify(twin)["bijective"]
     assert copy.copy(embedding) is embedding and copy.deepcopy(embedding) is embedding
+
+
+def test_the_report_has_the_strain_whenever_it_is_asked_for(figure, tmp_path):
+    V, F = figure
+    saved, pickled, moved = (orbitutte.embed(V, F, "432", orbitutte.choose_cones(V, F, "432")) for _ in range(3))
+    strain = orbitutte.distortion(saved)["strain"]
+    saved.save(tmp_path / "map.ply", tmp_path / "map.json")
+    assert json.loads((tmp_path / "map.json").read_text()) == saved.report
+    assert saved.report["distortion"]["strain"] == saved.distortion["strain"] == strain
+    assert pickle.loads(pickle.dumps(pickled)).distortion["strain"] == strain
+    assert moved.with_mesh(V * [1, 2, 3], F).distortion["strain"] == strain  # of the mesh that was embedded
+    assert moved.distortion["strain"] == strain
 
 
 def test_repr_says_what_matters(embedding, figure):

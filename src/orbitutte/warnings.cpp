@@ -53,6 +53,7 @@ std::vector<std::string> warnings_of_orientation(const Surface& surface) {
   };
   const int m = surface.triangle_count();
   const double volume = parallel_sum(m, volume_of_face);
+  if (!(volume < 0)) return {};
   const double size = parallel_sum(m, [&](int f) { return std::abs(volume_of_face(f)); });
   if (!(volume < -rounding * size)) return {};
   return {

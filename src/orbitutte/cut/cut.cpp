@@ -471,7 +471,8 @@ CutMesh cut_to_disk(const Surface& surface, const std::vector<int>& marks, int i
   check_marks(marks, outgoing);
   const std::vector<char> on_boundary = surface.boundary_vertices();
   const bool closed = std::find(on_boundary.begin(), on_boundary.end(), 1) == on_boundary.end();
-  const bool one_sided = closed && has_turned_faces(surface.triangles, opposite);
+  const bool one_sided =
+      closed && surface.topology != Topology::sphere && has_turned_faces(surface.triangles, opposite);
   if (closed) check_number_of_marks(marks, one_sided);
   if (!closed) {
     check_marks_of_disk(marks, inner_marks, on_boundary);

@@ -36,4 +36,14 @@ double area_between(Curvature<k> curvature, const Vector3& a, const Vector3& u, 
          angle_of(2 * determinant, 8 - k * (curvature.dot(u, u) + curvature.dot(w, w) + curvature.dot(v, v)));
 }
 
+/// The same of the corners a, b, c: see Space::area.
+template <int k>
+double area_of(Curvature<k> curvature, const Vector3& a, const Vector3& b, const Vector3& c) {
+  const Vector3 ab = b - a, ac = c - a, bc = c - b;
+  const double determinant = a.dot(ab.cross(ac));  // of differences: keeps the digits of small triangles
+  if constexpr (k == 0) return determinant / 2;
+  const double chords = curvature.dot(ab, ab) + curvature.dot(bc, bc) + curvature.dot(ac, ac);
+  return 2 * angle_of(2 * determinant, 8 - k * chords);
+}
+
 }  // namespace orbitutte

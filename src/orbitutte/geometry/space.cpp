@@ -124,11 +124,7 @@ double Space::tangential_rounding(const Vector3& p) const {
 }
 
 double Space::area(const Vector3& a, const Vector3& b, const Vector3& c) const {
-  const Vector3 ab = b - a, ac = c - a, bc = c - b;
-  const double determinant = a.dot(ab.cross(ac));  // of differences: keeps the digits of small triangles
-  if (k_ == 0) return determinant / 2;
-  const double chords = dot(ab, ab) + dot(bc, bc) + dot(ac, ac);
-  return 2 * angle_of(2 * determinant, 8 - k_ * chords);
+  return visit_curvature(*this, [&](auto curvature) { return area_of(curvature, a, b, c); });
 }
 
 double Space::angle(const Vector3& p, const Vector3& q, const Vector3& r) const {

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "orbitutte/inspect/inspection.h"
-#include "orbitutte/mesh/disjoint_sets.h"
 #include "orbitutte/mesh/triangulation.h"
 #include "orbitutte/parallel.h"
 
@@ -38,56 +37,61 @@ bool names_a_triangle(const Mesh& mesh, int f) {
 bool is_in_range(const Vector3& position) { return (position.array().abs() <= largest_coordinate).all(); }
 
 // The longest side of the box around the points.
-double size_of(const Points& V) { return (V.colwise().maxCoeff() - V.colwise().minCoeff()).maxCoeff(); }
-
-// Is the edge of half-edge h on the boundary, or between two faces that run along it in opposite directions?
-bool is_manifold(const Triangles& F, const Connectivity& connectivity, int h) {
-  const int other = connectivity.opposite[h];
-  return other < 0 ||
-         (connectivity.opposite[other] == h && halfedge_origin(F, other) == halfedge_target(F, h));
-}
-
-struct Fans {
-  std::vector<int> corners;  // of every vertex
-  std::vector<int>
-      outgoing;  // a half-edge that leaves it, on the boundary where there is one; -1: in no face
-};
-
-Fans fans_of(const Triangles& F, const std::vector<int>& opposite, int vertex_count) {
-  Fans fans = {std::vector<int>(vertex_count, 0), std::vector<int>(vertex_count, -1)};
-  for (int h = 0; h < static_cast<int>(F.size()); ++h) {
-    const int v = halfedge_origin(F, h);
-    ++fans.corners[v];
-    if (fans.outgoing[v] < 0 || opposite[h] < 0) fans.outgoing[v] = h;
+double size_of(const Points& V) {
+  Eigen::RowVector3d lowest = V.row(0), highest = lowest;
+  for (const auto& position : V.rowwise()) {
+    lowest = lowest.cwiseMin(position);
+    highest = highest.cwiseMax(position);
   }
-  return fans;
+  return (highest - lowest).maxCoeff();
 }
 
-// Do the faces at v make up one fan? Walks clockwise from the boundary, or once around.
-bool is_one_fan(const Fans& fans, const std::vector<int>& opposite, int v) {
-  const int first = fans.outgoing[v];
-  if (first < 0) return true;
-  int corners = 0, h = first;
-  do {
-    ++corners;
-    h = opposite[previous_halfedge(h)];
-  } while (h >= 0 && h != first && corners <= fans.corners[v]);
-  return corners == fans.corners[v];
+// Has every edge one face, or two that run along it in opposite directions?
+bool is_oriented_manifold(const Triangles& F, const Connectivity& connectivity) {
+  constexpr char upward = 1, downward = 2, twice = 4;  // the directions of the half-edges of an edge
+  const int count = static_cast<int>(connectivity.edges.size());
+  std::vector<char> directions(count, 0);
+  parallel_parts(count, [&](int begin, int end) {
+    const int* v = F.data();
+    for (int h = 0; h < static_cast<int>(F.size()); h += 3, v += 3) {
+      for (int k = 0; k < 3; ++k) {
+        const int e = connectivity.edge_of[h + k];
+        if (e < begin || e >= end) continue;
+        const char here = v[k] < v[k == 2 ? 0 : k + 1] ? upward : downward;
+        directions[e] |= (directions[e] & here) ? twice : here;
+      }
+    }
+  });
+  return std::all_of(directions.begin(), directions.end(), [](char d) { return d < twice; });
 }
 
-bool is_connected(const Connectivity& connectivity, const std::vector<int>& corners) {
-  DisjointSets sets(static_cast<int>(corners.size()));
-  for (const auto& [i, j] : connectivity.edges) sets.unite(i, j);
-  int root = -1;
-  for (int v = 0; v < static_cast<int>(corners.size()); ++v) {
-    if (corners[v] == 0) continue;
-    if (root < 0) root = sets.find(v);
-    if (sets.find(v) != root) return false;
+// Of every vertex, does a face use it?
+std::vector<char> used_by_faces(const Triangles& F, int vertex_count) {
+  std::vector<char> used(vertex_count, 0);
+  for (Eigen::Index h = 0; h < F.size(); ++h) used[F.data()[h]] = 1;
+  return used;
+}
+
+// Can every face be reached from the first across edges?
+bool is_connected_across_edges(const std::vector<int>& opposite) {
+  const std::size_t count = opposite.size() / 3;
+  std::vector<char> is_reached(count, 0);
+  std::vector<int> reached(count + 1);  // a place more, for what is written before it is known to be new
+  std::size_t found = 1;                // the first face
+  is_reached[0] = 1;
+  for (std::size_t k = 0; k < found; ++k) {
+    for (int h = 3 * reached[k]; h < 3 * reached[k] + 3; ++h) {
+      if (opposite[h] < 0) continue;
+      const int face = opposite[h] / 3;
+      reached[found] = face;
+      found += !is_reached[face];
+      is_reached[face] = 1;
+    }
   }
-  return true;
+  return found == count;
 }
 
-// The boundary curves of a surface all of whose vertices have one fan.
+// The boundary curves, each followed from fan to fan.
 int count_boundary_curves(const Triangles& F, const std::vector<int>& opposite) {
   std::vector<char> seen(F.size(), 0);
   int curves = 0;
@@ -126,7 +130,9 @@ bool is_degenerate_triangle(const Vector3& a, const Vector3& b, const Vector3& c
 namespace {
 
 // What a few linear sweeps tell about a sphere or disk without a defect: everything but vertices and faces.
-// Nothing if the mesh is something else.
+// Nothing if the mesh is something else. Faces glued along their edges, and connected so, are a surface with
+// b boundary curves and V - E + F + b <= 2 if every fan of faces has a vertex of its own; equal to 2 on a
+// sphere or disk. If fans share a vertex, there are fewer vertices: so where the sum is 2, none do.
 std::optional<Surface> judge_quickly(const Mesh& mesh) {
   const int n = static_cast<int>(mesh.V.rows()), m = static_cast<int>(mesh.F.rows());
   if (m == 0) return std::nullopt;
@@ -137,12 +143,15 @@ std::optional<Surface> judge_quickly(const Mesh& mesh) {
   Surface result;
   result.connectivity = connectivity_of(mesh.F, n);
   const std::vector<int>& opposite = result.connectivity.opposite;
-  if (!all_of(3 * m, [&](int h) { return is_manifold(mesh.F, result.connectivity, h); })) return std::nullopt;
-  const Fans fans = fans_of(mesh.F, opposite, n);
-  if (!all_of(n, [&](int v) { return is_one_fan(fans, opposite, v); })) return std::nullopt;
-  if (!is_connected(result.connectivity, fans.corners)) return std::nullopt;
+  bool is_manifold = false, is_connected = false;
+  parallel_for(2, [&](int task) {
+    if (task == 0) is_manifold = is_oriented_manifold(mesh.F, result.connectivity);
+    if (task == 1) is_connected = is_connected_across_edges(opposite);
+  });
+  if (!is_manifold || !is_connected) return std::nullopt;
 
-  result.unreferenced_vertices = static_cast<int>(std::count(fans.corners.begin(), fans.corners.end(), 0));
+  const std::vector<char> used = used_by_faces(mesh.F, n);
+  result.unreferenced_vertices = static_cast<int>(std::count(used.begin(), used.end(), 0));
   // Two faces of a connected manifold have the same vertices only if there are no other faces.
   if (m == 2 && n - result.unreferenced_vertices == 3) return std::nullopt;
   const long euler =

@@ -335,6 +335,10 @@ Report to_report(const Json& json) {
   return report;
 }
 
+std::string report_text(const Json& json) {
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 }  // namespace
 
 std::string report_json(const EmbedResult& result, const RunRecord& run) {
@@ -383,13 +387,19 @@ std::string report_json(const EmbedResult& result, const RunRecord& run) {
   if (result.floor) json["floor"] = to_json(*result.floor);
   if (!result.moved_vertices.empty()) json["moved_vertices"] = result.moved_vertices;
   if (result.intrinsic_certificate) json["intrinsic_certificate"] = to_json(*result.intrinsic_certificate);
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return report_text(json);
 }
 
 std::string distortion_json(const Distortion& distortion) { return to_json(distortion).dump(); }
 
 std::string strain_json(const std::vector<StrainStatistics>& strain) {
   return to_json(strain).dump(1) + "\n";
+}
+
+std::string with_strain(std::string_view report, const std::vector<StrainStatistics>& strain) {
+  Json json = Json::parse(report);
+  json["distortion"]["strain"] = to_json(strain);
+  return report_text(json);
 }
 
 Report parse_report(std::string_view text) {

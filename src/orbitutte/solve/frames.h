@@ -41,9 +41,11 @@ class Frames {
       for (int h = begin; h < end; ++h) {
         const int g = connectivity.opposite[h];
         if (g < 0) continue;
-        const CutEdge here = cut_edge(copy_at(cut, h), copy_at(cut, next_halfedge(h))),
-                      there = cut_edge(copy_at(cut, g), copy_at(cut, next_halfedge(g)));
-        if (here != there) change_[h] = changes.at(here);
+        const int from = copy_at(cut, h), to = copy_at(cut, next_halfedge(h)), from_there = copy_at(cut, g),
+                  to_there = copy_at(cut, next_halfedge(g));
+        if (from == to_there && to == from_there) continue;  // as almost everywhere
+        const CutEdge here = cut_edge(from, to);
+        if (here != cut_edge(from_there, to_there)) change_[h] = changes.at(here);
       }
     });
   }
@@ -78,9 +80,9 @@ class Frames {
   // The copy in the cut mesh of the vertex where a half-edge of the mesh begins; the cut mesh may have its
   // face turned over.
   static int copy_at(const CutMesh& cut, int h) {
+    if (cut.turned.empty()) return halfedge_origin(cut.F, h);
     const int face = h / 3, k = h % 3;
-    const bool is_turned = !cut.turned.empty() && cut.turned[face] != 0;
-    return cut.F(face, is_turned && k > 0 ? 3 - k : k);
+    return cut.F(face, cut.turned[face] != 0 && k > 0 ? 3 - k : k);
   }
 
   Table& elements_;

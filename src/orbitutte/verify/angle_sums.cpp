@@ -52,11 +52,10 @@ std::pair<Corners, Corners> corners_and_edges(const ExactPositions& positions, c
 
 }  // namespace
 
-TriangleSums sum_over_triangles(const Embedding& triangles, const ExactPositions& positions,
-                                const std::vector<char>& positive) {
+TriangleSums sum_over_triangles(const Embedding& triangles, const ExactPositions& positions) {
   const int m = static_cast<int>(triangles.triangles.rows());
   std::vector<Angles> angles(m);
-  TriangleSums sums;
+  TriangleSums sums = {std::vector<char>(m), 0, {}};
   visit_curvature(triangles.space(), [&](auto curvature) {
     sums.signed_area = parallel_sum(m, [&](int f) {
       const std::array<int, 3> v = {triangles.triangles(f, 0), triangles.triangles(f, 1),
@@ -65,8 +64,9 @@ TriangleSums sum_over_triangles(const Embedding& triangles, const ExactPositions
       const double area = area_between(curvature, corners[0], edges[0], -edges[2]);
       if (const double scale = scale_of(edges); scale != 1)
         for (Vector3& edge : edges) edge *= scale;  // angles are those of directions
-      angles[f] = positive[f] ? positive_angles(curvature, area, corners, edges)
-                              : signed_angles(curvature, corners, edges);
+      sums.positive[f] = positions.orientation(v[0], v[1], v[2]) > 0;
+      angles[f] = sums.positive[f] ? positive_angles(curvature, area, corners, edges)
+                                   : signed_angles(curvature, corners, edges);
       return area;
     });
   });

@@ -16,6 +16,9 @@ inline int surface_vertex(const Embedding& triangles, int v) {
 }
 
 struct TriangleSums {
+  /// Of every triangle, exactly: is it positively oriented? The rounded area of a sliver does not tell.
+  std::vector<char> positive;
+
   /// Of all triangles.
   double signed_area = 0;
 
@@ -23,9 +26,7 @@ struct TriangleSums {
   std::vector<double> angle;
 };
 
-/// positive: of every triangle, is it positively oriented? The rounded area of a sliver does not tell.
-TriangleSums sum_over_triangles(const Embedding& triangles, const ExactPositions& positions,
-                                const std::vector<char>& positive);
+TriangleSums sum_over_triangles(const Embedding& triangles, const ExactPositions& positions);
 
 /// By surface_vertex, of those marked in `is_asked`, otherwise 0: how much the rounding of positions may
 /// change the sum of the angles, 16 * sum of (rounding of the ends)/length over the edges of its corners, an

@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <numbers>
 #include <optional>
 #include <span>
@@ -149,33 +150,66 @@ Check surface_check(const Embedding& embedding) {
   return at_most(name, std::isfinite(defect) ? defect : std::numeric_limits<double>::infinity(), unit_bound);
 }
 
-// How many cut vertices faces use.
-long long count_used(const Triangles& F, int n_cut) {
+// Of every cut vertex, does a face use it?
+std::vector<char> used_vertices(const Triangles& F, int n_cut) {
   std::vector<char> used(n_cut, 0);
   parallel_parts(n_cut, [&](int begin, int end) {
-    for (const int v : F.reshaped())
+    for (const int v : std::span(F.data(), static_cast<std::size_t>(F.size())))
       if (v >= begin && v < end) used[v] = 1;
   });
-  return std::count(used.begin(), used.end(), 1);
+  return used;
+}
+
+// The edges of the cut mesh, and what is not inside.
+struct CutEdges {
+  long long count = 0;
+
+  // The half-edges that are not opposite to exactly one other in the other direction, ascending.
+  std::vector<int> not_inside;
+
+  // Of every half-edge of the cut mesh; empty if those that are not inside have no opposite one.
+  std::vector<int> opposite = {};
+
+  int opposite_of(int h) const { return opposite.empty() ? -1 : opposite[h]; }
+};
+
+// From the cut mesh alone.
+CutEdges found_edges(const Embedding& triangles) {
+  const Triangles& F = triangles.triangles;
+  Connectivity found = connectivity_of(F, static_cast<int>(triangles.source_vertex.size()));
+  const std::vector<int>& opposite = found.opposite;
+  // Of more than two half-edges of an edge, one is not the opposite one of its own opposite one.
+  std::vector<int> not_inside = parallel_select(static_cast<int>(F.size()), [&](int h) {
+    const int other = opposite[h];
+    return other < 0 || opposite[other] != h || halfedge_origin(F, other) == halfedge_origin(F, h);
+  });
+  return {static_cast<long long>(found.edges.size()), std::move(not_inside), std::move(found.opposite)};
+}
+
+// The same from the connectivity of an orientable surface whose triangles are those of the cut mesh. Each of
+// its edges has one half-edge, or two in opposite directions, and half-edges of one edge of the cut mesh are
+// of one edge of the surface.
+CutEdges edges_left_by_the_cut(const Triangles& F, const Connectivity& input) {
+  std::vector<int> not_inside = parallel_select(static_cast<int>(F.size()), [&](int h) {
+    const int other = input.opposite[h];
+    return other < 0 || halfedge_origin(F, h) != halfedge_target(F, other) ||
+           halfedge_target(F, h) != halfedge_origin(F, other);
+  });
+  return {static_cast<long long>(F.size() + not_inside.size()) / 2, std::move(not_inside)};
 }
 
 // The boundary half-edges of the cut mesh, each by its origin; empty, with an offence, unless the cut mesh is
 // a disk or a sphere: every edge has one face, or two that run along it in opposite directions, there is one
-// simple boundary loop and V - E + F = 1, or there is none and V - E + F = 2.
-std::unordered_map<int, int> boundary_of_cut_mesh(const Embedding& embedding, Offences& offences) {
+// simple boundary loop and V - E + F = 1, or there is none and V - E + F = 2. input: the connectivity of the
+// surface, if edges_left_by_the_cut may take it.
+std::unordered_map<int, int> boundary_of_cut_mesh(const Embedding& embedding, const Connectivity* input,
+                                                  Offences& offences) {
   const Triangles& F = embedding.triangles;
-  const int n_cut = static_cast<int>(embedding.source_vertex.size());
-  const Connectivity connectivity = connectivity_of(F, n_cut);
-  const std::vector<int>& opposite = connectivity.opposite;
-  // Of more than two half-edges of an edge, one is not the opposite one of its own opposite one.
-  const std::vector<int> not_inside = parallel_select(static_cast<int>(F.size()), [&](int h) {
-    const int other = opposite[h];
-    return other < 0 || opposite[other] != h || halfedge_origin(F, other) == halfedge_origin(F, h);
-  });
+  const CutEdges edges = input ? edges_left_by_the_cut(F, *input) : found_edges(embedding);
   std::unordered_map<int, int> next;
-  for (const int h : not_inside) {
-    const int other = opposite[h];
-    if (other >= 0 && opposite[other] != h)
+  for (const int h : edges.not_inside) {
+    const int other = edges.opposite_of(h);
+    if (other >= 0 && edges.opposite_of(other) != h)
       offences.add("edge ({}, {}) of the cut mesh has more than two faces", halfedge_origin(F, h),
                    halfedge_target(F, h));
     if (other >= 0 && halfedge_origin(F, other) == halfedge_origin(F, h))
@@ -184,7 +218,8 @@ std::unordered_map<int, int> boundary_of_cut_mesh(const Embedding& embedding, Of
     if (other < 0 && !next.emplace(halfedge_origin(F, h), halfedge_target(F, h)).second)
       offences.add("the boundary of the cut mesh passes twice through vertex {}", halfedge_origin(F, h));
   }
-  const long long euler = count_used(F, n_cut) - static_cast<long long>(connectivity.edges.size()) + F.rows();
+  const std::vector<char> used = used_vertices(F, static_cast<int>(embedding.source_vertex.size()));
+  const long long euler = std::count(used.begin(), used.end(), 1) - edges.count + F.rows();
   if (euler != (next.empty() ? 2 : 1))
     offences.add("the cut mesh has Euler characteristic {}; a disk has 1, and a closed sphere 2", euler);
   if (offences.any() || next.empty()) return {};
@@ -242,10 +277,10 @@ std::vector<int> fixed_corners(const Embedding& embedding) {
 
 // Every boundary edge of the cut mesh lies in exactly one bank, or between fixed corners; paired vertices are
 // copies of one input vertex, and paired edges have their faces on opposite sides.
-Check seam_gluing_check(const Embedding& embedding) {
+Check seam_gluing_check(const Embedding& embedding, const Connectivity* input) {
   Offences offences;
   const int n_cut = static_cast<int>(embedding.source_vertex.size());
-  std::unordered_map<int, int> uncovered = boundary_of_cut_mesh(embedding, offences);
+  std::unordered_map<int, int> uncovered = boundary_of_cut_mesh(embedding, input, offences);
   for (std::size_t s = 0; s < embedding.seams.size() && !offences.any(); ++s) {
     const Seam& seam = embedding.seams[s];
     if (seam.left.size() != seam.right.size() || seam.left.size() < 2) {
@@ -270,12 +305,12 @@ Check seam_gluing_check(const Embedding& embedding) {
 }
 
 // The boundary runs once around the polygon of the fixed corners, where there are any.
-Check held_sides_check(const Embedding& embedding) {
+Check held_sides_check(const Embedding& embedding, const Connectivity* input) {
   const std::string name = "held_sides";
   const std::vector<int> corners = fixed_corners(embedding);
   if (corners.empty()) return none(name, 0, {});
   Offences offences;
-  const std::unordered_map<int, int> next = boundary_of_cut_mesh(embedding, offences);
+  const std::unordered_map<int, int> next = boundary_of_cut_mesh(embedding, input, offences);
   if (next.empty()) return none(name, 1, "the cut mesh is no disk");
   const int start = next.begin()->first;
   std::vector<int> boundary = {start};
@@ -383,14 +418,15 @@ ExpectedAngles expected_angles(const Embedding& triangles) {
   const std::size_t count = triangles.source_vertex.size();
   expected.angle.assign(count, 0.0);
   expected.is_cone.assign(count, 0);
-  for (int h = 0; h < static_cast<int>(triangles.triangles.size()); ++h)
-    expected.angle[surface_vertex(triangles, halfedge_origin(triangles.triangles, h))] = 2 * pi;
+  const std::vector<char> used = used_vertices(triangles.triangles, static_cast<int>(count));
+  for (int v = 0; v < static_cast<int>(count); ++v)
+    if (used[v]) expected.angle[surface_vertex(triangles, v)] = 2 * pi;
   for (const Seam& seam : triangles.seams)
     if (seam.is_mirror())
       for (const int v : seam.left) expected.angle[surface_vertex(triangles, v)] = pi;
   if (!fixed_corners(triangles).empty()) {
     Offences ignored;  // held_sides_check tells of them
-    for (const auto& [from, to] : boundary_of_cut_mesh(triangles, ignored))
+    for (const auto& [from, to] : boundary_of_cut_mesh(triangles, nullptr, ignored))
       expected.angle[surface_vertex(triangles, from)] = 0;
   }
   for (const ConeCopies& cone : triangles.cones) {
@@ -481,18 +517,6 @@ Check group_check(const Embedding& embedding) {
   }
 }
 
-// Of every triangle, exactly: is it positively oriented?
-std::vector<char> positive_triangles(const Embedding& embedding, const ExactPositions& positions) {
-  std::vector<char> positive(embedding.triangles.rows());
-  parallel_ranges(static_cast<int>(positive.size()), [&](int begin, int end) {
-    for (int f = begin; f < end; ++f) {
-      const auto v = embedding.triangles.row(f);
-      positive[f] = positions.orientation(v[0], v[1], v[2]) > 0;
-    }
-  });
-  return positive;
-}
-
 // face_of: the input face of every triangle, where it is not the triangle itself.
 Check orientation_check(const std::vector<char>& positive, const std::vector<int>& face_of,
                         std::vector<int>& nonpositive) {
@@ -518,27 +542,44 @@ Check convexity_check(const Embedding& embedding, const ExactPositions& position
   return none("convex_faces", static_cast<long long>(concave.size()), first);
 }
 
-Check edge_length_check(const Embedding& embedding, double& longest) {
+// The edge with the widest chord. Of several, the longest by rounding.
+struct WidestEdge {
+  double squared_chord = 0, length = 0;
+
+  void take(const WidestEdge& other) {
+    if (other.squared_chord < squared_chord) return;
+    length = other.squared_chord > squared_chord ? other.length : std::max(length, other.length);
+    squared_chord = other.squared_chord;
+  }
+};
+
+// Of the faces begin .. end - 1.
+WidestEdge widest_edge(const Embedding& embedding, int begin, int end) {
   const Points& X = embedding.positions;
   const FaceView faces = embedding.faces();
   const Space space = embedding.space();
-  const auto squared_chord = [&](int a, int b) {
-    const Vector3 chord = X.row(a) - X.row(b);
-    return space.dot(chord, chord);
-  };
-  const auto largest = [&](int f, const auto& measure) {
-    double result = 0;
+  WidestEdge widest;
+  for (int f = begin; f < end; ++f) {
     int a = faces[f].back();
-    for (const int b : faces[f]) result = std::max(result, measure(std::exchange(a, b), b));
-    return result;
-  };
-  const double widest = parallel_max(faces.count(), [&](int f) { return largest(f, squared_chord); });
-  longest = parallel_max(faces.count(), [&](int f) {
-    return largest(f, [&](int a, int b) {
-      return squared_chord(a, b) < widest ? 0.0 : space.distance(X.row(a), X.row(b));
-    });
+    for (const int b : faces[f]) {
+      const Vector3 from = X.row(std::exchange(a, b)), to = X.row(b), chord = from - to;
+      if (const double squared = space.dot(chord, chord); squared >= widest.squared_chord)
+        widest.take({squared, space.distance(from, to)});
+    }
+  }
+  return widest;
+}
+
+Check edge_length_check(const Embedding& embedding, double& longest) {
+  WidestEdge widest;
+  std::mutex mutex;
+  parallel_ranges(embedding.faces().count(), [&](int begin, int end) {
+    const WidestEdge here = widest_edge(embedding, begin, end);
+    const std::lock_guard lock(mutex);
+    widest.take(here);
   });
-  const double bound = space.longest_unique();
+  longest = widest.length;
+  const double bound = embedding.space().longest_unique();
   Check check = {"edge_lengths", longest < bound, longest, bound, {}};
   if (!check.passed) check.detail = "an edge is not shorter than pi";
   return check;
@@ -579,15 +620,15 @@ struct Judged {
 };
 
 // That seams or held sides glue the cut mesh to a surface; false as before.
-bool check_gluing(const Judged& judged, Certificate& certificate) {
+bool check_gluing(const Judged& judged, const Connectivity* input, Certificate& certificate) {
   const Embedding& embedding = judged.embedding;
   std::vector<Check>& checks = certificate.checks;
-  checks.push_back(seam_gluing_check(judged.triangles));
+  checks.push_back(seam_gluing_check(judged.triangles, input));
   checks.push_back(transform_check(embedding));
   checks.push_back(cone_check(embedding));
   if (!all_passed(checks)) return false;
   certificate.expected_area = target_area(claimed_target(embedding));
-  checks.push_back(held_sides_check(embedding));
+  checks.push_back(held_sides_check(embedding, input));
   checks.push_back(group_check(embedding));
   if (judged.positions.has_offsets())
     checks.push_back(exact_surface_check(judged.triangles, judged.positions));
@@ -603,11 +644,10 @@ void check_faces(const Judged& judged, const ExpectedAngles& expected, const std
                  Certificate& certificate) {
   const auto& [embedding, triangles, positions] = judged;
   std::vector<Check>& checks = certificate.checks;
-  const std::vector<char> positive = positive_triangles(triangles, positions);
-  checks.push_back(orientation_check(positive, face_of, certificate.nonpositive_faces));
+  const TriangleSums sums = sum_over_triangles(triangles, positions);
+  checks.push_back(orientation_check(sums.positive, face_of, certificate.nonpositive_faces));
   const Check lengths = edge_length_check(embedding, certificate.max_edge_length);
   if (std::isfinite(lengths.bound)) checks.push_back(lengths);
-  const TriangleSums sums = sum_over_triangles(triangles, positions, positive);
   for (Check& check : angle_checks(triangles, positions, sums.angle, expected))
     checks.push_back(std::move(check));
   certificate.signed_area = sums.signed_area;
@@ -629,9 +669,9 @@ bool check_layout(const Embedding& layout, const IntrinsicTriangulation& triangu
   return all_passed(certificate.checks);
 }
 
-}  // namespace
-
-Certificate certify(int vertex_count, const FaceView& faces, const Embedding& embedding) {
+// input: see boundary_of_cut_mesh.
+Certificate certify_on(const Connectivity* input, int vertex_count, const FaceView& faces,
+                       const Embedding& embedding) {
   Certificate certificate;
   if (!check_input(vertex_count, faces, embedding, certificate)) return certificate;
   std::optional<DividedPolygons> polygons;
@@ -639,7 +679,7 @@ Certificate certify(int vertex_count, const FaceView& faces, const Embedding& em
   const Embedding& triangles = polygons ? polygons->embedding : embedding;
   const ExactPositions positions(triangles);
   const Judged judged = {embedding, triangles, positions};
-  if (!check_gluing(judged, certificate)) return certificate;
+  if (!check_gluing(judged, polygons ? nullptr : input, certificate)) return certificate;
   check_faces(judged, expected_angles(triangles), polygons ? polygons->face_of : std::vector<int>(),
               certificate);
   if (polygons)
@@ -648,8 +688,16 @@ Certificate certify(int vertex_count, const FaceView& faces, const Embedding& em
   return certificate;
 }
 
+}  // namespace
+
+Certificate certify(int vertex_count, const FaceView& faces, const Embedding& embedding) {
+  return certify_on(nullptr, vertex_count, faces, embedding);
+}
+
 Certificate certify(const Surface& surface, const Embedding& embedding) {
-  return certify(surface.vertex_count(), surface.faces(), embedding);
+  const bool is_orientable = surface.topology == Topology::sphere || surface.topology == Topology::disk;
+  return certify_on(is_orientable && !surface.has_polygons() ? &surface.connectivity : nullptr,
+                    surface.vertex_count(), surface.faces(), embedding);
 }
 
 Certificate certify_intrinsic(const Surface& surface, const Embedding& embedding,
@@ -657,7 +705,7 @@ Certificate certify_intrinsic(const Surface& surface, const Embedding& embedding
   Certificate certificate;
   if (!check_input(surface.vertex_count(), surface.faces(), embedding, certificate)) return certificate;
   const ExactPositions positions(embedding);
-  if (!check_gluing({embedding, embedding, positions}, certificate)) return certificate;
+  if (!check_gluing({embedding, embedding, positions}, nullptr, certificate)) return certificate;
   if (positions.has_offsets() && !all_passed(certificate.checks)) return certificate;  // no exact group
   const Embedding layout = laid_out(surface, embedding, triangulation);
   if (!check_layout(layout, triangulation, certificate)) return certificate;

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "orbitutte/geometry/geodesic_triangle.h"
 #include "orbitutte/orbifold/exact_positions.h"
 #include "orbitutte/parallel.h"
 #include "orbitutte/verify/flat_triangles.h"
@@ -96,18 +97,16 @@ int histogram_bin(double doublings) {
   return static_cast<int>(std::floor(std::clamp(4 * doublings, -32.0, 31.0))) + 32;
 }
 
-// The largest coordinate of an edge: areas in its square overflow nowhere.
+// A power of two near the size of the mesh: in this unit no squared area overflows.
 double length_unit(const Surface& surface) {
-  const double unit = parallel_max(static_cast<int>(surface.triangles.size()), [&](int h) {
-    const int from = halfedge_origin(surface.triangles, h), to = halfedge_target(surface.triangles, h);
-    return (surface.V.row(to) - surface.V.row(from)).cwiseAbs().maxCoeff();
-  });
-  return unit > 0 ? unit : 1;
+  const int* const corner = surface.triangles.data();
+  const auto off = [&](int v) { return (surface.V.row(v) - surface.V.row(corner[0])).cwiseAbs().maxCoeff(); };
+  const double largest =
+      surface.unreferenced_vertices == 0
+          ? parallel_max(surface.vertex_count(), off)
+          : parallel_max(static_cast<int>(surface.triangles.size()), [&](int h) { return off(corner[h]); });
+  return largest > 0 ? std::exp2(std::ilogb(largest)) : 1;
 }
-
-struct FaceAreas {
-  double source = 0, image = 0;
-};
 
 // By how much rounding may move every position along the space.
 std::vector<double> tangential_roundings(const Embedding& embedding, const ExactPositions& positions) {
@@ -121,43 +120,62 @@ std::vector<double> tangential_roundings(const Embedding& embedding, const Exact
   return result;
 }
 
-// What is measured of the image of a triangle: the lengths of the sides between its corners 0 and 1, 1 and 2,
-// 2 and 0, and the rounding of the worst corner.
-struct ImageMeasures {
-  std::array<double, 3> arcs;
-  double rounding = 0;
+// Its corners, and the lengths of the sides between the corners 0 and 1, 1 and 2, 2 and 0.
+using Sides = std::array<double, 3>;
+using SourceCorners = std::array<Vector3, 3>;
+
+Sides sides_of(const SourceCorners& p) {
+  return {(p[0] - p[1]).norm(), (p[1] - p[2]).norm(), (p[2] - p[0]).norm()};
+}
+
+struct ImageTriangle {
+  Sides arcs;
+  double area = 0;
 };
 
-// v: its corners. rounding: of every cut vertex.
-ImageMeasures measure_image(const std::array<int, 3>& v, const ExactPositions& positions,
-                            const std::vector<double>& rounding) {
-  return {{positions.distance(v[0], v[1]), positions.distance(v[1], v[2]), positions.distance(v[2], v[0])},
-          std::max({rounding[v[0]], rounding[v[1]], rounding[v[2]]})};
+template <int k>
+ImageTriangle image_triangle(Curvature<k> curvature, const Embedding& embedding,
+                             const ExactPositions& positions, const std::array<int, 3>& v) {
+  if (positions.has_offsets())
+    return {{positions.distance(v[0], v[1]), positions.distance(v[1], v[2]), positions.distance(v[2], v[0])},
+            positions.area(v[0], v[1], v[2])};
+  const Points& X = embedding.positions;
+  const Vector3 a = X.row(v[0]), b = X.row(v[1]), c = X.row(v[2]);
+  const auto arc = [&](const Vector3& p, const Vector3& q) {
+    return std::sqrt(std::max(curvature.distance(p, q).squared, 0.0));
+  };
+  return {{arc(a, b), arc(b, c), arc(c, a)}, area_of(curvature, a, b, c)};
 }
 
 // Scaled by a power of two where their squares would underflow.
-std::array<double, 3> in_range(std::array<double, 3> lengths) {
+Sides in_range(Sides lengths) {
   const double longest = *std::max_element(lengths.begin(), lengths.end());
   if (longest > 0 && longest < 1e-100)
     for (double& length : lengths) length = std::ldexp(length, -std::ilogb(longest));
   return lengths;
 }
 
-FaceDistortion face_distortion(const std::array<Vector3, 3>& source, const ImageMeasures& image,
-                               const FaceAreas& area, const FaceAreas& total) {
-  FaceDistortion result;
-  result.share = total.source > 0 ? area.source / total.source : 0;
-  const auto length = [&](int i, int j) { return (source[i] - source[j]).norm(); };
-  const std::array<double, 3> lengths = {length(0, 1), length(1, 2), length(2, 0)};
-  const double longest = std::max({lengths[0], lengths[1], lengths[2]}),
+// What is known of a triangle without the others.
+struct TriangleMeasures {
+  double source_area = 0, image_area = 0;
+
+  // Are both more than rounding explains?
+  bool is_measured = false;
+
+  // The ratio of singular values; 0 if there is none.
+  double angle = 0;
+};
+
+// rounding: by how much it may move a corner of the image.
+TriangleMeasures measures_of(const SourceCorners& source, const ImageTriangle& image, double rounding) {
+  TriangleMeasures result = {triangle_area(source[0], source[1], source[2]), image.area};
+  const Sides lengths = sides_of(source);
+  const double longest = *std::max_element(lengths.begin(), lengths.end()),
                longest_arc = *std::max_element(image.arcs.begin(), image.arcs.end());
-  if (!(area.source > area_rounding * longest * longest) ||
-      !(area.image > position_rounding * image.rounding * longest_arc))
-    return result;
-  const std::array<double, 3> arcs = in_range(image.arcs);
-  const double ratio = (area.image / total.image) / (area.source / total.source);
-  if (!(ratio > 0) || !std::isfinite(ratio)) return result;
-  result.area = ratio;
+  result.is_measured = result.source_area > area_rounding * longest * longest &&
+                       result.image_area > position_rounding * rounding * longest_arc;
+  if (!result.is_measured) return result;
+  const Sides arcs = in_range(image.arcs);
   const auto e = lay_out(lengths[0], lengths[1], lengths[2]), g = lay_out(arcs[0], arcs[1], arcs[2]);
   if (!e || !g) return result;
   const double angle = ratio_of_singular_values(*e, *g);
@@ -165,37 +183,50 @@ FaceDistortion face_distortion(const std::array<Vector3, 3>& source, const Image
   return result;
 }
 
+std::vector<TriangleMeasures> measures_of_triangles(const Surface& surface, const Embedding& embedding) {
+  const double unit = length_unit(surface);
+  const ExactPositions positions(embedding);
+  const std::vector<double> rounding = tangential_roundings(embedding, positions);
+  const auto corner = [&](int v) -> Vector3 { return surface.V.row(embedding.source_vertex[v]) / unit; };
+  std::vector<TriangleMeasures> result(surface.triangle_count());
+  visit_curvature(embedding.space(), [&](auto curvature) {
+    parallel_ranges(surface.triangle_count(), [&](int begin, int end) {
+      for (int f = begin; f < end; ++f) {
+        const std::array<int, 3> v = {embedding.triangles(f, 0), embedding.triangles(f, 1),
+                                      embedding.triangles(f, 2)};
+        result[f] = measures_of({corner(v[0]), corner(v[1]), corner(v[2])},
+                                image_triangle(curvature, embedding, positions, v),
+                                std::max({rounding[v[0]], rounding[v[1]], rounding[v[2]]}));
+      }
+    });
+  });
+  return result;
+}
+
+// total: of all triangles.
+FaceDistortion face_distortion(const TriangleMeasures& triangle, const TriangleMeasures& total) {
+  FaceDistortion result;
+  result.share = total.source_area > 0 ? triangle.source_area / total.source_area : 0;
+  if (!triangle.is_measured) return result;
+  const double ratio = (triangle.image_area / total.image_area) / (triangle.source_area / total.source_area);
+  if (!(ratio > 0) || !std::isfinite(ratio)) return result;
+  result.area = ratio;
+  result.angle = triangle.angle;
+  return result;
+}
+
 }  // namespace
 
 std::vector<FaceDistortion> measure_triangles(const Surface& surface, const Embedding& embedding) {
-  const int m = surface.triangle_count();
-  const double unit = length_unit(surface);
-  const ExactPositions positions(embedding);
-  const auto source = [&](int f) {
-    const auto corner = [&](int k) {
-      return surface.V.row(embedding.source_vertex[embedding.triangles(f, k)]) / unit;
-    };
-    return std::array<Vector3, 3>{corner(0), corner(1), corner(2)};
-  };
-  std::vector<FaceAreas> area(m);
-  FaceAreas total;
-  total.source = parallel_sum(m, [&](int f) {
-    const auto p = source(f);
-    return area[f].source = triangle_area(p[0], p[1], p[2]);
-  });
-  total.image = parallel_sum(m, [&](int f) {
-    const auto v = embedding.triangles.row(f);
-    area[f].image = positions.area(v[0], v[1], v[2]);
-    return std::max(area[f].image, 0.0);  // a map that is turned over in places still has shares
-  });
-  const std::vector<double> rounding = tangential_roundings(embedding, positions);
+  const std::vector<TriangleMeasures> triangles = measures_of_triangles(surface, embedding);
+  const int m = static_cast<int>(triangles.size());
+  TriangleMeasures total;
+  total.source_area = parallel_sum(m, [&](int f) { return triangles[f].source_area; });
+  // A map that is turned over in places still has shares.
+  total.image_area = parallel_sum(m, [&](int f) { return std::max(triangles[f].image_area, 0.0); });
   std::vector<FaceDistortion> of_face(m);
   parallel_ranges(m, [&](int begin, int end) {
-    for (int f = begin; f < end; ++f) {
-      const std::array<int, 3> v = {embedding.triangles(f, 0), embedding.triangles(f, 1),
-                                    embedding.triangles(f, 2)};
-      of_face[f] = face_distortion(source(f), measure_image(v, positions, rounding), area[f], total);
-    }
+    for (int f = begin; f < end; ++f) of_face[f] = face_distortion(triangles[f], total);
   });
   return of_face;
 }

@@ -51,10 +51,9 @@ class DelaunayFlips {
       for (int h = 3 * f; h < 3 * f + 3; ++h) kept_[edge_of_[h]] = 1;
   }
 
+  // All edges but these must be Delaunay.
   void run(const std::vector<int>& edges) {
-    const std::vector<int> flippable =
-        parallel_select(static_cast<int>(edges.size()), [&](int k) { return !is_delaunay(edges[k]); });
-    for (const int k : flippable) push(edges[k]);
+    for (const int e : edges) push(e);
     const std::size_t most_flips = T_.flips.size() + most_flips_per_edge * halfedge_.size();
     std::size_t before = 0;
     do {
@@ -62,6 +61,16 @@ class DelaunayFlips {
       flip_all_that_wait(most_flips);
       for (const int e : std::exchange(blocked_, {})) push(e);  // a later flip may have removed the obstacle
     } while (T_.flips.size() > before && T_.flips.size() < most_flips);
+  }
+
+  // All edges that are not Delaunay, ascending. Half-edges are visited in the order of their angles.
+  std::vector<int> flippable_edges() const {
+    std::vector<int> edges = parallel_select(static_cast<int>(opposite_.size()), [&](int h) {
+      return opposite_[h] >= 0 && opposite_[h] < h && !are_delaunay(h, opposite_[h]);
+    });
+    for (int& h : edges) h = edge_of_[h];
+    std::sort(edges.begin(), edges.end());
+    return edges;
   }
 
  private:
@@ -88,7 +97,10 @@ class DelaunayFlips {
 
   bool is_delaunay(int e) const {
     const int h = halfedge_[e], g = opposite_[h];
-    if (g < 0) return true;
+    return g < 0 || are_delaunay(h, g);
+  }
+
+  bool are_delaunay(int h, int g) const {
     const double left = T_.half_cotangent[h], right = T_.half_cotangent[g];
     return left + right >= -(cocircular + cotangent_rounding * (std::abs(left) + std::abs(right)));
   }
@@ -241,6 +253,11 @@ IntrinsicTriangulation intrinsic_triangulation(const Surface& surface) {
 
 void make_delaunay(IntrinsicTriangulation& triangulation, const std::vector<int>& edges) {
   DelaunayFlips(triangulation).run(edges);
+}
+
+void make_delaunay(IntrinsicTriangulation& triangulation) {
+  DelaunayFlips flips(triangulation);
+  flips.run(flips.flippable_edges());
 }
 
 }  // namespace orbitutte

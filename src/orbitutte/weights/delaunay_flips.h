@@ -37,4 +37,7 @@ IntrinsicTriangulation intrinsic_triangulation(const Surface& surface);
 /// Tutte embedding. Takes O(n) time on practical meshes. The faces need not be consistently oriented.
 void make_delaunay(IntrinsicTriangulation& triangulation, const std::vector<int>& edges);
 
+/// The same if any edge may not be Delaunay.
+void make_delaunay(IntrinsicTriangulation& triangulation);
+
 }  // namespace orbitutte

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "orbitutte/io/file.h"
 #include "orbitutte/io/text_scanner.h"
@@ -82,9 +81,7 @@ EdgeWeights delaunay_weights(const Surface& surface, double clamp, const Unflipp
   IntrinsicTriangulation triangulation = intrinsic_triangulation(surface);
   triangulation.kept_faces = unflipped.kept_faces;
   triangulation.kept_apart = unflipped.kept_apart;
-  std::vector<int> all(surface.connectivity.edges.size());
-  std::iota(all.begin(), all.end(), 0);
-  make_delaunay(triangulation, all);
+  make_delaunay(triangulation);
   return intrinsic_weights(std::move(triangulation), clamp);
 }
 
