@@ -63,23 +63,23 @@ struct Blas<float> {
   static constexpr auto syrk = ssyrk_;
 };
 
-// Some columns of L next to each other, and three vectors along its rows.
-template <int count>
+// Some columns of L next to each other, and some vectors along its rows.
+template <int count, int vectors>
 struct ColumnBlock {
   const float* column[count];
-  float* vector[3];
+  float* vector[vectors];
   long first, rows;
 
   ColumnBlock(const DenseColumns& L, long first_column, float* y) : first(first_column), rows(L.rows) {
     for (int k = 0; k < count; ++k) column[k] = L.values + (first + k) * L.stride;
-    for (int c = 0; c < 3; ++c) vector[c] = y + c * rows;
+    for (int c = 0; c < vectors; ++c) vector[c] = y + c * rows;
   }
 
   // Solves with the columns' own rows, and subtracts what they then add to the rows below.
   void forward() const {
-    float x[count][3];
+    float x[count][vectors];
     for (int k = 0; k < count; ++k) {
-      for (int c = 0; c < 3; ++c) {
+      for (int c = 0; c < vectors; ++c) {
         float value = vector[c][first + k];
         for (int j = 0; j < k; ++j) value -= column[j][first + k] * x[j][c];
         vector[c][first + k] = x[k][c] = value / column[k][first + k];
@@ -89,33 +89,33 @@ struct ColumnBlock {
     for (; i + 4 <= rows; i += 4) {
       Four L[count];
       for (int k = 0; k < count; ++k) L[k] = FourAt(column[k] + i);
-      for (int c = 0; c < 3; ++c) {
+      for (int c = 0; c < vectors; ++c) {
         Four value = FourAt(vector[c] + i);
         for (int k = 0; k < count; ++k) value -= L[k] * x[k][c];
         Eigen::Map<Four>(vector[c] + i) = value;
       }
     }
     for (; i < rows; ++i)
-      for (int c = 0; c < 3; ++c)
+      for (int c = 0; c < vectors; ++c)
         for (int k = 0; k < count; ++k) vector[c][i] -= column[k][i] * x[k][c];
   }
 
   // Solves with the transpose for the columns' own rows; those below are known.
   void backward() const {
-    Four sums[count][3];
+    Four sums[count][vectors];
     for (int k = 0; k < count; ++k)
-      for (int c = 0; c < 3; ++c) sums[k][c].setZero();
+      for (int c = 0; c < vectors; ++c) sums[k][c].setZero();
     long i = first + count;
     for (; i + 4 <= rows; i += 4) {
-      Four x[3];
-      for (int c = 0; c < 3; ++c) x[c] = FourAt(vector[c] + i);
+      Four x[vectors];
+      for (int c = 0; c < vectors; ++c) x[c] = FourAt(vector[c] + i);
       for (int k = 0; k < count; ++k) {
         const Four L = FourAt(column[k] + i);
-        for (int c = 0; c < 3; ++c) sums[k][c] += L * x[c];
+        for (int c = 0; c < vectors; ++c) sums[k][c] += L * x[c];
       }
     }
     for (int k = count; k-- > 0;) {
-      for (int c = 0; c < 3; ++c) {
+      for (int c = 0; c < vectors; ++c) {
         float value = vector[c][first + k] - sums[k][c].sum();
         for (long j = i; j < rows; ++j) value -= column[k][j] * vector[c][j];
         for (int j = k + 1; j < count; ++j) value -= column[k][first + j] * vector[c][first + j];
@@ -186,16 +186,23 @@ void multiply_by_transpose(Eigen::MatrixXd& L) {
   L = std::move(product);
 }
 
+template <int vectors>
 void forward(const DenseColumns& L, float* y) {
   long j = 0;
-  for (; j + 4 <= L.columns; j += 4) ColumnBlock<4>(L, j, y).forward();
-  for (; j < L.columns; ++j) ColumnBlock<1>(L, j, y).forward();
+  for (; j + 4 <= L.columns; j += 4) ColumnBlock<4, vectors>(L, j, y).forward();
+  for (; j < L.columns; ++j) ColumnBlock<1, vectors>(L, j, y).forward();
 }
 
+template <int vectors>
 void backward(const DenseColumns& L, float* y) {
   long j = L.columns;
-  for (; j % 4 != 0; --j) ColumnBlock<1>(L, j - 1, y).backward();
-  for (; j > 0; j -= 4) ColumnBlock<4>(L, j - 4, y).backward();
+  for (; j % 4 != 0; --j) ColumnBlock<1, vectors>(L, j - 1, y).backward();
+  for (; j > 0; j -= 4) ColumnBlock<4, vectors>(L, j - 4, y).backward();
 }
+
+template void forward<1>(const DenseColumns& L, float* y);
+template void forward<3>(const DenseColumns& L, float* y);
+template void backward<1>(const DenseColumns& L, float* y);
+template void backward<3>(const DenseColumns& L, float* y);
 
 }  // namespace orbitutte

@@ -6,9 +6,13 @@
 
 namespace orbitutte {
 
-/// n x 3, right-hand sides or solutions. Solves run in single precision: they shape steps and starts, whose
-/// errors the optimiser's gradient, which is in double precision, tells it to remove.
-using SinglePoints = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
+/// n x count, right-hand sides or solutions, one or three. Solves run in single precision: they shape steps
+/// and starts, whose errors the optimiser's gradient, which is in double precision, tells it to remove.
+template <int count>
+using SingleColumns =
+    Eigen::Matrix<float, Eigen::Dynamic, count, count == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
+using SinglePoints = SingleColumns<3>;
+using SingleVector = SingleColumns<1>;
 
 /// A matrix that is zero in its lower triangle and undefined above.
 Eigen::MatrixXd zero_lower_triangle(Eigen::Index n);
@@ -34,10 +38,12 @@ struct DenseColumns {
 };
 
 /// y_O <- L_OO^-1 y_O, then y_B <- y_B - L_BO y_O, where L_OO is the columns' own block and L_BO their
-/// border's. y: rows x 3, column by column.
+/// border's. y: rows x vectors, one or three of them, column by column.
+template <int vectors>
 void forward(const DenseColumns& L, float* y);
 
-/// y_O <- L_OO^-T (y_O - L_BO' y_B). y: rows x 3, column by column.
+/// y_O <- L_OO^-T (y_O - L_BO' y_B). y: as for `forward`.
+template <int vectors>
 void backward(const DenseColumns& L, float* y);
 
 }  // namespace orbitutte

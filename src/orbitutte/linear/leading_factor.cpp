@@ -21,44 +21,53 @@ void LeadingFactor::append(const Supernode& supernode) {
   most_rows_ = std::max(most_rows_, supernode.rows);
 }
 
-void LeadingFactor::gather(const Stored& s, const SinglePoints& y, float* local) const {
+template <int count>
+void LeadingFactor::gather(const Stored& s, const SingleColumns<count>& y, float* local) const {
   const int* const row = row_.data() + s.first_row;
   for (long r = 0; r < s.rows; ++r) {
-    const float* const from = y.data() + 3L * row[r];
-    for (int c = 0; c < 3; ++c) local[r + c * s.rows] = from[c];
+    const float* const from = y.data() + static_cast<long>(count) * row[r];
+    for (int c = 0; c < count; ++c) local[r + c * s.rows] = from[c];
   }
 }
 
-void LeadingFactor::scatter(const Stored& s, long rows, const float* local, SinglePoints& y) const {
+template <int count>
+void LeadingFactor::scatter(const Stored& s, long rows, const float* local, SingleColumns<count>& y) const {
   const int* const row = row_.data() + s.first_row;
   for (long r = 0; r < rows; ++r) {
-    float* const to = y.data() + 3L * row[r];
-    for (int c = 0; c < 3; ++c) to[c] = local[r + c * s.rows];
+    float* const to = y.data() + static_cast<long>(count) * row[r];
+    for (int c = 0; c < count; ++c) to[c] = local[r + c * s.rows];
   }
 }
 
-void LeadingFactor::forward(SinglePoints& y) const {
-  SinglePoints permuted(y.rows(), 3);
+template <int count>
+void LeadingFactor::forward(SingleColumns<count>& y) const {
+  SingleColumns<count> permuted(y.rows(), count);
   for (Eigen::Index k = 0; k < y.rows(); ++k) permuted.row(k) = y.row(order_[k]);
   y.swap(permuted);
-  std::vector<float> local(3 * most_rows_);
+  std::vector<float> local(count * most_rows_);
   for (const Stored& s : supernode_) {
     gather(s, y, local.data());
-    orbitutte::forward(columns_of(s), local.data());
+    orbitutte::forward<count>(columns_of(s), local.data());
     scatter(s, s.rows, local.data(), y);
   }
 }
 
-void LeadingFactor::backward(SinglePoints& y) const {
-  std::vector<float> local(3 * most_rows_);
+template <int count>
+void LeadingFactor::backward(SingleColumns<count>& y) const {
+  std::vector<float> local(count * most_rows_);
   for (auto s = supernode_.rbegin(); s != supernode_.rend(); ++s) {
     gather(*s, y, local.data());
-    orbitutte::backward(columns_of(*s), local.data());
+    orbitutte::backward<count>(columns_of(*s), local.data());
     scatter(*s, s->columns, local.data(), y);
   }
-  SinglePoints permuted(y.rows(), 3);
+  SingleColumns<count> permuted(y.rows(), count);
   for (Eigen::Index k = 0; k < y.rows(); ++k) permuted.row(order_[k]) = y.row(k);
   y.swap(permuted);
 }
+
+template void LeadingFactor::forward<1>(SingleColumns<1>& y) const;
+template void LeadingFactor::forward<3>(SingleColumns<3>& y) const;
+template void LeadingFactor::backward<1>(SingleColumns<1>& y) const;
+template void LeadingFactor::backward<3>(SingleColumns<3>& y) const;
 
 }  // namespace orbitutte

@@ -29,13 +29,15 @@ class LeadingFactor {
 
   void append(const Supernode& supernode);
 
-  /// y_L <- L_LL^-1 y_L, y_T <- y_T - L_TL y_L (n x 3). Leaves the leading rows in the factor's order, which
-  /// `backward` expects.
-  void forward(SinglePoints& y) const;
+  /// y_L <- L_LL^-1 y_L, y_T <- y_T - L_TL y_L (n x 1 or n x 3). Leaves the leading rows in the factor's
+  /// order, which `backward` expects.
+  template <int count>
+  void forward(SingleColumns<count>& y) const;
 
-  /// y_L <- L_LL^-T (y_L - L_TL' y_T) (n x 3). Takes the leading rows in the factor's order and returns them
-  /// in A's.
-  void backward(SinglePoints& y) const;
+  /// y_L <- L_LL^-T (y_L - L_TL' y_T) (n x 1 or n x 3). Takes the leading rows in the factor's order and
+  /// returns them in A's.
+  template <int count>
+  void backward(SingleColumns<count>& y) const;
 
  private:
   struct Stored {
@@ -47,9 +49,11 @@ class LeadingFactor {
     return {value_.data() + s.first_value, s.rows, s.columns, s.rows};
   }
 
-  /// The rows of a supernode (rows x 3, column by column), and its first `rows` rows back again.
-  void gather(const Stored& s, const SinglePoints& y, float* local) const;
-  void scatter(const Stored& s, long rows, const float* local, SinglePoints& y) const;
+  /// The rows of a supernode (rows x count, column by column), and its first `rows` rows back again.
+  template <int count>
+  void gather(const Stored& s, const SingleColumns<count>& y, float* local) const;
+  template <int count>
+  void scatter(const Stored& s, long rows, const float* local, SingleColumns<count>& y) const;
 
   std::vector<int> order_;
   std::vector<Stored> supernode_;

@@ -222,7 +222,7 @@ void Substructure::forward(SinglePoints& y) const {
         piece.sparse->forward(local);
       } else if (piece.own() > 0) {
         ByColumns columns = local;
-        orbitutte::forward(piece.dense(), columns.data());
+        orbitutte::forward<3>(piece.dense(), columns.data());
         local = columns;
       }
       y.middleRows(piece.begin, piece.own()) = local.topRows(piece.own());
@@ -247,7 +247,7 @@ void Substructure::backward(SinglePoints& y) const {
         piece.sparse->backward(local);
       } else {
         ByColumns columns = local;
-        orbitutte::backward(piece.dense(), columns.data());
+        orbitutte::backward<3>(piece.dense(), columns.data());
         local = columns;
       }
       y.middleRows(piece.begin, piece.own()) = local.topRows(piece.own());

@@ -60,7 +60,6 @@ TriangleAngles triangle_angles(int k, const std::array<double, 3>& half_sn) {
 
 namespace {
 
-// The area of the surface in space.
 // What the angles around each vertex add up to where nothing is marked; zero if no triangle uses it.
 Eigen::VectorXd ordinary_angles(const Surface& surface) {
   Eigen::VectorXd angles = Eigen::VectorXd::Zero(surface.vertex_count());
@@ -78,6 +77,21 @@ std::vector<int> scale_counts(const Surface& surface) {
   return count;
 }
 
+// Vertices a and b at the ends of a side, and its half-edges; on the boundary `other` is -1.
+struct TriangleSide {
+  int a, b, half_edge, other;
+};
+
+std::vector<TriangleSide> sides_of(const Surface& surface) {
+  std::vector<TriangleSide> sides;
+  sides.reserve(surface.triangles.size() / 2 + 1);
+  for (int h = 0; h < static_cast<int>(surface.triangles.size()); ++h)
+    if (const int other = surface.connectivity.opposite[h]; other < h)
+      sides.push_back(
+          {halfedge_origin(surface.triangles, h), halfedge_target(surface.triangles, h), h, other});
+  return sides;
+}
+
 // The search for the scales.
 class ConformalScale {
  public:
@@ -89,6 +103,7 @@ class ConformalScale {
         ordinary_(ordinary_angles(problem.surface)),
         angles_(problem.angles),
         area_(k_ * (problem.angles.sum() - pi * problem.surface.triangle_count())),
+        sides_(sides_of(surface_)),
         length_(surface_.triangle_count(), 3),
         unknowns_(number_unknowns(problem.dissection.order, scale_counts(surface_))),
         preconditioner_(eliminate_laplacian(preconditioning_matrix(problem), unknowns_, problem.backend)) {
@@ -101,7 +116,7 @@ class ConformalScale {
 
   // On the sphere, where Newton's method may lead elsewhere from far away, by way of smaller areas.
   ConformalMetric solve() {
-    constexpr double loose = 1, tight = 1e-4;
+    constexpr double loose = 5, tight = 1e-4;
     State state;
     state.u = Eigen::VectorXd::Constant(surface_.vertex_count(), 0.5 * std::log(1 / surface_.total_area()));
     double area = 1;
@@ -191,41 +206,58 @@ class ConformalScale {
   // In a closed space no chord is longer than 2.
   bool fits(const State& state) const { return !space_.is_closed() || state.half_sn.maxCoeff() < 1; }
 
+  // Of each side, the factors of (v_a - v_b)^2 and of (v_a + v_b)^2.
+  struct CurvedLaplacian {
+    Eigen::VectorXd difference, sum;
+  };
+
+  CurvedLaplacian curved_laplacian(const State& state) const {
+    const auto count = static_cast<Eigen::Index>(sides_.size());
+    CurvedLaplacian H = {Eigen::VectorXd(count), Eigen::VectorXd(count)};
+    for (Eigen::Index s = 0; s < count; ++s) {
+      const auto& [a, b, h, other] = sides_[s];
+      const double w = state.coupling.data()[h] + (other < 0 ? 0 : state.coupling.data()[other]),
+                   squared = k_ * state.half_sn.data()[h] * state.half_sn.data()[h];
+      H.difference[s] = w;
+      H.sum[s] = -w * squared / (1 - squared);
+    }
+    return H;
+  }
+
   // The derivative of the excess along -v.
-  Eigen::VectorXd curved_laplacian(const State& state, const Eigen::VectorXd& v) const {
-    const Triangles& F = surface_.triangles;
+  Eigen::VectorXd product(const CurvedLaplacian& H, const Eigen::VectorXd& v) const {
     Eigen::VectorXd result = Eigen::VectorXd::Zero(v.size());
-    for (Eigen::Index f = 0; f < F.rows(); ++f)
-      for (int i = 0; i < 3; ++i) {
-        const int a = F(f, i), b = F(f, (i + 1) % 3);
-        const double w = state.coupling(f, i), squared = k_ * state.half_sn(f, i) * state.half_sn(f, i),
-                     difference = w * (v[a] - v[b]), sum = -w * squared / (1 - squared) * (v[a] + v[b]);
-        result[a] += sum + difference;
-        result[b] += sum - difference;
-      }
+    for (std::size_t s = 0; s < sides_.size(); ++s) {
+      const int a = sides_[s].a, b = sides_[s].b;
+      const auto at = static_cast<Eigen::Index>(s);
+      const double difference = H.difference[at] * (v[a] - v[b]), sum = H.sum[at] * (v[a] + v[b]);
+      result[a] += sum + difference;
+      result[b] += sum - difference;
+    }
     return result;
   }
 
   Eigen::VectorXd preconditioned(const Eigen::VectorXd& r) const {
-    SinglePoints y = SinglePoints::Zero(r.size(), 3);
-    for (const int v : unknowns_.order) y(unknowns_.first[v], 0) = static_cast<float>(r[v]);
-    preconditioner_.forward(y);
-    preconditioner_.backward(y);
+    SingleVector y(unknowns_.total);
+    for (const int v : unknowns_.order) y[unknowns_.first[v]] = static_cast<float>(r[v]);
+    preconditioner_.forward<1>(y);
+    preconditioner_.backward<1>(y);
     Eigen::VectorXd result = Eigen::VectorXd::Zero(r.size());
-    for (const int v : unknowns_.order) result[v] = static_cast<double>(y(unknowns_.first[v], 0));
+    for (const int v : unknowns_.order) result[v] = static_cast<double>(y[unknowns_.first[v]]);
     return result;
   }
 
   // H v = excess, with H the curved Laplacian. A constant takes what H, which may be negative for it alone,
   // asks of it; the rest of v is found among the vectors v with 1 . H v = 0.
   Eigen::VectorXd newton_direction(const State& state) const {
-    const Eigen::VectorXd ones = Eigen::VectorXd::Ones(state.u.size()), h = curved_laplacian(state, ones);
+    const CurvedLaplacian H = curved_laplacian(state);
+    const Eigen::VectorXd ones = Eigen::VectorXd::Ones(state.u.size()), h = product(H, ones);
     const double constant = state.excess.sum() / h.sum();
-    return solved_apart_from_constants(state, state.excess - constant * h, h) + constant * ones;
+    return solved_apart_from_constants(H, state.excess - constant * h, h) + constant * ones;
   }
 
   // Conjugate gradients, up to some digits, or to where H turns out not to be positive.
-  Eigen::VectorXd solved_apart_from_constants(const State& state, Eigen::VectorXd residual,
+  Eigen::VectorXd solved_apart_from_constants(const CurvedLaplacian& H, Eigen::VectorXd residual,
                                               const Eigen::VectorXd& h) const {
     constexpr int most_steps = 50;
     constexpr double tolerance = 0.1;
@@ -234,17 +266,17 @@ class ConformalScale {
       return Eigen::VectorXd(z.array() - h.dot(z) / h.sum());
     };
     Eigen::VectorXd v = Eigen::VectorXd::Zero(residual.size()), z = projected(residual), direction = z;
-    double product = residual.dot(z);
-    const double enough = tolerance * tolerance * product;
-    for (int step = 0; step < most_steps && product > enough; ++step) {
-      const Eigen::VectorXd image = curved_laplacian(state, direction);
+    double size = residual.dot(z);
+    const double enough = tolerance * tolerance * size;
+    for (int step = 0; step < most_steps && size > enough; ++step) {
+      const Eigen::VectorXd image = product(H, direction);
       const double curvature = direction.dot(image);
       if (!(curvature > 0)) return step == 0 ? direction : v;
-      v += product / curvature * direction;
-      residual -= product / curvature * image;
+      v += size / curvature * direction;
+      residual -= size / curvature * image;
       z = projected(residual);
-      const double before = std::exchange(product, residual.dot(z));
-      direction = z + product / before * direction;
+      const double before = std::exchange(size, residual.dot(z));
+      direction = z + size / before * direction;
     }
     return v;
   }
@@ -279,6 +311,8 @@ class ConformalScale {
   // Those that are searched for at present.
   Eigen::VectorXd angles_;
   double area_;
+
+  std::vector<TriangleSide> sides_;
 
   // T x 3: of the half-edges, in space.
   Points length_;

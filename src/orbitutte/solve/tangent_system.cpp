@@ -240,28 +240,37 @@ Points TangentSystem::unpacked(const Points& y, Eigen::Index column) const {
   return result;
 }
 
-SinglePoints TangentSystem::solved(const SinglePoints& b) const {
-  SinglePoints y = b;
-  factored_->factor.forward(y);
-  factored_->factor.backward(y);
+template <int count>
+SingleColumns<count> TangentSystem::solved(const SingleColumns<count>& b) const {
+  SingleColumns<count> y = b;
+  factored_->factor.template forward<count>(y);
+  factored_->factor.template backward<count>(y);
   return y;
 }
 
-SinglePoints TangentSystem::refined(const SinglePoints& b, const SinglePoints& y) const {
-  const Points image = form_->selfadjointView<Eigen::Lower>() * Points(y.cast<double>());
-  return y + solved((b.cast<double>() - image).cast<float>());
+SingleVector TangentSystem::refined(const SingleVector& b, const SingleVector& y) const {
+  const Eigen::VectorXd image = form_->selfadjointView<Eigen::Lower>() * Eigen::VectorXd(y.cast<double>());
+  return y + solved<1>((b.cast<double>() - image).cast<float>());
 }
 
 Points TangentSystem::precondition(const Points& gradient) const {
-  const SinglePoints b = packed({gradient}, 0).cast<float>(), y = solved(b);
-  return unpacked((factored_->is_stiff ? refined(b, y) : y).cast<double>(), 0);
+  const Unknowns& unknowns = factored_->unknowns;
+  SingleVector b(unknowns.total);
+  for (const int v : unknowns.order)
+    b.segment<2>(unknowns.first[v]) = (frames_[v].transpose() * gradient.row(v).transpose()).cast<float>();
+  SingleVector y = solved<1>(b);
+  if (factored_->is_stiff) y = refined(b, y);
+  Points result = Points::Zero(gradient.rows(), 3);
+  for (const int v : unknowns.order)
+    result.row(v) = (frames_[v] * y.segment<2>(unknowns.first[v]).cast<double>()).transpose();
+  return result;
 }
 
 // M. R. Hestenes, E. Stiefel, "Methods of conjugate gradients for solving linear systems", J. Res. Nat. Bur.
 // Standards 49 (1952), preconditioned, each of the three columns for itself.
 Points TangentSystem::conjugate_gradients(const Points& b) const {
   constexpr int most_rounds = 60;
-  constexpr double tolerance = 1e-9;
+  constexpr double tolerance = 1e-5;
   const auto products = [](const Points& x, const Points& y) -> Eigen::RowVector3d {
     return x.cwiseProduct(y).colwise().sum();
   };
@@ -269,7 +278,7 @@ Points TangentSystem::conjugate_gradients(const Points& b) const {
     const Eigen::RowVector3d size =
         r.cwiseAbs().colwise().maxCoeff().cwiseMax(1e-300);  // float's range is narrow
     const Points scaled = r * size.cwiseInverse().asDiagonal();
-    return Points(solved(scaled.cast<float>()).cast<double>()) * size.asDiagonal();
+    return Points(solved<3>(scaled.cast<float>()).cast<double>()) * size.asDiagonal();
   };
   Points y = Points::Zero(b.rows(), 3), r = b, z = preconditioned(r), p = z;
   Eigen::RowVector3d rz = products(r, z);

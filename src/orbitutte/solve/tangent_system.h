@@ -52,8 +52,8 @@ class TangentSystem : public Preconditioner {
   /// far as the factor knows it.
   Points precondition(const Points& gradient) const override;
 
-  /// The inverse of the Hessian itself, times several covectors, by conjugate gradients that the factor
-  /// preconditions. Three of them take little longer than one.
+  /// The inverse of the Hessian itself, times several covectors, up to some digits, by conjugate gradients
+  /// that the factor preconditions. Three of them take little longer than one.
   std::vector<Points> solve(const std::vector<Points>& gradients) const;
 
   /// Is it the second derivative that was factorised?
@@ -78,9 +78,10 @@ class TangentSystem : public Preconditioner {
   /// these coordinates.
   Points packed(const std::vector<Points>& gradients, std::size_t first) const;
   Points unpacked(const Points& y, Eigen::Index column) const;
-  SinglePoints solved(const SinglePoints& b) const;
+  template <int count>
+  SingleColumns<count> solved(const SingleColumns<count>& b) const;
   Points conjugate_gradients(const Points& b) const;
-  SinglePoints refined(const SinglePoints& b, const SinglePoints& y) const;
+  SingleVector refined(const SingleVector& b, const SingleVector& y) const;
 
   Space space_;
   Points x_;
