@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <numbers>
 #include <random>
@@ -15,6 +16,7 @@
 #include "orbitutte/cones/fitted_cones.h"
 #include "orbitutte/cones/marked_cones.h"
 #include "orbitutte/embed.h"
+#include "orbitutte/io/mesh_io.h"
 #include "orbitutte/samples/sample.h"
 #include "orbitutte/verify/distortion.h"
 #include "orbitutte/weights/weights.h"
@@ -367,6 +369,23 @@ TEST(FittedEmbedding, IsCertifiedWithMilderAnglesWhereItIsNotWithTheFirst) {
     EXPECT_TRUE(std::count(wishes.kept.begin(), wishes.kept.end(), cone.vertex)) << "places were given";
     EXPECT_LE(cone.mark.angle, 1.6 * 2 * pi + 1e-9);
   }
+}
+
+// Their sum is given, so that most milder choices are the first one again, and are not embedded once more. At
+// last none is above a right angle.
+TEST(FittedEmbedding, OfThreeCornersIsTriedOnceForEachChoice) {
+  const std::string path = std::string(ORBITUTTE_SHARED_DIR) + "/meshes/hippocampus.off";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is missing";
+  const Surface surface = make_surface(to_triangle_mesh(read_mesh(path)));
+  const ConeWishes wishes = wishes_for(choose_extremities(surface, {0, 3}));
+  const FittedCones found = find_cones(surface, wishes);
+  ASSERT_GT(*std::max_element(found.fit.angles.begin(), found.fit.angles.end()), 0.6 * pi);
+  const EmbedResult result = embed_fitted(surface, "*cones", {wishes, found});
+  EXPECT_TRUE(result.certificate.bijective);
+  EXPECT_TRUE(says_what_was_taken(result));
+  for (const ConeCopies& corner : result.embedding.cones) EXPECT_LE(corner.mark.angle, 0.5 * pi + 1e-9);
+  const auto is_begun = [](const auto& timing) { return timing.first == "validate"; };
+  EXPECT_EQ(std::count_if(result.timings.begin(), result.timings.end(), is_begun), 2);
 }
 
 TEST(FittedEmbedding, IsThatOfTheFirstConesWhereNothingIsWrongWithIt) {

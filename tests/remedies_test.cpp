@@ -309,6 +309,18 @@ TEST(Limbs, WithGreatConesAtTheirTipsAreUnrolled) {
   }
 }
 
+// Unrolled, the tip's edges are shorter than doubles resolve.
+TEST(Limbs, OfAnyLengthAreUnrolledWithMoreDigits) {
+  const Mesh mesh = with_limb(test::icosphere(2), 6, 100);
+  for (const double share : {1.2, 1.4, 1.6}) {
+    const double rest = (4 - share) / 3;
+    const EmbedResult result = embed(mesh, with_cones({share, rest, rest, rest}), {6, 1, 3, 2});
+    EXPECT_TRUE(result.certificate.bijective) << share << failed_checks(result.certificate);
+    EXPECT_EQ(result.requested_weights, std::nullopt) << "other weights were taken";
+    EXPECT_FALSE(result.embedding.offsets.empty()) << share;
+  }
+}
+
 TEST(Limbs, WithGreatConesAreUnrolledBesideLimbsWithMoreDigits) {
   const Mesh mesh = with_limb(with_limb(test::icosphere(2), 6, 16), 9, 48);
   for (const std::vector<double>& shares : with_a_great_cone) {

@@ -46,6 +46,7 @@ struct Mending {
   const Placement& placed;
   Stages& stage;
   EmbedResult& result;
+  int& unrolled_vertices;
 
   // Takes what the remedy finds, in the stage of that name, if it is a bijection.
   bool succeeds(const char* name, const Remedy& remedy) const {
@@ -56,6 +57,7 @@ struct Mending {
     if (!mended.certificate.bijective) return false;
     result.embedding = std::move(mended.embedding);
     result.moved_vertices = std::move(mended.moved_vertices);
+    unrolled_vertices = map->unrolled_vertices;
     result.certificate = std::move(mended.certificate);
     result.minimum.positions = map->placed.minimum.positions;
     result.minimum.energy = energy_of(problem, map->placed);
@@ -134,13 +136,14 @@ std::vector<WeightKind> other_weights(const Surface& surface) {
   return {WeightKind::cotan, WeightKind::mean_value, WeightKind::uniform};
 }
 
-void finish(const EmbedRequest& request, const GluingProblem& problem, const PlacedMap& map, Stages& stage,
-            EmbedResult& result) {
+int finish(const EmbedRequest& request, const GluingProblem& problem, const PlacedMap& map, Stages& stage,
+           EmbedResult& result) {
   const Surface& surface = request.prepared.surface;
   const Placement& placed = map.placed;
   const bool has_converged = placed.minimum.termination == Termination::converged;
   const auto needs_mending = [&] { return has_converged && !result.certificate.bijective; };
-  const Mending mending = {problem, placed, stage, result};
+  int unrolled_vertices = 0;
+  const Mending mending = {problem, placed, stage, result, unrolled_vertices};
   const bool is_refined = has_converged && map.refinement && mending.succeeds("refine", map.refinement);
   stage("certify", [&] {
     // A map that turns faces over is mended before it is certified.
@@ -162,6 +165,7 @@ void finish(const EmbedRequest& request, const GluingProblem& problem, const Pla
   result.topology = surface.topology;
   result.unreferenced_vertices = surface.unreferenced_vertices;
   result.zero_area_faces = surface.zero_area_faces;
+  return unrolled_vertices;
 }
 
 }  // namespace orbitutte

@@ -630,10 +630,11 @@ std::vector<FitOptions> milder_fits(const FitOptions& options) {
   return result;
 }
 
-// And what where none of that is certified: at last angles below 2 pi, for which the minimum is the only one.
+// And what where none of that is certified: angles below 2 pi, for which the minimum is the only one, and at
+// last up to pi, which turn nothing over at the tips of limbs.
 std::vector<FitOptions> mildest_fits(const FitOptions& options) {
   std::vector<FitOptions> result;
-  for (const double angle : {1.4, 1.2, 0.99})
+  for (const double angle : {1.4, 1.2, 0.99, 0.5})
     if (angle < options.greatest()) {
       FitOptions& milder = result.emplace_back(milder_fits(options).back());
       milder.greatest_angle = angle;
@@ -649,6 +650,15 @@ std::optional<FittedCones> milder_cones(const Surface& surface, ConeWishes wishe
   } catch (const MeshError&) {
     return std::nullopt;
   }
+}
+
+// Up to rounding.
+bool are_the_same(const FittedCones& some, const FittedCones& others) {
+  constexpr double rounding = 1e-9;
+  const std::vector<double>&a = some.fit.angles, &b = others.fit.angles;
+  return some.vertices == others.vertices &&
+         std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](double x, double y) { return std::abs(x - y) < rounding; });
 }
 
 EmbedResult embed_cones(const Surface& surface, const std::string& signature, const FittedCones& cones,
@@ -713,11 +723,17 @@ EmbedResult embed_fitted(const Surface& surface, const std::string& signature, c
   FittedFault least = fault;
   Timings timings = best.timings;
   double sigma = first.fit.sigma;
+  std::vector<FittedCones> tried = {first};
+  const auto was_tried = [&](const FittedCones& cones) {
+    return std::any_of(tried.begin(), tried.end(),
+                       [&](const FittedCones& others) { return are_the_same(cones, others); });
+  };
   const auto try_all = [&](const std::vector<FitOptions>& fits) {
     for (const FitOptions& fit : fits) {
       if (least == FittedFault::none) return;
       const std::optional<FittedCones> cones = milder_cones(surface, wishes, fit);
-      if (!cones) continue;
+      if (!cones || was_tried(*cones)) continue;
+      tried.push_back(*cones);
       EmbedResult next = embed_cones(surface, signature, *cones, options);
       timings.insert(timings.end(), next.timings.begin(), next.timings.end());
       const FittedFault its_fault = fault_of(next, wishes);

@@ -81,7 +81,7 @@ struct FittedChoice {
 /// certified, or with other weights than those that were wanted, or far from conformal though places are free
 /// (E/2A above 1.1), cones of milder angles are sought, at other places as far as these are free: first of
 /// at most 1.6 times the flat angle, then with small angles that spare their triangles whatever sigma
-/// becomes, and, where none of that is certified, of at most 1.4, 1.2 and 0.99 times the flat angle. The
+/// becomes, and, where none of that is certified, of at most 1.4, 1.2, 0.99 and 0.5 times the flat angle. The
 /// first choice without such a fault is taken, or else the first with the least, and EmbedResult::warnings
 /// says so. With `are_orders` nothing else is tried. Throws as embed does.
 EmbedResult embed_fitted(const Surface& surface, const std::string& signature, const FittedChoice& choice,

@@ -16,10 +16,17 @@
 namespace orbitutte {
 namespace {
 
-// The method, from the surface to the certificate.
-EmbedResult embed_once(const EmbedRequest& request, EmbeddingCache& cache) {
-  const EmbedOptions& options = request.options;
+// A map with some weights, and how many vertices were moved though the weights are not at fault.
+struct Attempt {
   EmbedResult result;
+  int unrolled_vertices = 0;
+};
+
+// The method, from the surface to the certificate.
+Attempt embed_once(const EmbedRequest& request, EmbeddingCache& cache) {
+  const EmbedOptions& options = request.options;
+  Attempt attempt;
+  EmbedResult& result = attempt.result;
   Stages stage(options.progress, result.timings);
   result.threads = thread_count();
   result.backend = options.laplacian.backend;
@@ -33,16 +40,17 @@ EmbedResult embed_once(const EmbedRequest& request, EmbeddingCache& cache) {
   lbfgs.max_iterations = options.max_iterations;
   const Placement placed = place(problem, lbfgs, stage);  // (2)
   result.minimum = placed.minimum;
-  finish(request, problem, {placed}, stage, result);
-  return result;
+  attempt.unrolled_vertices = finish(request, problem, {placed}, stage, result);
+  return attempt;
 }
 
 // Were so many vertices moved, or is so much of the surface sheared, that the weights are at fault, and not a
 // few thin triangles?
-bool is_suspect(const EmbedResult& result) {
+bool is_suspect(const Attempt& attempt) {
   constexpr double sheared = 10;
-  return static_cast<int>(result.moved_vertices.size()) > result.minimum.positions.rows() / 20 ||
-         result.distortion.angle.area_mean > sheared;
+  const EmbedResult& result = attempt.result;
+  const int repaired = static_cast<int>(result.moved_vertices.size()) - attempt.unrolled_vertices;
+  return repaired > result.minimum.positions.rows() / 20 || result.distortion.angle.area_mean > sheared;
 }
 
 // Is the second map so much better that it is taken in place of the first?
@@ -55,23 +63,25 @@ bool is_better(const EmbedResult& first, const EmbedResult& second) {
 // others that give one that is not, unless the first map is about as good.
 EmbedResult embed_with_some_weights(const EmbedRequest& request, EmbeddingCache& cache) {
   const EmbedOptions& options = request.options;
-  EmbedResult first = embed_once(request, cache);
+  Attempt attempt = embed_once(request, cache);
+  EmbedResult& first = attempt.result;
   const bool were_asked_for = options.weights.kind != WeightKind::standard || !options.weights_file.empty();
   if (were_asked_for || !first.collapsing_faces.empty() ||
-      (first.certificate.bijective && !is_suspect(first)))
-    return first;
+      (first.certificate.bijective && !is_suspect(attempt)))
+    return std::move(first);
   std::optional<EmbedResult> best;
   for (const WeightKind kind : other_weights(request.prepared.surface)) {
     EmbedOptions other = options;
     other.weights.kind = kind;
-    EmbedResult next = embed_once({request.prepared, request.target, request.cones, other}, cache);
+    Attempt again = embed_once({request.prepared, request.target, request.cones, other}, cache);
+    EmbedResult& next = again.result;
     first.timings.insert(first.timings.end(), next.timings.begin(), next.timings.end());
     if (!next.certificate.bijective) continue;
-    const bool is_good = !is_suspect(next);
+    const bool is_good = !is_suspect(again);
     if (!best || is_good || is_better(*best, next)) best = std::move(next);
     if (is_good) break;
   }
-  if (!best || !is_better(first, *best)) return first;
+  if (!best || !is_better(first, *best)) return std::move(first);
   best->timings = first.timings;
   best->requested_weights = first.weights.kind;
   best->warnings.push_back(warning_of_replaced_weights(first, *best));

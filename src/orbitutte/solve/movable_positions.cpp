@@ -61,6 +61,10 @@ void MovablePositions::move(int v, const Vector3& step) {
   positions_.row(v) = gluing_.boundary.feasible(v, positions_.row(v).transpose() + step);
 }
 
+void MovablePositions::put(int v, int u, int element, const Vector3& step) {
+  move(v, difference(v, u, element) + step);
+}
+
 void MovablePositions::shift(int v, const Vector3& step) {
   remember(v);
   positions_.row(v) += step;
@@ -175,6 +179,14 @@ void PrecisePositions<Real>::move(int v, const Vector3& step) {
   if (!is_refined(v)) return MovablePositions::move(v, step);
   remember_digits(v);
   store(v, feasible(v, precise(v) + to_precise<Real>(step)));
+}
+
+template <typename Real>
+void PrecisePositions<Real>::put(int v, int u, int k, const Vector3& step) {
+  refine(v);
+  remember_digits(v);
+  const Vector there = k == 0 ? precise(u) : Vector(element(k) * precise(u));
+  store(v, feasible(v, there + to_precise<Real>(step)));
 }
 
 template <typename Real>

@@ -55,6 +55,10 @@ class MovablePositions {
   /// Adds a step, and takes the vertex back to its room (onto its mirror) and to the space.
   virtual void move(int v, const Vector3& step);
 
+  /// Puts v where elements[element] * p_u is, and adds a step, as a move does; with more digits, if there are
+  /// any, so that v lies as near to u as the step says.
+  virtual void put(int v, int u, int element, const Vector3& step);
+
   /// Adds a step, and nothing else.
   virtual void shift(int v, const Vector3& step);
 
@@ -97,6 +101,7 @@ class PrecisePositions final : public MovablePositions {
   void prepare_elements(int last) const override { element(last); }
   bool is_refined(int v) const override { return slot_[v] >= 0; }
   void move(int v, const Vector3& step) override;
+  void put(int v, int u, int element, const Vector3& step) override;
   void shift(int v, const Vector3& step) override;
   bool is_positive(int face) const override;
   void take_back(std::size_t moves) override;

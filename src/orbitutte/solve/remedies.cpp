@@ -219,11 +219,10 @@ std::vector<int> unrolled_tips(const Site& site, MovablePositions& positions) {
   return unroll_tips({site.problem.surface, site.gluing, site.stars, site.may_move}, positions);
 }
 
-// Puts the rest right. The vertices that moved for both; nothing if faces remain.
-std::optional<std::vector<int>> put_right_beside(const std::vector<int>& unrolled, Site& site,
-                                                 MovablePositions& positions) {
-  const std::optional<std::vector<int>> moved = put_right(site, turned_faces(site, positions), positions);
-  return moved ? std::optional(united(unrolled, *moved)) : std::nullopt;
+// Adds the vertices that moved for both to the map.
+void add_moved(const std::vector<int>& unrolled, const std::vector<int>& repaired, SpreadMap& map) {
+  map.moved_vertices = united(unrolled, repaired);
+  map.unrolled_vertices = static_cast<int>(map.moved_vertices.size() - repaired.size());
 }
 
 Points positions_of_copies(const GluingProblem& problem, const Placement& placed) {
@@ -303,12 +302,15 @@ std::optional<SpreadMap> refined(const GluingProblem& problem, const Placement& 
   for (const int v : limbs) least = std::min(least, shortest_edge(site, positions, v));
   resolution.is_too_coarse = least < resolution.finest;
   if (!are_refined || resolution.is_too_coarse) return std::nullopt;
-  std::optional<std::vector<int>> moved = put_right_beside(unrolled_tips(site, positions), site, positions);
+  const std::vector<int> unrolled = unrolled_tips(site, positions);
+  const std::optional<std::vector<int>> moved = put_right(site, turned_faces(site, positions), positions);
   if (!moved) return std::nullopt;
-  for (const int v : limbs)
+  for (int v = 0; v < static_cast<int>(shortest.size()); ++v) {
+    if (!positions.is_refined(v)) continue;
     if (const double edge = shortest_edge(site, positions, v); site.is_small(v, edge)) shortest[v] = edge;
+  }
   for (const int v : of_gluing) shortest[v] = least;
-  result.moved_vertices = std::move(*moved);
+  add_moved(unrolled, *moved, result);
   result.positions = positions.spread(shortest, result.offsets);
   result.placed.minimum.positions = result.positions.topRows(placed.minimum.positions.rows());
   return result;
@@ -357,9 +359,13 @@ std::optional<SpreadMap> with_tips_unrolled(const GluingProblem& problem, const 
   MovablePositions positions(site.gluing, result.minimum.positions);
   const std::vector<int> unrolled = unrolled_tips(site, positions);
   if (unrolled.empty()) return std::nullopt;
-  std::optional<std::vector<int>> moved_vertices = put_right_beside(unrolled, site, positions);
-  if (!moved_vertices) return std::nullopt;
-  return spread_map(problem, std::move(result), std::move(*moved_vertices));
+  const std::vector<int> turned = turned_faces(site, positions);
+  if (any_in_limbs(site, positions, turned)) return std::nullopt;
+  const std::optional<std::vector<int>> moved = put_right(site, turned, positions);
+  if (!moved) return std::nullopt;
+  SpreadMap map = spread_map(problem, std::move(result), {});
+  add_moved(unrolled, *moved, map);
+  return map;
 }
 
 std::optional<SpreadMap> with_limbs_resolved(const GluingProblem& problem, const Placement& placed) {

@@ -22,8 +22,10 @@ struct SpreadMap {
   Points positions;
   std::vector<Offset> offsets;
 
-  /// Input vertices that were moved off the minimum, ascending.
+  /// Input vertices that were moved off the minimum, ascending; and how many of them were so only since they
+  /// lie around cones that turn faces over.
   std::vector<int> moved_vertices;
+  int unrolled_vertices = 0;
 };
 
 /// The map as it was placed, its ears rounded outward.
@@ -40,7 +42,8 @@ std::vector<Ear> ears_of(const GluingProblem& problem, const Placement& placed);
 std::optional<SpreadMap> with_faces_repaired(const GluingProblem& problem, const Placement& placed);
 
 /// With the vertices around cones placed anew where faces beside them are turned over (unroll_tip), and other
-/// faces repaired; nothing if there are no such cones, or if faces remain.
+/// faces repaired; nothing if there are no such cones, if faces remain, or if one of them lies in a limb, as
+/// in with_faces_repaired.
 std::optional<SpreadMap> with_tips_unrolled(const GluingProblem& problem, const Placement& placed);
 
 /// The same turned to where doubles resolve the smallest limb, all limbs settled there, and turned faces

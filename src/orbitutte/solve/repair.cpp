@@ -18,17 +18,18 @@ namespace {
 
 constexpr int most_sweeps = 60, sweeps_per_ring = 6, smoothing_sweeps = 8;
 constexpr int most_rings = 7;
-constexpr double clamp = 0.01;          // in place of weights that are not positive
-constexpr double enough = 0.3;          // of the largest margin that a star allows
-constexpr double enough_gain = 1e-3;    // of a star's distortion, for its vertex to be moved
-constexpr double gain_of_sweep = 2e-2;  // of one star at least, for another sweep
-constexpr double flattest = 1e-6;       // twice the area of a source triangle, in squared edges
+constexpr std::size_t most_growth = 4, few_faces = 40;  // growth of the broken, beyond these few
+constexpr double clamp = 0.01;                          // in place of weights that are not positive
+constexpr double enough = 0.3;                          // of the largest margin that a star allows
+constexpr double enough_gain = 1e-3;                    // of a star's distortion, for its vertex to be moved
+constexpr double gain_of_sweep = 2e-2;                  // of one star at least, for another sweep
+constexpr double flattest = 1e-6;  // twice the area of a source triangle, in squared edges
 
 // Below these, rounding decides: the gain of a star's least margin, relative to its radius; the height of a
 // triangle; and, where there are more digits, its part of the longest edge. What is all smaller than
 // limb_edge is a limb.
 constexpr double least_gain_of_margin = 1e-10, least_height_in_doubles = 5e-14, least_part_of_edge = 1e-12,
-                 limb_edge = 1e-7;
+                 limb_edge = 1e-10;
 
 enum class PatchWeights { cotan, mean_value };
 
@@ -103,7 +104,7 @@ class Repair {
   }
 
   // Single vertices, sweep by sweep, in reach of the faces that are not clearly positive. If all are
-  // positive, those that stay flat may.
+  // positive, those that stay flat may. Where much more is broken than was, it does harm.
   bool open_stars(const std::vector<int>& turned) {
     const std::size_t before = positions_.moves();
     const std::set<int> moved_before = moved_;
@@ -118,6 +119,7 @@ class Repair {
       const std::size_t left = broken.size();
       broken = unclear_at(reached);
       if (broken.size() >= left && nonpositive_at(reached).empty()) break;
+      if (broken.size() > most_growth * turned.size() + few_faces) break;
     }
     if (broken.empty() || nonpositive_at(reached).empty()) return true;
     positions_.take_back(before);
