@@ -41,7 +41,8 @@ std::string distortion_json(const Distortion& distortion);
 /// The key `strain` in it: for each StrainMeasure `mean`, `mean_absolute` and `percentiles`.
 std::string strain_json(const std::vector<StrainStatistics>& strain);
 
-/// The same report with the key `strain` in its `distortion`, as if RunRecord::strain had been known at first.
+/// The same report with the key `strain` in its `distortion`, as if RunRecord::strain had been known at
+/// first.
 std::string with_strain(std::string_view report, const std::vector<StrainStatistics>& strain);
 
 /// What a report says that can be checked against the files that it speaks of.
