@@ -356,6 +356,23 @@ TEST(Lbfgs, StepsNearTheMinimumLeaveLittle) {
   }
 }
 
+// With weights so large that rounding hides the tolerance, the last step is one that brought little.
+TEST(Lbfgs, StiffWeightsAreFollowedAsLongAsGradientsFall) {
+  for (const char* signature : {"532", "432", "*532", "*432"}) {
+    const auto c = solve_case(signature);
+    EdgeWeights stiff = c->weights;
+    stiff.w *= 1e9;
+    const LaplacianSolver laplacian(c->cut, c->glued, stiff, c->boundary);
+    const DirichletEnergy energy(c->glued, stiff, c->boundary);
+    const Minimum minimum = minimize(energy, laplacian, feasible_positions(*c, 20));
+    EXPECT_EQ(minimum.termination, Termination::converged);
+    const double last = minimum.history.back().gradient_norm,
+                 before = minimum.history[minimum.history.size() - 2].gradient_norm;
+    EXPECT_GT(last, LbfgsOptions().tolerance);
+    EXPECT_GE(last, 0.5 * before) << signature;
+  }
+}
+
 TEST(Lbfgs, OptionsOutOfRangeAreRefused) {
   const auto c = solve_case("432");
   const LaplacianSolver laplacian(c->cut, c->glued, c->weights, c->boundary);

@@ -29,8 +29,9 @@ std::vector<Ear> find_ears(const FaceView& faces, const Tile& tile, const Bounda
 /// How many faces the tips belong to.
 int count_faces(const std::vector<Ear>& ears);
 
-/// How far round_outward moves a tip: a few units in the last place.
-constexpr double outward_rounding = 8 * std::numeric_limits<double>::epsilon();
+/// How far round_outward moves a tip: a few units in the last place, and less than the certificate lets pass
+/// for rounding, whatever edges there are.
+constexpr double outward_rounding = 4 * std::numeric_limits<double>::epsilon();
 
 /// Rounds the tips of the ears outwards from their mirrors and sides, by a few units in the last place. They
 /// stay as near to the great circle as rounding allows, and the stored faces are always positively oriented.

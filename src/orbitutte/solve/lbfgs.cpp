@@ -253,6 +253,13 @@ bool is_far(double energy_before, double energy_after) {
   return energy_before - energy_after > share * energy_before;
 }
 
+// Where gradients are known less exactly than asked, steps are worth their time as long as they fall.
+bool falls(const std::vector<Iteration>& history, double tolerance) {
+  const std::size_t count = history.size();
+  return count > 1 && history[count - 1].gradient_norm > tolerance &&
+         history[count - 1].gradient_norm < 0.5 * history[count - 2].gradient_norm;
+}
+
 void check(const LbfgsOptions& options) {
   if (!(options.tolerance > 0)) throw ArgumentError("the tolerance must be positive");
   if (options.max_iterations < 0) throw ArgumentError("the number of iterations must not be negative");
@@ -284,6 +291,7 @@ Minimum minimize(const DirichletEnergy& energy, const Preconditioner& preconditi
     const double step_tolerance = std::max(options.tolerance, 1e-12);
     const double promised = dot(state.value.gradient, direction);
     if (gradient_vanishes(state.value.gradient, rounding_floor, options.tolerance) &&
+        !falls(result.history, options.tolerance) &&
         (max_norm(direction) <= step_tolerance ||
          is_noise(promised, state, rounding_floor, options.tolerance))) {
       result.termination = Termination::converged;
