@@ -116,7 +116,7 @@ class ConformalScale {
 
   // On the sphere, where Newton's method may lead elsewhere from far away, by way of smaller areas.
   ConformalMetric solve() {
-    constexpr double loose = 5, tight = 1e-4;
+    constexpr double loose = 1, tight = 1e-4;
     State state;
     state.u = Eigen::VectorXd::Constant(surface_.vertex_count(), 0.5 * std::log(1 / surface_.total_area()));
     double area = 1;
