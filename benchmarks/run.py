@@ -6,7 +6,7 @@ Builds into build/benchmark, runs every case in a process of its own, and keeps 
 Figures are medians over the repetitions; ratios are formed within one run. If the folder with the real meshes (../shared) is missing,
 its cases are skipped, with a message. The plot needs gnuplot (./setup --benchmarks installs it).
 
-  run.py            everything, up to 8 GiB
+  run.py            everything that the machine's memory allows
   run.py --quick    up to 400K triangles, printed only
 """
 import argparse
@@ -38,6 +38,10 @@ LADDER = [('figure:100000', '432', 0, 7), ('figure:400000', '432', 0, 5), ('figu
           ('armadillo.obj', '432', 0, 7), ('armadillo.obj', '432', 1, 5), ('armadillo.obj', '432', 2, 3),
           ('cortex_icbm152_lh.off', '432', 0, 7), ('cortex_icbm152_lh.off', '432', 1, 5), ('cortex_icbm152_lh.off', '432', 2, 3),
           ('face.obj', '*432', 0, 7), ('face.obj', '*432', 2, 5)]
+
+# Cold processes: triangles, processes.
+GROWTH = [(100000, 5), (400000, 5), (1600000, 3), (6400000, 3), (12800000, 1), (25600000, 1)]
+BYTES_A_TRIANGLE = 1100  # at most, as far as it was measured, the mesh and the program included
 
 # The paper's Table 1 (MATLAB, one thread at 3.50 GHz): model, initialisation in seconds, iterations, optimisation in seconds; and what stands in
 # for the model here: mesh, orbifold, midpoint subdivisions.
@@ -160,17 +164,35 @@ def io_table():
     return table(['file', 'direction', 'MB', 'seconds', 'MB/s'], rows)
 
 
-def growth_exponents(measured):
-    """log(time ratio)/log(size ratio) from the smallest to the largest of the sample meshes."""
-    lines = []
-    for kind in ['figure', 'mask']:
-        runs = [rows for (mesh, *_), rows in measured if mesh.startswith(kind + ':')]
-        if len(runs) < 2:
-            continue
-        small, large = runs[0], runs[-1]
-        exponent = math.log(median(of_weights(large, WEIGHTS[0]), 'total') / median(of_weights(small, WEIGHTS[0]), 'total')) / math.log(large[0]['faces'] / small[0]['faces'])
-        lines.append(f"- {kind}: from {size(small[0]['faces'])} to {size(large[0]['faces'])} triangles time grows as n^{exponent:.2f}")
-    return '\n'.join(lines)
+def memory_available():
+    """In bytes (Linux)."""
+    return 1024 * int(next(line.split()[1] for line in open('/proc/meminfo', encoding='utf-8') if line.startswith('MemAvailable')))
+
+
+def exponent(small, large, *keys):
+    """Of growth with the number of triangles: log(ratio)/log(ratio of sizes), between two sets of rows."""
+    return math.log(median(large, 'embeddings', 0, *keys) / median(small, 'embeddings', 0, *keys)) / math.log(large[0]['faces'] / small[0]['faces'])
+
+
+def growth_table():
+    """Embeddings in processes of their own that have touched no memory before."""
+    rows, lines = [], []
+    for kind, orbifold in [('figure', '432'), ('mask', '*432')]:
+        measured = []
+        for faces, processes in GROWTH:
+            if faces * BYTES_A_TRIANGLE > memory_available():
+                print(f'left out: {kind}:{faces} (too little memory)', file=sys.stderr)
+                continue
+            measured.append([run_embedding(f'{kind}:{faces}', '--orbifold', orbifold, '--alone', '--repeat', 1, '--weights', WEIGHTS[0])[0]
+                             for _ in range(processes)])
+        for of_size in measured:
+            memory = median(of_size, 'embeddings', 0, 'peak_memory_bytes')
+            rows.append([kind, size(of_size[0]['faces']), seconds(median(of_size, 'embeddings', 0, 'total')), f'{memory / 2**30:.2f}',
+                         f"{memory / 1024 / of_size[0]['faces']:.2f}", 'yes' if all(row['embeddings'][0]['certified'] for row in of_size) else 'NO'])
+        for large in measured[2:]:
+            lines.append(f"- {kind}: from {size(measured[0][0]['faces'])} to {size(large[0]['faces'])} triangles time grows as n^{exponent(measured[0], large, 'total'):.2f}, "
+                         f"memory as n^{exponent(measured[0], large, 'peak_memory_bytes'):.2f}")
+    return table(['mesh', 'triangles', 'seconds', 'GiB', 'KB a triangle', 'certified'], rows) + '\n\n' + '\n'.join(lines)
 
 
 def plot(measured):
@@ -225,7 +247,7 @@ def main():
         print(ladder_table(measured))
         return
     measured = embedding_rows(LADDER)
-    sections = {'machine': machine(), 'ladder': ladder_table(measured), 'growth': growth_exponents(measured), 'table 1': table_1(),
+    sections = {'machine': machine(), 'ladder': ladder_table(measured), 'growth': growth_table(), 'table 1': table_1(),
                 'again': again_table([100000, 1600000]), 'files': io_table()}
     plot(measured)
     page = PAGE.read_text(encoding='utf-8')
