@@ -28,7 +28,8 @@ def options(**given: Any) -> _orbitutte.Options:
     """The options of the compiled module. Raises TypeError for an unknown name."""
     for name in given:
         if name not in NAMES:
-            raise TypeError(f"there is no option '{name}'; there are {', '.join(NAMES)}, progress, polygon and geometry")
+            meant = "the symbol of an orbifold is 'signature'; the options" if name == "orbifold" else "there"
+            raise TypeError(f"there is no option '{name}'; {meant} are {', '.join(NAMES)}, progress, polygon and geometry")
     result = _orbitutte.Options()
     for name in ("clamp", "tolerance"):
         if name in given:
