@@ -13,6 +13,7 @@
 #include "orbitutte/report/comparison.h"
 #include "orbitutte/report/report.h"
 #include "page_pictures.h"
+#include "standard_streams.h"
 
 namespace orbitutte::cli {
 namespace {
@@ -83,6 +84,7 @@ int compare_command(const CompareArguments& arguments) {
     fmt::print("{:<10} {:<10} {:>9} {:>9} {:>9} {:>10} {:>9} {:>9}  {}\n", "", "orbifold", "area mean", "std",
                "median", "max", "angle", "max", "certified");
     for (const Compared& compared : maps) print_row(compared);
+    tell("1 is no distortion of areas or angles\n");
   }
   if (!arguments.output.empty())
     write_comparison(arguments.output, {surface, cones, std::move(pictures), viewpoint.view, viewpoint.up});

@@ -31,7 +31,7 @@ void require_fitting_angles(const EmbedArguments& arguments) {
   throw ArgumentError(
       arguments.angles.empty()
           ? fmt::format("--angles is missing; {} has none of its own: give one for each marked vertex, as in "
-                        "pi,pi,1.5pi,0.5pi",
+                        "pi,pi,1.5pi,0.5pi, or 'fitted' for those of least distortion",
                         arguments.orbifold)
           : fmt::format("--angles gives the angles of cones or *cones, but {} has its own",
                         arguments.orbifold.empty() ? "the best orbifold" : arguments.orbifold));
@@ -194,15 +194,23 @@ void summarize_choice(const BestEmbedding& embedded) {
        fmt::join(choice.cones, ","), passed_over);
 }
 
+// "432 (group of order 24)"; the two symbols that hardly anybody knows, in words.
+std::string text_of_target(const Target& target) {
+  const std::string& symbol = target.signature;
+  const std::string meaning = symbol == "1"   ? "the whole sphere"
+                              : symbol == "*" ? "a hemisphere"
+                                              : group_text(target);
+  return fmt::format("{} ({})", symbol, meaning);
+}
+
 void summarize(const EmbedArguments& arguments, const BestEmbedding& embedded) {
   const EmbedResult& result = embedded.result;
   const Minimum& minimum = result.minimum;
   const Distortion& distortion = result.distortion;
   std::vector<int> cones;
   for (const ConeCopies& cone : result.embedding.cones) cones.push_back(cone.vertex);
-  tell("{}: {} vertices, {} faces, a {}, onto {} ({}){}\n", arguments.mesh, minimum.positions.rows(),
-       result.embedding.faces().count(), text_of(result.topology), result.embedding.target.signature,
-       group_text(result.embedding.target),
+  tell("{}: {} vertices, {} faces, a {}, onto {}{}\n", arguments.mesh, minimum.positions.rows(),
+       result.embedding.faces().count(), text_of(result.topology), text_of_target(result.embedding.target),
        cones.empty() ? std::string() : fmt::format(", cones {}", fmt::join(cones, ",")));
   summarize_choice(embedded);
   if (const std::optional<QuotientRecord>& quotient = result.quotient)

@@ -78,6 +78,9 @@ int measure_command(const MeasureArguments& arguments) {
     fmt::print("{}", strain_json(statistics));
   } else if (!arguments.quiet) {
     print_rows(statistics, columns);
+    tell(
+        "area: of the faces around a vertex; J: area ratio of triangles, R: their elongation; edge: lengths; "
+        "0 is no distortion\n");
   }
   return succeeded;
 }

@@ -382,7 +382,7 @@ void add_measure(CLI::App& app, int& code) {
   read_embedding_and_mesh_of(command);
   command.output("-o,--output", command->output,
                  {"-o", "the file of measures", "", {".gii", ".curv", ".csv", ".txt", ".npy"}, true},
-                 "Write the measures here: .shape.gii, .func.gii, .curv (one measure), .csv, .txt or .npy");
+                 "Write the measures here (into .curv one of them; .gii also as .shape.gii or .func.gii)");
   command
       .option("--measure", command->measure,
               "area (of the faces around a vertex), J (area ratio of triangles), R (their elongation), edge "

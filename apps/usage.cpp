@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <functional>
 
 namespace orbitutte::cli {
@@ -81,9 +82,18 @@ std::string has_no_option(const std::string& word, const CLI::App& owner) {
   return fmt::format(" has no option '{}'{}", name, did_you_mean(name, option_names(owner)));
 }
 
+// A shell puts the names of files in place of a star: if there is one where a symbol should be, what helps.
+std::string quotes_needed(const CLI::App& command) {
+  const CLI::Option* symbol = command.get_option_no_throw("--orbifold");
+  if (!symbol || symbol->empty() || !std::filesystem::exists(symbol->results().front())) return "";
+  return fmt::format(
+      "; '{}' is a file, not a symbol: put a symbol with a star in quotes, as in --orbifold '*'",
+      symbol->results().front());
+}
+
 std::string about_unknown(const std::string& word, const CLI::App& command) {
   if (is_option(word)) return command.get_name() + has_no_option(word, command);
-  return fmt::format("{}: '{}' is one argument too many", command.get_name(), word);
+  return fmt::format("{}: '{}' is one argument too many{}", command.get_name(), word, quotes_needed(command));
 }
 
 std::string about_unknown_before_command(const std::string& word, const CLI::App& app) {

@@ -116,13 +116,6 @@ TEST(ColourScales, OfSeveralMapsIsThatOfTheWidest) {
             colour_scale(Measure::area, wide).axis.high);
 }
 
-TEST(ColourScales, FacesThatAreNotMeasuredAreGrey) {
-  const ColourScale scale = colour_scale(Measure::area, {1});
-  EXPECT_EQ(srgb(face_colour(scale, {0, 0, 0})), ink::unmeasured);
-  EXPECT_EQ(srgb(face_colour(scale, {1, 1})), srgb(diverging_colour(0)));
-  EXPECT_EQ(srgb(face_colour(scale, {1, 1e9, 1})), srgb(diverging_colour(1)));
-}
-
 TEST(Colours, MapsAreMonotoneInLightness) {
   double previous = 2;
   for (int k = 0; k <= 100; ++k) {

@@ -120,6 +120,8 @@ class Words(CommandLine):
 
     def test_a_word_too_many_is_named(self):
         self.expect(IS_WRONG, 'info', 'figure.obj', 'map.ply', says="'map.ply' is one argument too many")
+        self.expect(IS_WRONG, 'embed', 'figure.obj', '--orbifold', 'map.json', 'map.ply',  # '--orbifold *' of a shell
+                    says="'map.ply' is one argument too many; 'map.json' is a file, not a symbol: put a symbol with a star in quotes")
 
     def test_what_is_missing_is_named(self):
         self.expect(IS_WRONG, 'sample', says=['output is required', "'orbitutte sample --help'"])
@@ -589,6 +591,7 @@ class BrainFiles(CommandLine):
         lines = (self.folder / 'strain.csv').read_text().splitlines()
         self.assertEqual((lines[0], len(lines)), ('"log2 area","log2 J","log2 R","log2 edge"', vertices + 1))
         self.assertEqual([line.split()[0] for line in done.stdout.splitlines()], ['log2', 'area', 'J', 'R', 'edge'])
+        self.assertIn('0 is no distortion', done.stderr)
         self.expect(0, 'measure', *self.files, '--faces', '--measure', 'R', '-o', 'faces.txt', '--quiet')
         elongations = [float(line) for line in (self.folder / 'faces.txt').read_text().splitlines()]
         self.assertEqual(len(elongations), 500)

@@ -657,6 +657,13 @@ TEST(ColourTable, HasTheColoursOfItsScale) {
   }
 }
 
+TEST(ColourTable, FacesThatAreNotMeasuredAreGrey) {
+  const ColourTable table(colour_scale(Measure::area, {1}));
+  EXPECT_EQ(srgb(table.of_face({0, 0, 0})), ink::unmeasured);
+  EXPECT_EQ(srgb(table.of_face({1, 1})), srgb(diverging_colour(0)));
+  EXPECT_EQ(srgb(table.of_face({1, 1e9, 1})), srgb(diverging_colour(1)));
+}
+
 TEST(Lighting, NormalsAreSmoothOnSpheresAndFlatOnCubes) {
   const Mesh sphere = icosphere(3);
   const CornerNormals smooth = corner_normals(sphere.V, sphere.F, 0.7);

@@ -185,6 +185,7 @@ Embedding a mesh
 ----------------
 
 .. autofunction:: embed
+.. autofunction:: embed_fitted
 .. autoclass:: Solver(V, F, **options)
    :members:
    :exclude-members: __init__, __new__
@@ -196,6 +197,10 @@ Meshes
 .. autofunction:: families
 .. autofunction:: choose
 .. autofunction:: choose_cones
+.. autofunction:: fitted_cones
+.. autoclass:: FittedCones
+   :members:
+   :exclude-members: count, index, __init__, __new__
 .. autofunction:: sample_mesh
 .. autofunction:: read_mesh
 .. autofunction:: write_mesh
@@ -226,16 +231,59 @@ The result
 .. autoclass:: Location
    :members:
    :exclude-members: count, index, __init__, __new__
+.. autoclass:: Offsets
+   :members:
+   :exclude-members: count, index, __init__, __new__
+
+Maps between two surfaces
+-------------------------
+
+.. autofunction:: map_between
+.. autoclass:: SurfaceMap
+   :members:
+   :exclude-members: __init__, __new__
+.. autoclass:: SurfacePoints
+   :members:
+   :exclude-members: count, index, __init__, __new__
+.. autoclass:: Overlay
+   :members:
+   :exclude-members: count, index, __init__, __new__
+.. autoclass:: Texture
+   :members:
+   :exclude-members: count, index, __init__, __new__
+.. autoclass:: TextureLayout
+   :members:
+   :exclude-members: count, index, __init__, __new__
+.. autofunction:: read_texture_layout
+
+Values on regular grids
+-----------------------
+
+.. autofunction:: resample
+.. autoclass:: Resampler(embedding, grid, kind=None)
+   :members:
+   :exclude-members: __init__, __new__
+.. autoclass:: Table
+   :members:
+   :exclude-members: count, index, __init__, __new__
 
 Judging and tiling
 ------------------
 
 .. autofunction:: verify
 .. autofunction:: distortion
+.. autofunction:: distortion_floor
 .. autofunction:: tile
 .. autoclass:: Tiling
    :members:
    :exclude-members: count, index, __init__, __new__
+
+The program
+-----------
+
+.. autofunction:: build
+.. autofunction:: keep_freed_memory
+.. autofunction:: use_huge_pages
 
 Exceptions and warnings
 -----------------------
@@ -250,8 +298,18 @@ Exceptions and warnings
 """
 
 
+def public_names(package: ast.Module) -> list[str]:
+    """What the package exports, but for its version and names that are deprecated."""
+    exported = next(node.value for node in package.body if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "__all__")
+    return [name for name in ast.literal_eval(exported) if name not in ("__version__", "signatures")]
+
+
 def python_page() -> str:
-    docstring = ast.get_docstring(ast.parse((ROOT / "python/orbitutte/__init__.py").read_text()))
+    package = ast.parse((ROOT / "python/orbitutte/__init__.py").read_text())
+    docstring = ast.get_docstring(package)
+    left_out = [name for name in public_names(package) if not re.search(rf"^[.][.] auto\w+:: {name}\b", PYTHON_PAGE, re.MULTILINE)]
+    if left_out:
+        raise Missing(f"the page of Python leaves out {', '.join(left_out)}; add them to PYTHON_PAGE")
     return PYTHON_PAGE.replace("@INTRODUCTION@", docstring.partition("\nFunctions\n")[0])
 
 

@@ -16,6 +16,7 @@ info(V, F) -> dict                      topology, quality, defects, what a mesh 
 families() -> list of dict              the families of orbifolds
 choose_cones(V, F, signature) -> list   well separated vertices to be marked
 fitted_cones(V, F, count) -> FittedCones    cones of the angles that distort least, for embed(V, F, "cones", vertices, angles=angles)
+embed_fitted(V, F, count) -> Embedding  with these cones, or with milder ones if the map is not certified
 map_between((V, F), (V, F), landmarks) -> SurfaceMap     a bijection between two surfaces
     to_b(points), to_a(points), pull(values), push(values), matrix(), overlay(), morph(t), write_morph(path),
     bake(picture, of_b, on_a) -> Texture, save(folder), load(folder, A, B)
@@ -51,7 +52,7 @@ except ImportError as error:
                       "PYTHONPATH=build/python finds it; it belongs to the Python that it was built for") from error
 
 from ._api import (
-    FittedCones, Solver, Tiling, build, choose, choose_cones, distortion, distortion_floor, embed, families, fitted_cones, info, keep_freed_memory, read_mesh, sample_mesh, signatures, tile,
+    FittedCones, Solver, Tiling, build, choose, choose_cones, distortion, distortion_floor, embed, embed_fitted, families, fitted_cones, info, keep_freed_memory, read_mesh, sample_mesh, signatures, tile,
     use_huge_pages, verify, write_mesh,
 )
 from ._embedding import Cone, EdgeWeights, Embedding, Location, Offsets, Seam
@@ -66,7 +67,7 @@ __all__ = [
     "FittedCones", "Location", "MeshError", "MeshWarning", "Offsets", "Overlay", "Resampler", "Seam", "Solver", "SurfaceMap", "SurfacePoints", "Table",
     "Texture", "TextureLayout", "Tiling", "ValueLabel", "VertexData", "__version__",
     "build", "choose", "choose_cones", "distortion",
-    "distortion_floor", "embed", "families", "fitted_cones", "info", "keep_freed_memory", "map_between", "read_mesh", "read_texture_layout",
+    "distortion_floor", "embed", "embed_fitted", "families", "fitted_cones", "info", "keep_freed_memory", "map_between", "read_mesh", "read_texture_layout",
     "read_vertex_data", "resample", "sample_mesh", "signatures", "tile",
     "use_huge_pages", "verify", "write_mesh", "write_vertex_data",
 ]

@@ -231,7 +231,7 @@ def fitted_cones(V: npt.ArrayLike, F: Any, count: int | None = None, *, kept: Se
         Round the angles to those of an orbifold, 2 pi/n, and pi/n on the boundary. Their area is then their own.
     greatest : float, optional
         The greatest angle of a cone, as a share of the flat one (2 pi inside, pi on the boundary): 1.95 in the plane if it is not given, 0.99
-        elsewhere. If the map with the cones is not certified, take milder ones: 1.6, then 1.4, as the command line does by itself.
+        elsewhere. The map with the cones need not be certified; `embed_fitted` takes milder ones then.
 
     Raises
     ------
@@ -240,12 +240,44 @@ def fitted_cones(V: npt.ArrayLike, F: Any, count: int | None = None, *, kept: Se
     ArgumentError, TypeError
         If neither cones nor `sigma` are asked for, or if an argument has no meaning.
     """
-    wishes = _options.cone_wishes(count, kept, sigma)
-    wishes.area = None if area is None else _options.real(area, "area")
-    wishes.are_orders = _options.flag(orders, "orders")
-    wishes.greatest = None if greatest is None else _options.real(greatest, "greatest")
+    wishes = _options.cone_wishes(count, kept, sigma, area, orders, greatest)
     found = _orbitutte.fitted_cones(_arrays.mesh(V, F), wishes)
     return FittedCones(found.vertices, np.array(found.angles), found.area, found.sigma)
+
+
+def embed_fitted(V: npt.ArrayLike, F: Any, count: int | None = None, *, signature: str = "cones", kept: Sequence[int] = (), sigma: float | None = None,
+                 area: float | None = 0.0, orders: bool = False, greatest: float | None = None, progress: Progress | None = None,
+                 **options: Any) -> Embedding:
+    """Embed a sphere or disk with cones that `fitted_cones` finds, or with milder ones where these do not do.
+
+    The command ``orbitutte embed --orbifold cones --angles fitted``. Where the map is not certified, only with other weights, or far from
+    conformal, cones of smaller greatest angles are tried, at other places as far as these are free. The first without such a fault is
+    taken, or else the one with the least. ``orders`` leaves no others to try.
+
+    Parameters
+    ----------
+    V, F, progress, **options
+        As for `embed`.
+    signature : "cones" or ``"*cones"``
+        The second for disks, whose corners are then cones, too.
+    count, kept, sigma, area, orders, greatest
+        As for `fitted_cones`.
+
+    Returns
+    -------
+    Embedding
+        If other cones were taken than `fitted_cones` gives, an `EmbeddingWarning` says so, with both sigmas.
+
+    Raises
+    ------
+    MeshError, ArgumentError, TypeError, Cancelled
+        As `fitted_cones` and `embed` do.
+    """
+    chosen = _options.options(**options)
+    if _options.text(signature, "signature") not in _options.ANGLED:
+        raise ArgumentError(f"signature is '{signature}'; cones of fitted angles make 'cones', or '*cones' of a disk")
+    wishes = _options.cone_wishes(count, kept, sigma, area, orders, greatest)
+    return _told(Embedding._of(_orbitutte.embed_fitted(_arrays.mesh(V, F), signature, wishes, chosen, _callable(progress))))
 
 
 def verify(embedding: Embedding, V: npt.ArrayLike | None = None, F: Any = None, *, weights_file: str | os.PathLike | None = None,

@@ -28,7 +28,8 @@ def options(**given: Any) -> _orbitutte.Options:
     """The options of the compiled module. Raises TypeError for an unknown name."""
     for name in given:
         if name not in NAMES:
-            raise TypeError(f"there is no option '{name}'; there are {', '.join(NAMES)}, progress, polygon and geometry")
+            meant = "the symbol of an orbifold is 'signature'; the options" if name == "orbifold" else "there"
+            raise TypeError(f"there is no option '{name}'; {meant} are {', '.join(NAMES)}, progress, polygon and geometry")
     result = _orbitutte.Options()
     for name in ("clamp", "tolerance"):
         if name in given:
@@ -104,12 +105,15 @@ def _angles(angles: Any) -> list[float]:
     return values.astype(np.float64).tolist()
 
 
-def cone_wishes(count: Any, kept: Any, sigma: Any) -> _orbitutte.ConeWishes:
-    """How many cones of fitted angles are wanted."""
+def cone_wishes(count: Any, kept: Any, sigma: Any, area: Any, orders: Any, greatest: Any) -> _orbitutte.ConeWishes:
+    """How many cones of fitted angles are wanted, and what of their angles."""
     result = _orbitutte.ConeWishes()
     result.kept = _arrays.indices(kept, "kept").tolist() if len(kept) else []
     result.count = len(result.kept) if count is None else whole(count, "count")
     result.sigma = None if sigma is None else real(sigma, "sigma")
+    result.area = None if area is None else real(area, "area")
+    result.are_orders = flag(orders, "orders")
+    result.greatest = None if greatest is None else real(greatest, "greatest")
     if result.count == 0 and result.sigma is None:
         raise ArgumentError("count is missing; give the number of cones, or sigma for as few as reach it")
     if result.count < len(result.kept):

@@ -91,6 +91,17 @@ HeldEmbedding embed_chosen(const std::shared_ptr<SourceMesh>& mesh, const Choose
   });
 }
 
+HeldEmbedding embed_with_fitted_cones(const std::shared_ptr<SourceMesh>& mesh, const std::string& signature,
+                                      const ConeWishes& wishes, const EmbedOptions& options,
+                                      py::object listener) {
+  return with_listener(options, std::move(listener), [&](const EmbedOptions& heard) {
+    const Clock::time_point start = Clock::now();
+    const std::shared_ptr<const Surface> surface = mesh->surface();
+    EmbedResult result = embed_fitted(*surface, signature, {wishes, find_cones(*surface, wishes)}, heard);
+    return hold(std::move(result), mesh, seconds_since(start));
+  });
+}
+
 // The table as JSON.
 std::string table(const std::shared_ptr<SourceMesh>& mesh, const ChooseOptions& options, int solved,
                   py::object listener) {
@@ -175,6 +186,7 @@ void bind_solver(py::module_& module) {
   py::class_<ChooseOptions>(module, "ChooseOptions").def(py::init(&choose_options));
   module.def("embed", &embed_once);
   module.def("embed_best", &embed_chosen);
+  module.def("embed_fitted", &embed_with_fitted_cones);
   module.def("choose", &table);
   module.def("distortion_floor", &floor_of);
 }

@@ -361,6 +361,25 @@ def test_fitted_cones_say_what_is_missing(figure):
         orbitutte.fitted_cones(*figure, 8, greatest=2)
 
 
+def test_fitted_cones_that_are_not_certified_give_way_to_milder_ones():
+    V, F = orbitutte.sample_mesh("figure", 500)
+    first = orbitutte.fitted_cones(V, F, 8)
+    with pytest.warns(orbitutte.EmbeddingWarning):
+        assert not orbitutte.embed(V, F, "cones", first.vertices, angles=first.angles).bijective
+    with pytest.warns(orbitutte.EmbeddingWarning, match="others, of a sigma of .* were taken"):
+        milder = orbitutte.embed_fitted(V, F, 8)
+    assert milder.bijective
+    assert [cone.vertex for cone in milder.cones] != first.vertices
+
+
+def test_fitted_cones_that_do_are_taken(figure):
+    cones = orbitutte.fitted_cones(*figure, 4)
+    expected = orbitutte.embed(*figure, "cones", cones.vertices, angles=cones.angles)
+    assert np.array_equal(orbitutte.embed_fitted(*figure, 4).positions, expected.positions)
+    with pytest.raises(orbitutte.ArgumentError, match="signature is '432'"):
+        orbitutte.embed_fitted(*figure, 4, signature="432")
+
+
 # Its ears are thin: where maps to 22 come to rest is not what the closed form takes for it.
 def test_the_best_of_two_opposite_cones_are_no_worse_than_extremities():
     bunny = pathlib.Path(__file__).resolve().parents[3] / "shared" / "meshes" / "bunny.off"

@@ -46,7 +46,7 @@ struct Mending {
   const Placement& placed;
   Stages& stage;
   EmbedResult& result;
-  int& unrolled_vertices;
+  int& repairing_vertices;
 
   // Takes what the remedy finds, in the stage of that name, if it is a bijection.
   bool succeeds(const char* name, const Remedy& remedy) const {
@@ -57,7 +57,7 @@ struct Mending {
     if (!mended.certificate.bijective) return false;
     result.embedding = std::move(mended.embedding);
     result.moved_vertices = std::move(mended.moved_vertices);
-    unrolled_vertices = map->unrolled_vertices;
+    repairing_vertices = map->repairing_vertices;
     result.certificate = std::move(mended.certificate);
     result.minimum.positions = map->placed.minimum.positions;
     result.minimum.energy = energy_of(problem, map->placed);
@@ -142,8 +142,8 @@ int finish(const EmbedRequest& request, const GluingProblem& problem, const Plac
   const Placement& placed = map.placed;
   const bool has_converged = placed.minimum.termination == Termination::converged;
   const auto needs_mending = [&] { return has_converged && !result.certificate.bijective; };
-  int unrolled_vertices = 0;
-  const Mending mending = {problem, placed, stage, result, unrolled_vertices};
+  int repairing_vertices = 0;
+  const Mending mending = {problem, placed, stage, result, repairing_vertices};
   const bool is_refined = has_converged && map.refinement && mending.succeeds("refine", map.refinement);
   stage("certify", [&] {
     // A map that turns faces over is mended before it is certified.
@@ -165,7 +165,7 @@ int finish(const EmbedRequest& request, const GluingProblem& problem, const Plac
   result.topology = surface.topology;
   result.unreferenced_vertices = surface.unreferenced_vertices;
   result.zero_area_faces = surface.zero_area_faces;
-  return unrolled_vertices;
+  return repairing_vertices;
 }
 
 }  // namespace orbitutte

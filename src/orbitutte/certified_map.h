@@ -34,7 +34,7 @@ struct PlacedMap {
 };
 
 /// Puts the map into the result, with its certificate, distortion and warnings. `result` already has the
-/// minimum and the weights. SpreadMap::unrolled_vertices of the map that was taken.
+/// minimum and the weights. SpreadMap::repairing_vertices of the map that was taken.
 int finish(const EmbedRequest& request, const GluingProblem& problem, const PlacedMap& map, Stages& stage,
            EmbedResult& result);
 

@@ -12,6 +12,7 @@
 
 #include "orbitutte/cones/extremities.h"
 #include "orbitutte/cones/marked_cones.h"
+#include "orbitutte/cones/scale_kernel.h"
 #include "orbitutte/cones/search.h"
 #include "orbitutte/orbifold/families.h"
 #include "orbitutte/orbifold/polygon.h"
@@ -643,10 +644,10 @@ std::vector<FitOptions> mildest_fits(const FitOptions& options) {
 }
 
 // The cones for milder angles; none if there are no such.
-std::optional<FittedCones> milder_cones(const Surface& surface, ConeWishes wishes, const FitOptions& fit) {
+std::optional<FittedCones> milder_cones(const ScaleKernel& kernel, ConeWishes wishes, const FitOptions& fit) {
   wishes.fit = fit;
   try {
-    return find_cones(surface, wishes);
+    return find_cones(kernel, wishes);
   } catch (const MeshError&) {
     return std::nullopt;
   }
@@ -720,6 +721,7 @@ EmbedResult embed_fitted(const Surface& surface, const std::string& signature, c
   EmbedResult best = embed_cones(surface, signature, first, options);
   const FittedFault fault = fault_of(best, wishes);
   if (fault == FittedFault::none || wishes.are_orders) return best;
+  const ScaleKernel kernel(surface, edge_weights(surface, {}), available_backends().front());
   FittedFault least = fault;
   Timings timings = best.timings;
   double sigma = first.fit.sigma;
@@ -731,7 +733,7 @@ EmbedResult embed_fitted(const Surface& surface, const std::string& signature, c
   const auto try_all = [&](const std::vector<FitOptions>& fits) {
     for (const FitOptions& fit : fits) {
       if (least == FittedFault::none) return;
-      const std::optional<FittedCones> cones = milder_cones(surface, wishes, fit);
+      const std::optional<FittedCones> cones = milder_cones(kernel, wishes, fit);
       if (!cones || was_tried(*cones)) continue;
       tried.push_back(*cones);
       EmbedResult next = embed_cones(surface, signature, *cones, options);

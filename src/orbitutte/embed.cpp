@@ -16,10 +16,10 @@
 namespace orbitutte {
 namespace {
 
-// A map with some weights, and how many vertices were moved though the weights are not at fault.
+// A map with some weights, and how many vertices were moved to repair faces that these weights turn over.
 struct Attempt {
   EmbedResult result;
-  int unrolled_vertices = 0;
+  int repairing_vertices = 0;
 };
 
 // The method, from the surface to the certificate.
@@ -40,7 +40,7 @@ Attempt embed_once(const EmbedRequest& request, EmbeddingCache& cache) {
   lbfgs.max_iterations = options.max_iterations;
   const Placement placed = place(problem, lbfgs, stage);  // (2)
   result.minimum = placed.minimum;
-  attempt.unrolled_vertices = finish(request, problem, {placed}, stage, result);
+  attempt.repairing_vertices = finish(request, problem, {placed}, stage, result);
   return attempt;
 }
 
@@ -49,8 +49,8 @@ Attempt embed_once(const EmbedRequest& request, EmbeddingCache& cache) {
 bool is_suspect(const Attempt& attempt) {
   constexpr double sheared = 10;
   const EmbedResult& result = attempt.result;
-  const int repaired = static_cast<int>(result.moved_vertices.size()) - attempt.unrolled_vertices;
-  return repaired > result.minimum.positions.rows() / 20 || result.distortion.angle.area_mean > sheared;
+  return attempt.repairing_vertices > result.minimum.positions.rows() / 20 ||
+         result.distortion.angle.area_mean > sheared;
 }
 
 // Is the second map so much better that it is taken in place of the first?

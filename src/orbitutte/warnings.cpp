@@ -35,9 +35,9 @@ std::vector<std::string> warnings_about(const EdgeWeights& weights, const std::v
                                    weights.zero_edges));
   if (!ears.empty())
     warnings.push_back(
-        fmt::format("{} must become arcs without area, beginning with face {}: all edges but one lie on one "
-                    "mirror or held "
-                    "side; swap the inner edges, or mark the tips",
+        fmt::format("{} must become arcs, beginning with face {}: all edges but one lie on one mirror or "
+                    "held side; they get just enough area for the certificate; for more, swap their inner "
+                    "edges, or mark their tips",
                     counted(count_faces(ears), "face"), ears.front().face));
   return warnings;
 }

@@ -157,8 +157,6 @@ inline double ConeMetric::looked_up(const ConeCoordinates& logs) const {
          n.table_value(std::exp(log_radius), unsigned_angle(log_z.imag() + pi)) - 2 * logs[k].real();
 }
 
-double ConeMetric::quick_log_scale(const ConeCoordinates& logs) const { return looked_up(logs); }
-
 void ConeMetric::add_quick_log_scales(const std::array<const Complex*, 3>& logs,
                                       const ConeCoordinates& shifts, std::vector<double>& u) const {
   for (std::size_t s = 0; s < u.size(); ++s)

@@ -30,10 +30,8 @@ class ConeMetric {
   /// log of the scale, relative to |P[0] dP[1] - P[1] dP[0]|, a form that is the same for any two of them.
   double log_scale(const ConeCoordinates& P) const;
 
-  /// The same from the logarithms log|P| + i arg P, by a table: 2e-4 off at most.
-  double quick_log_scale(const ConeCoordinates& logs) const;
-
-  /// Adds quick_log_scale to u for many points: logs[i][s] + shifts[i] are the logarithms of P[i] at point s.
+  /// Adds the same to u for many points, by a table: 2e-4 off at most. logs[i][s] + shifts[i] are the
+  /// logarithms log|P| + i arg P of P[i] at point s.
   void add_quick_log_scales(const std::array<const std::complex<double>*, 3>& logs,
                             const ConeCoordinates& shifts, std::vector<double>& u) const;
 

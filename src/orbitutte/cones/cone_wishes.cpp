@@ -59,14 +59,19 @@ void require_angles(const FitOptions& options) {
 FittedCones find_cones(const Surface& surface, const ConeWishes& wishes, const WeightOptions& weights) {
   require_sphere_or_disk(surface);
   require_angles(wishes.fit);
-  const ScaleKernel kernel(surface, edge_weights(surface, weights), available_backends().front());
+  return find_cones(ScaleKernel(surface, edge_weights(surface, weights), available_backends().front()),
+                    wishes);
+}
+
+FittedCones find_cones(const ScaleKernel& kernel, const ConeWishes& wishes) {
+  require_angles(wishes.fit);
   ConeWishes wanted = wishes;
   if (wishes.are_orders) wanted.fit.area.reset();
   FittedCones found = are_placed(wishes)
                           ? place_cones(kernel, wanted)
                           : FittedCones{wishes.kept, fit_angles(kernel, wishes.kept, wanted.fit)};
   if (wishes.are_orders) found.fit = fit_orders(kernel, found.vertices);
-  return in_order_of_boundary(surface, found);
+  return in_order_of_boundary(kernel.surface(), found);
 }
 
 }  // namespace orbitutte

@@ -11,6 +11,8 @@
 
 namespace orbitutte {
 
+class ScaleKernel;
+
 /// What is asked of the angles.
 struct FitOptions {
   /// The area of the target times its curvature, by Gauss and Bonnet: above 0 it is spherical, below 0
@@ -82,5 +84,8 @@ struct FittedCones {
 /// vertex is no vertex of a face or is given twice, if no such angles have the area, if the surface is
 /// neither a sphere nor a disk, and if `sigma` is out of reach.
 FittedCones find_cones(const Surface& surface, const ConeWishes& wishes, const WeightOptions& weights = {});
+
+/// The same for several wishes, by one factorisation of the Laplacian of a sphere or disk.
+FittedCones find_cones(const ScaleKernel& kernel, const ConeWishes& wishes);
 
 }  // namespace orbitutte

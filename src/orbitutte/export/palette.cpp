@@ -64,12 +64,6 @@ Colour scale_colour(Measure measure, double t) {
   return measure == Measure::area ? diverging_colour(2 * t - 1) : sequential_colour(t);
 }
 
-Colour face_colour(const ColourScale& scale, const FaceDistortion& face) {
-  const double value = value_of(scale.measure, face);
-  return std::isnan(value) ? linear(ink::unmeasured)
-                           : scale_colour(scale.measure, share_along(scale.axis, value));
-}
-
 std::vector<Rgb> scale_colours(Measure measure, int count) {
   std::vector<Rgb> colours;
   colours.reserve(static_cast<std::size_t>(count));

@@ -36,9 +36,6 @@ Colour sequential_colour(double t);
 /// The colour at the share t, 0 .. 1, of the scale of a measure.
 Colour scale_colour(Measure measure, double t);
 
-/// The colour of a face on the scale; grey if it is not measured.
-Colour face_colour(const ColourScale& scale, const FaceDistortion& face);
-
 /// The colours of the scale of a measure, `count` of them in equal steps.
 std::vector<Rgb> scale_colours(Measure measure, int count);
 

@@ -18,23 +18,25 @@ namespace orbitutte {
 
 namespace {
 
-// Values are kept as doubles: are no digits lost? Some of 64 bits would be.
+// Is the value one that numbers of this type have?
 template <class T>
-bool fits_double(T number) {
-  if constexpr (std::is_integral_v<T> &&
-                std::numeric_limits<T>::digits > std::numeric_limits<double>::digits) {
-    const auto rounded = static_cast<double>(number);
-    return rounded < std::ldexp(1.0, std::numeric_limits<T>::digits) && static_cast<T>(rounded) == number;
-  }
-  return true;
+bool holds(double value) {
+  if (!std::is_integral_v<T>) return true;
+  // For each type, the largest value plus one is a double; the largest value of 64 bits itself is not.
+  const double one_too_many = std::ldexp(1.0, std::numeric_limits<T>::digits);
+  return value == std::trunc(value) && value < one_too_many &&
+         value >= static_cast<double>(std::numeric_limits<T>::min());
 }
 
+// Values are kept as doubles, which have fewer digits than whole numbers of 64 bits.
 template <class Values, class T>
 double as_double(const Values& in, T number, const TextItem& item, std::string_view property) {
-  if (!fits_double(number))
-    in.refuse(fmt::format("{} has the value {} as {}, more digits than a double has", shown(item), number,
-                          in_quotes(property)));
-  return static_cast<double>(number);
+  const auto value = static_cast<double>(number);
+  if constexpr (std::is_integral_v<T> && std::numeric_limits<T>::digits > std::numeric_limits<double>::digits)
+    if (!holds<T>(value) || static_cast<T>(value) != number)
+      in.refuse(fmt::format("{} has the value {} as {}, more digits than a double has", shown(item), number,
+                            in_quotes(property)));
+  return value;
 }
 
 /// The values of ASCII data, one after the other. An element begins on a line of its own and may run over
@@ -185,15 +187,6 @@ void check_size(const PlyElement& element, const PlyProperty& property) {
     return;
   throw ArgumentError(fmt::format("property '{}' does not have one value for each of {} elements '{}'",
                                   property.name, element.count, element.name));
-}
-
-template <class T>
-bool holds(double value) {
-  if (!std::is_integral_v<T>) return true;
-  // For each type, the largest value plus one is a double; the largest value of 64 bits itself is not.
-  const double one_too_many = std::ldexp(1.0, std::numeric_limits<T>::digits);
-  return value == std::trunc(value) && value < one_too_many &&
-         value >= static_cast<double>(std::numeric_limits<T>::min());
 }
 
 void append(std::string& bytes, PlyType type, double value, const PlyProperty& property) {

@@ -97,12 +97,4 @@ int turns_in_excess(const Mark& mark) {
   return static_cast<int>(std::ceil(mark.angle / flat_angle(mark) - slack)) - 1;
 }
 
-std::string off_the_plane(const Target& target) {
-  const double curvature = total_curvature(target.topology, target.marks);
-  double sum = 0;
-  for (const Mark& mark : target.marks) sum += mark.angle;
-  return fmt::format("the angles add up to {:.9g}, {:.3g} {} than the {:.9g} of the plane", sum,
-                     std::abs(curvature), curvature > 0 ? "more" : "less", sum - curvature);
-}
-
 }  // namespace orbitutte

@@ -34,7 +34,4 @@ double free_tile_area(const Target& target);
 /// By how many whole turns the angle of a mark exceeds one of 2 pi, or of pi at a corner.
 int turns_in_excess(const Mark& mark);
 
-/// "the angles add up to 12.5, 0.0664 less than the 12.5664 of the plane".
-std::string off_the_plane(const Target& target);
-
 }  // namespace orbitutte

@@ -14,14 +14,6 @@ namespace orbitutte {
 /// g_(i + 1), its negative for the inverse; the first letter is the leftmost factor.
 using GluingWord = std::vector<int>;
 
-/// The product in letters of any group.
-template <typename Element>
-Element product_of_word(const GluingWord& word, const std::vector<Element>& generators, Element identity) {
-  for (const int letter : word)
-    identity = identity * (letter > 0 ? generators[letter - 1] : generators[-letter - 1].inverse());
-  return identity;
-}
-
 /// The edges of the energy, each with the word that is applied to its second end.
 ///
 /// A mirror is a seam whose banks are the same vertices: on two copies of a disk, glued along its boundary,

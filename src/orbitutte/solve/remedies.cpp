@@ -222,7 +222,7 @@ std::vector<int> unrolled_tips(const Site& site, MovablePositions& positions) {
 // Adds the vertices that moved for both to the map.
 void add_moved(const std::vector<int>& unrolled, const std::vector<int>& repaired, SpreadMap& map) {
   map.moved_vertices = united(unrolled, repaired);
-  map.unrolled_vertices = static_cast<int>(map.moved_vertices.size() - repaired.size());
+  map.repairing_vertices = static_cast<int>(repaired.size());
 }
 
 Points positions_of_copies(const GluingProblem& problem, const Placement& placed) {
@@ -233,7 +233,8 @@ Points positions_of_copies(const GluingProblem& problem, const Placement& placed
 
 SpreadMap spread_map(const GluingProblem& problem, Placement placed, std::vector<int> moved) {
   Points all = positions_of_copies(problem, placed);
-  return {std::move(placed), std::move(all), {}, std::move(moved)};
+  const int repairing = static_cast<int>(moved.size());
+  return {std::move(placed), std::move(all), {}, std::move(moved), repairing};
 }
 
 // The vertices that say exactly how a free tile is glued: its marks, and the ends of its mirrors.

@@ -22,10 +22,10 @@ struct SpreadMap {
   Points positions;
   std::vector<Offset> offsets;
 
-  /// Input vertices that were moved off the minimum, ascending; and how many of them were so only since they
-  /// lie around cones that turn faces over.
+  /// Input vertices that were moved off the minimum, ascending; and how many of them were to repair faces,
+  /// not only since they lie around cones that turn faces over.
   std::vector<int> moved_vertices;
-  int unrolled_vertices = 0;
+  int repairing_vertices = 0;
 };
 
 /// The map as it was placed, its ears rounded outward.
