@@ -214,10 +214,10 @@ void smooth_interfaces(const Neighbors& graph, std::vector<int>& part) {
 
 // Finds the separators of a tree of bisections, each the smallest in a band along the interface of its two
 // sides. Vertices of the band may change sides on the way; they join parts of their new neighbours.
-class Separation {
+class BandSeparators {
  public:
   // The part of a vertex is the path to its leaf: the highest of `levels` bits is the first bisection's.
-  Separation(const Neighbors& graph, const std::vector<int>& part, int levels)
+  BandSeparators(const Neighbors& graph, const std::vector<int>& part, int levels)
       : graph_(graph), levels_(levels), spots_(part.size()), size_(std::size_t{1} << levels, 0) {
     parallel_ranges(static_cast<int>(part.size()), [&](int begin, int end) {
       for (int v = begin; v < end; ++v) spots_[v] = {part[v], levels, -1};
@@ -245,7 +245,7 @@ class Separation {
   struct Near {
     int vertex, depth;
   };
-  // A vertex of a band lies so many edges from the interface; so many at most are at the sides' ends.
+  // The vertices of a band, how many edges each is away from the interface, and the most on either side.
   struct Strip {
     std::vector<int> vertex, layer;
     std::array<int, 2> last = {0, 0};
@@ -306,11 +306,17 @@ class Separation {
         below[side(n.vertex, node.depth)].push_back(n);
       }
     }
-    for (const int v : crossing) {
-      note_again(v);
-      for_neighbors(graph_, v, note_again);
-    }
+    for (const int v : with_neighbors(std::move(crossing))) note_again(v);
     return below;
+  }
+
+  // Each once.
+  std::vector<int> with_neighbors(std::vector<int> vertices) const {
+    for (std::size_t k = 0, count = vertices.size(); k < count; ++k)
+      for_neighbors(graph_, vertices[k], [&](int u) { vertices.push_back(u); });
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    return vertices;
   }
 
   Strip strip_along(Node node, const std::vector<Near>& near) {
@@ -481,11 +487,11 @@ Dissection dissect(const Neighbors& graph) {
     for (int v = 0; v < n; ++v) part[v] = part_of_cluster[clusters.of[v]];
     smooth_interfaces(graph, part);
   }
-  const Separation separation(graph, part, levels);
+  const BandSeparators separators(graph, part, levels);
 
   Tree tree = complete_tree(levels);
   std::vector<int> node_of(n);
-  for (int v = 0; v < n; ++v) node_of[v] = tree.place[separation.depth(v)][separation.path(v)];
+  for (int v = 0; v < n; ++v) node_of[v] = tree.place[separators.depth(v)][separators.path(v)];
   Dissection result = {std::vector<int>(n), std::move(tree.nodes)};
   for (const int node : node_of) ++result.nodes[node].end;
   place_nodes(result.nodes);
