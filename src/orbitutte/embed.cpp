@@ -32,9 +32,11 @@ Attempt embed_once(const EmbedRequest& request, EmbeddingCache& cache) {
   result.backend = options.laplacian.backend;
 
   stage("weights", [&] { result.weights = find_weights(request, cache.weights); });  // section 4
-  stage("cut", [&] { find_cut(request, cache); });                                   // section 4.1
-  if (!cache.serves_again) cache.weights = {};
-  const GluingProblem problem = gluing_problem(request, result.weights, cache.cut.cut, cache);
+  const GluingProblem problem = stage("cut", [&] {                                   // section 4.1
+    find_cut(request, cache);
+    if (!cache.serves_again) cache.weights = {};
+    return gluing_problem(request, result.weights, cache.cut.cut, cache);
+  });
   LbfgsOptions lbfgs;
   lbfgs.tolerance = options.tolerance;
   lbfgs.max_iterations = options.max_iterations;

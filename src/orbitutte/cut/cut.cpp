@@ -56,11 +56,22 @@ Path path_through_two(const EdgeGraph& graph, const std::vector<int>& marks) {
   return path;
 }
 
+// The distance in space of every vertex to the nearer of two.
+std::vector<double> straight_distances(const Surface& surface, const std::array<int, 2>& to) {
+  std::vector<double> result(surface.vertex_count());
+  parallel_ranges(surface.vertex_count(), [&](int begin, int end) {
+    for (int v = begin; v < end; ++v)
+      result[v] = std::min(straight_distance(surface, v, to[0]), straight_distance(surface, v, to[1]));
+  });
+  return result;
+}
+
 Path path_through_three(const Surface& surface, const EdgeGraph& graph, const std::vector<int>& marks,
                         std::uint64_t seed) {
   const int middle = middle_mark(surface, marks, seed);
   const int first = marks[(middle + 2) % 3], last = marks[(middle + 1) % 3];
-  auto [back, forth] = disjoint_paths(graph, marks[middle], {first, last});
+  auto [back, forth] =
+      disjoint_paths(graph, marks[middle], {first, last}, straight_distances(surface, {first, last}));
   if (back.empty()) throw no_path(marks[middle], first);
   std::reverse(back.begin(), back.end());
   back.insert(back.end(), forth.begin() + 1, forth.end());

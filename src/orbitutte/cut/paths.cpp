@@ -255,21 +255,27 @@ Path shortest_path(const EdgeGraph& graph, int from, const std::vector<int>& to)
   return reached < 0 ? Path() : search.path_to(reached);
 }
 
-std::array<Path, 2> disjoint_paths(const EdgeGraph& graph, int from, const std::array<int, 2>& to) {
+std::array<Path, 2> disjoint_paths(const EdgeGraph& graph, int from, const std::array<int, 2>& to,
+                                   std::vector<double> left) {
+  left.resize(graph.vertex_count(), 0.0);
   const auto is_target = [&](int v) { return v == to[0] || v == to[1]; };
+  const auto arcs_ahead = [&](int v, const auto& visit) {
+    arcs_of(graph)(
+        v, [&](int next, double length) { visit(next, std::max(0.0, length - left[v] + left[next])); });
+  };
   Search first(graph.vertex_count());
-  const int nearest = first.run({from}, queue_for(graph), arcs_of(graph), is_target);
+  const int nearest = first.run({from}, queue_for(graph, 2), arcs_ahead, is_target);
   if (nearest < 0) return {};
   const Path path = first.path_to(nearest);
   std::vector<double>& potential = first.distance;
   const double reach = potential[nearest];
-  for (double& p : potential) p = std::min(p, reach);
+  for (int v = 0; v < graph.vertex_count(); ++v) potential[v] = std::min(potential[v], reach) - left[v];
 
   const int other = nearest == to[0] ? to[1] : to[0];
   const Residual residual(graph, path, potential);
   Search second(residual.node_count());
   const int reached =
-      second.run({residual.source()}, queue_for(graph, 2), residual, [&](int node) { return node == other; });
+      second.run({residual.source()}, queue_for(graph, 4), residual, [&](int node) { return node == other; });
   if (reached < 0) return {};
   Path back = second.path_to(reached);
   for (int& node : back) node = residual.vertex(node);

@@ -38,7 +38,12 @@ Path shortest_path(const EdgeGraph& graph, int from, const std::vector<int>& to)
 /// flow of two units through vertices of capacity one (Suurballe 1974), found by two Dijkstra sweeps. On a
 /// triangulated sphere they always exist: no first path can block the second. The paths are in the order of
 /// `to`; both are empty if there are none.
-std::array<Path, 2> disjoint_paths(const EdgeGraph& graph, int from, const std::array<int, 2>& to);
+///
+/// `left`, for every vertex, is a lower bound of the distance left to the nearer of `to`, such that it
+/// differs by no more than an edge's length between its ends: the searches go towards `to` (P. Hart, N.
+/// Nilsson, B. Raphael, IEEE Trans. Systems Science and Cybernetics 4 (1968)). Empty for zero.
+std::array<Path, 2> disjoint_paths(const EdgeGraph& graph, int from, const std::array<int, 2>& to,
+                                   std::vector<double> left = {});
 
 /// The edges of a tree that joins all of `to` to the roots: each is the nearest to the tree of those that
 /// were left, and joined to it by a shortest path. No path passes through a root. Empty if one cannot be

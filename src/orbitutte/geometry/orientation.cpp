@@ -45,13 +45,35 @@ RoundedDeterminant rounded_determinant(const Vector3& a, const Vector3& b, const
   return {determinant, 1e-15 * permanent + 1e-290};
 }
 
+// Of q - p, is every coordinate a double, which the rounded difference is?
+bool is_exact(const Vector3& p, const Vector3& q, const Vector3& difference) {
+  // What rounding leaves out (D. Knuth, "Seminumerical Algorithms", 4.2.2).
+  const auto left_out = [&](int i) {
+    const double from = q[i] - difference[i], to = difference[i] + from;
+    return (q[i] - to) + (from - p[i]);
+  };
+  return left_out(0) == 0 && left_out(1) == 0 && left_out(2) == 0;
+}
+
+// The sign where rounding hides it. Vectors so close to each other as the corners of a small triangle have
+// exact differences, almost always, and det[a b c] = det[a b-a c-a].
+int hidden_sign(const Vector3& a, const Vector3& b, const Vector3& c) {
+  const Vector3 ab = b - a, ac = c - a;
+  if (is_exact(a, b, ab) && is_exact(a, c, ac)) {
+    const auto [determinant, error] = rounded_determinant(a, ab, ac);
+    if (determinant > error) return 1;
+    if (determinant < -error) return -1;
+  }
+  return exact_sign(a, b, c);
+}
+
 }  // namespace
 
 int orientation_sign(const Vector3& a, const Vector3& b, const Vector3& c) {
   const auto [determinant, error] = rounded_determinant(a, b, c);
   if (determinant > error) return 1;
   if (determinant < -error) return -1;
-  return exact_sign(a, b, c);
+  return hidden_sign(a, b, c);
 }
 
 bool is_visibly_positive(const Vector3& a, const Vector3& b, const Vector3& c) {
@@ -63,7 +85,7 @@ bool is_visibly_positive(const Vector3& a, const Vector3& b, const Vector3& c) {
     return from_edges > error_of_edges;
   };
   return is_visible_at(a, b, c) && is_visible_at(b, c, a) && is_visible_at(c, a, b) &&
-         exact_sign(a, b, c) > 0;
+         hidden_sign(a, b, c) > 0;
 }
 
 }  // namespace orbitutte

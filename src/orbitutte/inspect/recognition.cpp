@@ -46,23 +46,13 @@ double size_of(const Points& V) {
   return (highest - lowest).maxCoeff();
 }
 
-// Has every edge one face, or two that run along it in opposite directions?
-bool is_oriented_manifold(const Triangles& F, const Connectivity& connectivity) {
-  constexpr char upward = 1, downward = 2, twice = 4;  // the directions of the half-edges of an edge
-  const int count = static_cast<int>(connectivity.edges.size());
-  std::vector<char> directions(count, 0);
-  parallel_parts(count, [&](int begin, int end) {
-    const int* v = F.data();
-    for (int h = 0; h < static_cast<int>(F.size()); h += 3, v += 3) {
-      for (int k = 0; k < 3; ++k) {
-        const int e = connectivity.edge_of[h + k];
-        if (e < begin || e >= end) continue;
-        const char here = v[k] < v[k == 2 ? 0 : k + 1] ? upward : downward;
-        directions[e] |= (directions[e] & here) ? twice : here;
-      }
-    }
+// Has every edge one face, or two that run along it in opposite directions? Of more than two half-edges of an
+// edge, one is not the opposite one of its own opposite one.
+bool is_oriented_manifold(const Triangles& F, const std::vector<int>& opposite) {
+  return all_of(static_cast<int>(opposite.size()), [&](int h) {
+    const int other = opposite[h];
+    return other < 0 || (opposite[other] == h && halfedge_origin(F, other) != halfedge_origin(F, h));
   });
-  return std::all_of(directions.begin(), directions.end(), [](char d) { return d < twice; });
 }
 
 // Of every vertex, does a face use it?
@@ -93,10 +83,13 @@ bool is_connected_across_edges(const std::vector<int>& opposite) {
 
 // The boundary curves, each followed from fan to fan.
 int count_boundary_curves(const Triangles& F, const std::vector<int>& opposite) {
+  const std::vector<int> boundary =
+      parallel_select(static_cast<int>(opposite.size()), [&](int h) { return opposite[h] < 0; });
+  if (boundary.empty()) return 0;
   std::vector<char> seen(F.size(), 0);
   int curves = 0;
-  for (int first = 0; first < static_cast<int>(F.size()); ++first) {
-    if (opposite[first] >= 0 || seen[first]) continue;
+  for (const int first : boundary) {
+    if (seen[first]) continue;
     ++curves;
     for (int h = first; !seen[h];) {
       seen[h] = 1;
@@ -122,6 +115,9 @@ bool is_degenerate_triangle(const Vector3& a, const Vector3& b, const Vector3& c
   Vector3 ab = b - a, bc = c - b;
   const double unit = std::max(
       {ab.lpNorm<Eigen::Infinity>(), bc.lpNorm<Eigen::Infinity>(), (a - c).lpNorm<Eigen::Infinity>()});
+  // Most are told without a division.
+  if (const double square = unit * unit; unit > 1e-60 && unit < 1e60)
+    if (ab.cross(bc).squaredNorm() > 1e-20 * (square * square)) return false;
   ab /= unit;
   bc /= unit;
   return !(ab.cross(bc).norm() > 8 * std::numeric_limits<double>::epsilon());
@@ -143,14 +139,14 @@ std::optional<Surface> judge_quickly(const Mesh& mesh) {
   Surface result;
   result.connectivity = connectivity_of(mesh.F, n);
   const std::vector<int>& opposite = result.connectivity.opposite;
-  bool is_manifold = false, is_connected = false;
+  bool is_connected = false;
+  std::vector<char> used;
   parallel_for(2, [&](int task) {
-    if (task == 0) is_manifold = is_oriented_manifold(mesh.F, result.connectivity);
-    if (task == 1) is_connected = is_connected_across_edges(opposite);
+    if (task == 0) is_connected = is_connected_across_edges(opposite);
+    if (task == 1) used = used_by_faces(mesh.F, n);
   });
-  if (!is_manifold || !is_connected) return std::nullopt;
+  if (!is_connected || !is_oriented_manifold(mesh.F, opposite)) return std::nullopt;
 
-  const std::vector<char> used = used_by_faces(mesh.F, n);
   result.unreferenced_vertices = static_cast<int>(std::count(used.begin(), used.end(), 0));
   // Two faces of a connected manifold have the same vertices only if there are no other faces.
   if (m == 2 && n - result.unreferenced_vertices == 3) return std::nullopt;

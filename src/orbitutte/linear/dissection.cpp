@@ -6,11 +6,13 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <mutex>
 #include <new>
 #include <numeric>
 #include <utility>
 
+#include "orbitutte/linear/smallest_separator.h"
 #include "orbitutte/parallel.h"
 
 namespace orbitutte {
@@ -18,6 +20,8 @@ namespace {
 
 constexpr int leaf_size = 800;       // sets of at most about so many vertices are not bisected further
 constexpr int smoothing_sweeps = 4;  // over the interfaces between the parts
+constexpr int band_layers = 2;       // of vertices on either side of an interface
+constexpr int parallel_depths = 6;   // below, both halves of a set are separated on one thread
 
 int vertex_count(const Neighbors& graph) { return static_cast<int>(graph.start.size()) - 1; }
 
@@ -172,17 +176,24 @@ std::vector<int> bisected(ClusterGraph graph, int levels) {
   return part;
 }
 
+// Calls visit(u) for every neighbour of v.
+template <typename Visit>
+void for_neighbors(const Neighbors& graph, int v, const Visit& visit) {
+  for (int k = graph.start[v]; k < graph.start[v + 1]; ++k) visit(graph.neighbor[k]);
+}
+
+std::vector<int> vertices_at_interfaces(const Neighbors& graph, const std::vector<int>& part) {
+  return parallel_select(vertex_count(graph), [&](int v) {
+    bool is_at_one = false;
+    for_neighbors(graph, v, [&](int u) { is_at_one = is_at_one || part[u] != part[v]; });
+    return is_at_one;
+  });
+}
+
 // Smooths the interfaces, which clusters leave jagged: moves a vertex to another part if most of its
 // neighbours lie there.
 void smooth_interfaces(const Neighbors& graph, std::vector<int>& part) {
-  std::vector<int> moving, next;
-  for (int v = 0; v < vertex_count(graph); ++v) {
-    for (int k = graph.start[v]; k < graph.start[v + 1]; ++k) {
-      if (part[graph.neighbor[k]] == part[v]) continue;
-      moving.push_back(v);
-      break;
-    }
-  }
+  const std::vector<int> moving = vertices_at_interfaces(graph, part);
   for (int sweep = 0; sweep < smoothing_sweeps; ++sweep) {
     for (const int v : moving) {
       const auto begin = graph.neighbor.begin() + graph.start[v],
@@ -201,40 +212,189 @@ void smooth_interfaces(const Neighbors& graph, std::vector<int>& part) {
   }
 }
 
-// The depth of every vertex in the tree: the depth of the bisection that makes it a separator, or `levels` if
-// none does.
-std::vector<int> depths_of_separation(const Neighbors& graph, const std::vector<int>& part, int levels) {
-  const int n = vertex_count(graph);
-  std::vector<int> depth(n, levels), near_interface;
-  for (int v = 0; v < n; ++v) {
-    for (int k = graph.start[v]; k < graph.start[v + 1]; ++k) {
-      if (part[graph.neighbor[k]] == part[v]) continue;
-      near_interface.push_back(v);
-      break;
+// Finds the separators of a tree of bisections, each the smallest in a band along the interface of its two
+// sides. Vertices of the band may change sides on the way; they join parts of their new neighbours.
+class BandSeparators {
+ public:
+  // The part of a vertex is the path to its leaf: the highest of `levels` bits is the first bisection's.
+  BandSeparators(const Neighbors& graph, const std::vector<int>& part, int levels)
+      : graph_(graph), levels_(levels), spots_(part.size()), size_(std::size_t{1} << levels, 0) {
+    parallel_ranges(static_cast<int>(part.size()), [&](int begin, int end) {
+      for (int v = begin; v < end; ++v) spots_[v] = {part[v], levels, -1};
+    });
+    for (const int p : part) ++size_[p];
+    std::vector<Near> near;
+    for (const int v : vertices_at_interfaces(graph, part)) note(v, near);
+    separate({0, 0}, std::move(near));
+  }
+
+  // The vertex's place in the tree: the depth of the bisection that makes it a separator, or the number of
+  // levels if none does, and the path to there.
+  int depth(int v) const { return spots_[v].depth; }
+  int path(int v) const { return spots_[v].part >> (levels_ - depth(v)); }
+
+ private:
+  struct Spot {
+    int part, depth;
+    int in_band;  // the vertex's index there; -1 elsewhere
+  };
+  struct Node {
+    int depth, path;
+  };
+  // A vertex that belongs to no separator yet, and the first bisection of which it is at an interface.
+  struct Near {
+    int vertex, depth;
+  };
+  // The vertices of a band, how many edges each is away from the interface, and the most on either side.
+  struct Strip {
+    std::vector<int> vertex, layer;
+    std::array<int, 2> last = {0, 0};
+  };
+
+  bool is_free(int v) const { return spots_[v].depth == levels_; }
+  int side(int v, int depth) const { return spots_[v].part >> (levels_ - 1 - depth) & 1; }
+
+  // Appends the vertex to `near` if it is at an interface.
+  void note(int v, std::vector<Near>& near) const {
+    unsigned differing = 0;
+    for_neighbors(graph_, v, [&](int u) {
+      if (is_free(u)) differing = std::max(differing, unsigned(spots_[u].part ^ spots_[v].part));
+    });
+    if (differing != 0) near.push_back({v, levels_ - static_cast<int>(std::bit_width(differing))});
+  }
+
+  void separate(Node node, std::vector<Near> near) {
+    if (node.depth == levels_) return;
+    std::array<std::vector<Near>, 2> below = halve(node, near);
+    near = {};
+    const auto go_on = [&](int half) {
+      separate({node.depth + 1, 2 * node.path + half}, std::move(below[half]));
+    };
+    if (node.depth < parallel_depths) {
+      parallel_for(2, go_on);
+    } else {
+      for (const int half : {0, 1}) go_on(half);
     }
   }
-  for (int d = 0; d < levels; ++d) {
-    const int shift = levels - 1 - d;  // part >> (shift + 1) names the node, the next lower bit its half
-    std::vector<int> candidates;
-    std::vector<std::array<int, 2>> on_side(std::size_t{1} << d, {0, 0});
-    for (const int v : near_interface) {
-      if (depth[v] < levels) continue;
-      for (int k = graph.start[v]; k < graph.start[v + 1]; ++k) {
-        const int u = graph.neighbor[k];
-        if (depth[u] < levels || (part[u] ^ part[v]) >> shift != 1) continue;
-        candidates.push_back(v);
-        ++on_side[part[v] >> (shift + 1)][part[v] >> shift & 1];
-        break;
+
+  // Takes the separator of the node's halves. Returns what is near interfaces of either.
+  std::array<std::vector<Near>, 2> halve(Node node, const std::vector<Near>& near) {
+    const Strip strip = strip_along(node, near);
+    const int larger = larger_half(node);
+    const std::vector<PlaceInBand> place = smallest_separator(band_of(strip, node.depth, larger));
+    std::vector<int> crossing;  // vertices of the strip that change sides
+    for (std::size_t k = 0; k < place.size(); ++k) {
+      const int v = strip.vertex[k];
+      spots_[v].in_band = -1;
+      if (place[k] == PlaceInBand::within) {
+        --size_[spots_[v].part];
+        spots_[v].depth = node.depth;
+      } else if ((side(v, node.depth) == larger) != (place[k] == PlaceInBand::before)) {
+        crossing.push_back(v);
       }
     }
-    for (const int v : candidates) {
-      const auto& count = on_side[part[v] >> (shift + 1)];
-      // The separator comes from the side with fewer vertices.
-      if ((part[v] >> shift & 1) == (count[1] < count[0])) depth[v] = d;
+    cross(node.depth, crossing);
+
+    std::array<std::vector<Near>, 2> below;
+    const auto note_again = [&](int v) {
+      if (is_free(v)) note(v, below[side(v, node.depth)]);
+    };
+    for (const Near& n : near) {
+      if (n.depth == node.depth) {
+        note_again(n.vertex);
+      } else if (is_free(n.vertex)) {
+        below[side(n.vertex, node.depth)].push_back(n);
+      }
     }
+    for (const int v : with_neighbors(std::move(crossing))) note_again(v);
+    return below;
   }
-  return depth;
-}
+
+  // Each once.
+  std::vector<int> with_neighbors(std::vector<int> vertices) const {
+    for (std::size_t k = 0, count = vertices.size(); k < count; ++k)
+      for_neighbors(graph_, vertices[k], [&](int u) { vertices.push_back(u); });
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    return vertices;
+  }
+
+  Strip strip_along(Node node, const std::vector<Near>& near) {
+    Strip strip;
+    const auto add = [&](int v, int layer) {
+      if (!is_free(v) || spots_[v].in_band >= 0) return;
+      spots_[v].in_band = static_cast<int>(strip.vertex.size());
+      strip.vertex.push_back(v);
+      strip.layer.push_back(layer);
+      strip.last[side(v, node.depth)] = layer;
+    };
+    for (const Near& n : near)
+      if (n.depth == node.depth) add(n.vertex, 0);
+    for (std::size_t k = 0; k < strip.vertex.size(); ++k)
+      if (const int next = strip.layer[k] + 1; next < band_layers)
+        for_neighbors(graph_, strip.vertex[k], [&](int u) { add(u, next); });
+    return strip;
+  }
+
+  int larger_half(Node node) const {
+    std::array<long, 2> size = {0, 0};
+    const int parts = 1 << (levels_ - node.depth);
+    for (int p = node.path * parts; p < (node.path + 1) * parts; ++p)
+      size[p >> (levels_ - 1 - node.depth) & 1] += size_[p];
+    return size[1] > size[0] ? 1 : 0;
+  }
+
+  Band band_of(const Strip& strip, int depth, int first_side) const {
+    Band band;
+    band.start = {0};
+    band.start.reserve(strip.vertex.size() + 1);
+    for (std::size_t k = 0; k < strip.vertex.size(); ++k) {
+      const int v = strip.vertex[k], half = side(v, depth);
+      const bool is_at_end = strip.layer[k] == strip.last[half];
+      band.first.push_back(is_at_end && half == first_side ? 1 : 0);
+      band.second.push_back(is_at_end && half != first_side ? 1 : 0);
+      for_neighbors(graph_, v, [&](int u) {
+        if (is_free(u) && spots_[u].in_band >= 0) band.neighbor.push_back(spots_[u].in_band);
+      });
+      band.start.push_back(static_cast<int>(band.neighbor.size()));
+    }
+    return band;
+  }
+
+  // Gives vertices that change sides the part of a neighbour there; those that have none that of the same
+  // path from the next bisection on.
+  void cross(int depth, const std::vector<int>& crossing) {
+    std::vector<int> waiting = crossing, later;
+    const int bit = 1 << (levels_ - 1 - depth);
+    while (!waiting.empty()) {
+      for (const int v : waiting) {
+        int part = -1;
+        for_neighbors(graph_, v, [&](int u) {
+          if (part < 0 && is_free(u) && side(u, depth) != side(v, depth)) part = spots_[u].part;
+        });
+        if (part < 0) {
+          later.push_back(v);
+        } else {
+          move(v, part);
+        }
+      }
+      if (later.size() == waiting.size()) break;
+      waiting = std::exchange(later, {});
+    }
+    for (const int v : later) move(v, spots_[v].part ^ bit);
+  }
+
+  void move(int v, int part) {
+    --size_[spots_[v].part];
+    ++size_[part];
+    spots_[v].part = part;
+  }
+
+  const Neighbors& graph_;
+  int levels_;
+  std::vector<Spot> spots_;
+  std::vector<int> size_;  // of each part
+};
 
 // The complete binary tree with `levels` levels below its root, without vertices yet. `place` holds the index
 // of node (depth, path).
@@ -327,11 +487,11 @@ Dissection dissect(const Neighbors& graph) {
     for (int v = 0; v < n; ++v) part[v] = part_of_cluster[clusters.of[v]];
     smooth_interfaces(graph, part);
   }
-  const std::vector<int> depth = depths_of_separation(graph, part, levels);
+  const BandSeparators separators(graph, part, levels);
 
   Tree tree = complete_tree(levels);
   std::vector<int> node_of(n);
-  for (int v = 0; v < n; ++v) node_of[v] = tree.place[depth[v]][part[v] >> (levels - depth[v])];
+  for (int v = 0; v < n; ++v) node_of[v] = tree.place[separators.depth(v)][separators.path(v)];
   Dissection result = {std::vector<int>(n), std::move(tree.nodes)};
   for (const int node : node_of) ++result.nodes[node].end;
   place_nodes(result.nodes);

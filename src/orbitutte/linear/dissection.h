@@ -31,10 +31,11 @@ struct Dissection {
 };
 
 /// Bisects the graph, coarsened once, with METIS (G. Karypis, V. Kumar, "A fast and high quality multilevel
-/// scheme for partitioning irregular graphs", SIAM J. Sci. Comput. 20 (1998)). The vertices on one side of
-/// each interface become its separator. Each set is ordered by approximate minimum degree (P. Amestoy, T.
-/// Davis, I. Duff, "Algorithm 837: AMD", ACM TOMS 30 (2004)). On meshes the factor is about as sparse as with
-/// METIS's own nested dissection, in a tenth of the time (docs/benchmarks.md).
+/// scheme for partitioning irregular graphs", SIAM J. Sci. Comput. 20 (1998)). The smallest set of vertices
+/// that separates both sides of a band along each interface becomes its separator (smallest_separator.h).
+/// Each set is ordered by approximate minimum degree (P. Amestoy, T. Davis, I. Duff, "Algorithm 837: AMD",
+/// ACM TOMS 30 (2004)). On meshes the factor is about as sparse as with METIS's own nested dissection, in a
+/// tenth of the time (docs/benchmarks.md).
 Dissection dissect(const Neighbors& graph);
 
 /// The same sets for another graph on the vertices, most of whose edges are those of the one that was

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
+#include <tuple>
+#include <utility>
 
 #include "orbitutte/parallel.h"
 
@@ -16,35 +18,66 @@ Key key(int upper, int h) { return static_cast<Key>(upper) << 32 | static_cast<K
 int upper_vertex(Key k) { return static_cast<int>(k >> 32); }
 int halfedge(Key k) { return static_cast<int>(k & 0xffffffffu); }
 
-// Calls visit(lower, upper, half-edge) for every half-edge whose lower vertex is in begin .. end - 1, in
-// ascending order.
-template <typename Visit>
-void for_halfedges(const Triangles& F, int begin, int end, const Visit& visit) {
-  const int* corner = F.data();
-  for (int h = 0, size = static_cast<int>(F.size()); h < size; h += 3, corner += 3) {
-    for (int k = 0; k < 3; ++k) {
-      const auto [lower, upper] = std::minmax({corner[k], corner[k == 2 ? 0 : k + 1]});
-      if (lower >= begin && lower < end) visit(lower, upper, h + k);
-    }
+// A counting sort of `count` items into buckets, in their order. Threads share the items: for_items(begin,
+// end, visit) calls visit(bucket, item) for items begin .. end - 1, or several for each, and store(place,
+// item) takes them in. Returns where buckets start.
+template <typename ForItems, typename Store>
+std::vector<int> sort_into_buckets(int count, int buckets, const ForItems& for_items, const Store& store) {
+  constexpr int shortest = 10000, most = 8;
+  const int parts = std::clamp(std::min(thread_count(), count / shortest), 1, most);
+  const auto bound = [&](int part) { return static_cast<int>(static_cast<long long>(count) * part / parts); };
+  // Of every part and bucket, how many items; then the place of the next.
+  std::vector<std::vector<int>> next(parts);
+  parallel_for(parts, [&](int part) {
+    next[part].assign(buckets, 0);
+    for_items(bound(part), bound(part + 1), [&](int bucket, const auto&) { ++next[part][bucket]; });
+  });
+  std::vector<int> start(buckets + 1);
+  int place = 0;
+  for (int bucket = 0; bucket < buckets; ++bucket) {
+    start[bucket] = place;
+    for (std::vector<int>& of_part : next) place += std::exchange(of_part[bucket], place);
+  }
+  start[buckets] = place;
+  parallel_for(parts, [&](int part) {
+    for_items(bound(part), bound(part + 1),
+              [&](int bucket, const auto& item) { store(next[part][bucket]++, item); });
+  });
+  return start;
+}
+
+// A bucket has three keys or so.
+void sort_keys(std::vector<Key>::iterator begin, std::vector<Key>::iterator end) {
+  constexpr int many = 16;
+  if (end - begin > many) return std::sort(begin, end);
+  for (auto sorted = begin; sorted != end; ++sorted) {
+    const Key inserted = *sorted;
+    auto at = sorted;
+    for (; at != begin && *(at - 1) > inserted; --at) *at = *(at - 1);
+    *at = inserted;
   }
 }
 
 }  // namespace
 
 Connectivity connectivity_of(const Triangles& F, int vertex_count) {
-  // A counting sort by the lower vertex, then a sort of each short bucket.
-  std::vector<int> start(vertex_count + 1, 0), first_edge(vertex_count + 1, 0);
-  parallel_parts(vertex_count, [&](int begin, int end) {
-    for_halfedges(F, begin, end, [&](int lower, int, int) { ++start[lower + 1]; });
-  });
-  std::partial_sum(start.begin(), start.end(), start.begin());
   std::vector<Key> keys(F.size());
-  parallel_parts(vertex_count, [&](int begin, int end) {
-    std::vector<int> fill(start.begin() + begin, start.begin() + end);
-    for_halfedges(F, begin, end,
-                  [&](int lower, int upper, int h) { keys[fill[lower - begin]++] = key(upper, h); });
+  const auto for_halfedges = [&](int begin, int end, const auto& visit) {
+    const int* corner = F.data() + 3 * static_cast<Eigen::Index>(begin);
+    for (int h = 3 * begin; h < 3 * end; h += 3, corner += 3) {
+      for (int k = 0; k < 3; ++k) {
+        const auto [lower, upper] = std::minmax({corner[k], corner[k == 2 ? 0 : k + 1]});
+        visit(lower, key(upper, h + k));
+      }
+    }
+  };
+  const std::vector<int> start =
+      sort_into_buckets(static_cast<int>(F.rows()), vertex_count, for_halfedges,
+                        [&](int place, Key halfedge_key) { keys[place] = halfedge_key; });
+  std::vector<int> first_edge(vertex_count + 1, 0);
+  parallel_ranges(vertex_count, [&](int begin, int end) {
     for (int v = begin; v < end; ++v) {
-      std::sort(keys.begin() + start[v], keys.begin() + start[v + 1]);
+      sort_keys(keys.begin() + start[v], keys.begin() + start[v + 1]);
       for (int k = start[v]; k < start[v + 1]; ++k)
         first_edge[v + 1] += k == start[v] || upper_vertex(keys[k]) != upper_vertex(keys[k - 1]);
     }
@@ -55,7 +88,7 @@ Connectivity connectivity_of(const Triangles& F, int vertex_count) {
   result.edge_of.resize(F.size());
   result.opposite.resize(F.size());
   result.edges.resize(first_edge.back());
-  parallel_parts(vertex_count, [&](int begin, int end) {
+  parallel_ranges(vertex_count, [&](int begin, int end) {
     for (int v = begin; v < end; ++v) {
       int edge = first_edge[v] - 1;
       for (int k = start[v]; k < start[v + 1]; ++k) {
@@ -73,27 +106,16 @@ Connectivity connectivity_of(const Triangles& F, int vertex_count) {
 
 Neighbors vertex_neighbors(const std::vector<std::array<int, 2>>& edges, int vertex_count) {
   Neighbors result;
-  result.start.assign(vertex_count + 1, 0);
-  parallel_parts(vertex_count, [&](int begin, int end) {
-    for (const auto& ends : edges)
-      for (const int v : ends)
-        if (v >= begin && v < end) ++result.start[v + 1];
-  });
-  std::partial_sum(result.start.begin(), result.start.end(), result.start.begin());
   result.neighbor.resize(2 * edges.size());
   result.edge.resize(2 * edges.size());
-  parallel_parts(vertex_count, [&](int begin, int end) {
-    std::vector<int> fill(result.start.begin() + begin, result.start.begin() + end);
-    for (int e = 0; e < static_cast<int>(edges.size()); ++e) {
-      for (const int side : {0, 1}) {
-        const int v = edges[e][side];
-        if (v < begin || v >= end) continue;
-        const int at = fill[v - begin]++;
-        result.neighbor[at] = edges[e][1 - side];
-        result.edge[at] = e;
-      }
-    }
-  });
+  const auto for_ends = [&](int begin, int end, const auto& visit) {
+    for (int e = begin; e < end; ++e)
+      for (const int side : {0, 1}) visit(edges[e][side], std::pair(edges[e][1 - side], e));
+  };
+  result.start = sort_into_buckets(static_cast<int>(edges.size()), vertex_count, for_ends,
+                                   [&](int place, const std::pair<int, int>& neighbor_and_edge) {
+                                     std::tie(result.neighbor[place], result.edge[place]) = neighbor_and_edge;
+                                   });
   return result;
 }
 

@@ -37,13 +37,16 @@ class Frames {
   void open_banks(const Connectivity& connectivity, const CutMesh& cut,
                   const std::map<CutEdge, int>& changes) {
     if (changes.empty()) return;
+    std::vector<char> is_on_bank(cut.vertex_count(), 0);
+    for (const auto& [edge, change] : changes) is_on_bank[edge.first] = is_on_bank[edge.second] = 1;
     parallel_ranges(static_cast<int>(change_.size()), [&](int begin, int end) {
       for (int h = begin; h < end; ++h) {
-        const int g = connectivity.opposite[h];
-        if (g < 0) continue;
-        const int from = copy_at(cut, h), to = copy_at(cut, next_halfedge(h)), from_there = copy_at(cut, g),
-                  to_there = copy_at(cut, next_halfedge(g));
-        if (from == to_there && to == from_there) continue;  // as almost everywhere
+        const int from = copy_at(cut, h);
+        if (!is_on_bank[from]) continue;  // as almost everywhere
+        const int g = connectivity.opposite[h], to = copy_at(cut, next_halfedge(h));
+        if (g < 0 || !is_on_bank[to]) continue;
+        const int from_there = copy_at(cut, g), to_there = copy_at(cut, next_halfedge(g));
+        if (from == to_there && to == from_there) continue;
         const CutEdge here = cut_edge(from, to);
         if (here != cut_edge(from_there, to_there)) change_[h] = changes.at(here);
       }

@@ -167,23 +167,24 @@ Placement moved(const GluingProblem& problem, const Isometry& isometry, const Pl
 Placement place(const GluingProblem& problem, const LbfgsOptions& options, Stages& stage) {
   const bool is_free = problem.target.has_free_tile;
   if (problem.target.has_curved_free_tile()) return place_on_curved_tile(problem, options, stage);
-  const GluedEdges glued = glued_along(problem, problem.boundary);
-  require_apart(glued, problem.boundary, problem.target);
+  GluedEdges glued;
   const LaplacianSolver laplacian = stage("factorize", [&] {
+    glued = glued_along(problem, problem.boundary);
+    require_apart(glued, problem.boundary, problem.target);
     return LaplacianSolver(problem.cut, glued, problem.weights, problem.boundary, problem.laplacian);
   });
   Placement placed = stage("initialize", [&] {
     return is_free ? start_on_free_tile(problem, laplacian) : start_on_tile(problem, laplacian);
   });
-  const DirichletEnergy energy =  // (2)
-      is_free ? energy_along(problem, placed.boundary)
-              : DirichletEnergy(glued, problem.weights, placed.boundary);
   LbfgsOptions lbfgs = options;
   lbfgs.callback = [&](int iteration, const Iteration& state) {
     stage.tell({"optimize", iteration, state.energy, state.gradient_norm});
     return true;
   };
   placed.minimum = stage("optimize", [&] {  // algorithm 1
+    const DirichletEnergy energy =          // (2)
+        is_free ? energy_along(problem, placed.boundary)
+                : DirichletEnergy(glued, problem.weights, placed.boundary);
     return minimize(energy, laplacian, placed.minimum.positions, lbfgs);
   });
   fix_poles(problem, placed);

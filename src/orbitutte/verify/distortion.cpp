@@ -184,10 +184,10 @@ TriangleMeasures measures_of(const SourceCorners& source, const ImageTriangle& i
 }
 
 std::vector<TriangleMeasures> measures_of_triangles(const Surface& surface, const Embedding& embedding) {
-  const double unit = length_unit(surface);
+  const double per_unit = 1 / length_unit(surface);
   const ExactPositions positions(embedding);
   const std::vector<double> rounding = tangential_roundings(embedding, positions);
-  const auto corner = [&](int v) -> Vector3 { return surface.V.row(embedding.source_vertex[v]) / unit; };
+  const auto corner = [&](int v) -> Vector3 { return surface.V.row(embedding.source_vertex[v]) * per_unit; };
   std::vector<TriangleMeasures> result(surface.triangle_count());
   visit_curvature(embedding.space(), [&](auto curvature) {
     parallel_ranges(surface.triangle_count(), [&](int begin, int end) {
