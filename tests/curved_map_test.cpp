@@ -221,7 +221,7 @@ Eigen::VectorXd edge_lengths(const CutSurface& s, const Minimum& minimum) {
   const Points all = boundary.spread(minimum.positions, s.cut.source_vertex);
   Eigen::VectorXd lengths(static_cast<Eigen::Index>(s.surface.connectivity.edges.size()));
   for (int h = 0; h < static_cast<int>(s.cut.F.size()); ++h)
-    lengths[s.cut.edge_of[h]] =
+    lengths[s.surface.connectivity.edge_of[s.cut.source_halfedge(h)]] =
         s.target.space.distance(all.row(halfedge_origin(s.cut.F, h)), all.row(halfedge_target(s.cut.F, h)));
   return lengths;
 }

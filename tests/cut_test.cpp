@@ -503,7 +503,7 @@ std::string fault_in_projective_plane(const Mesh& mesh, int mark, std::uint64_t 
   for (int h = 0; h < cut.F.size() && fault.empty(); ++h) {
     const auto [i, j] = std::minmax(cut.source_vertex[halfedge_origin(cut.F, h)],
                                     cut.source_vertex[halfedge_target(cut.F, h)]);
-    if (connectivity.edges[cut.edge_of[h]] != std::array<int, 2>{i, j})
+    if (connectivity.edges[connectivity.edge_of[cut.source_halfedge(h)]] != std::array<int, 2>{i, j})
       fault = "a half-edge is of another edge";
   }
   if (fault.empty() && !same(cut, cut_inside(mesh, {mark}, seed))) fault = "a second cut is different";

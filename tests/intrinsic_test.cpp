@@ -344,9 +344,12 @@ double angle_sum(const IntrinsicTriangulation& T, int v) {
 TEST(Cones, AnglesAtThemAreThoseOfTheImage) {
   const Mesh mesh = test::icosphere(2);
   for (const double expected : {pi, 2 * pi / 3, pi / 2, 2 * pi / 5, 2 * pi / 12}) {
-    const EdgeWeights weights = sharpened_at_cones(delaunay_weights(mesh), {{20, expected}, {100, pi}});
-    EXPECT_NEAR(angle_sum(*weights.triangulation, 20), expected, 1e-10);
-    EXPECT_NEAR(angle_sum(*weights.triangulation, 100), pi, 1e-10);
+    const std::vector<ConeAngle> cones = {{20, expected}, {100, pi}};
+    const EdgeWeights before = delaunay_weights(mesh), weights = sharpened_at_cones(before, cones);
+    const IntrinsicTriangulation T = flattened_at_cones(*before.triangulation, cones);
+    EXPECT_NEAR(angle_sum(T, 20), expected, 1e-10);
+    EXPECT_NEAR(angle_sum(T, 100), pi, 1e-10);
+    EXPECT_EQ(weights.w, intrinsic_weights(T, before.clamp).w);
     EXPECT_GT(weights.w.minCoeff(), 0);
     EXPECT_LE(weights.clamped_edges, expected < 1 ? 1 : 0);  // a sharp cone asks for less than three edges
     expect_sound(*weights.triangulation, mesh);

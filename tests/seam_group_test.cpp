@@ -35,6 +35,13 @@ Mark corner(double angle) { return {angle, ConeKind::corner}; }
 double largest(const Exact& matrix) { return static_cast<double>(Precise(matrix.cwiseAbs().maxCoeff())); }
 double largest(const ExactPoint& point) { return static_cast<double>(Precise(point.cwiseAbs().maxCoeff())); }
 
+/// Where vertices are held (n x 3); zero elsewhere.
+Points held_points(const BoundaryConditions& boundary) {
+  Points result = Points::Zero(boundary.vertex_count(), 3);
+  for (const auto& [v, point] : boundary.held) result.row(v) = point;
+  return result;
+}
+
 /// A surface that is cut along a tree, and glued to a tile of some shape whose marks are a little off.
 struct GluedCase {
   GluedCase(const Target& the_target, std::uint64_t cut_seed, double off) : target(the_target) {
@@ -42,7 +49,7 @@ struct GluedCase {
                                                           : test::perturbed(test::round_disk(8), 0.02, 7);
     cut = cut_along_tree(test::unjudged(mesh), choose_cones(mesh, target), target.inner_marks, {cut_seed});
     Points positions = target.space == Space::plane() ? positions_of_marks(cut, some_shape())
-                                                      : boundary_of(any_tile(target, cut)).held;
+                                                      : held_points(boundary_of(any_tile(target, cut)));
     std::mt19937 generator(3);
     std::uniform_real_distribution<double> uniform(-off, off);
     for (const int mark : cut.marks)
@@ -65,7 +72,7 @@ struct GluedCase {
 
   PreciseGroup<Precise> group() const {
     const auto position = [this](int v) -> ExactPoint {
-      const Vector3 p = boundary.transform(v) * Vector3(boundary.held.row(cut.source_vertex[v]));
+      const Vector3 p = boundary.transform(v) * boundary.held_at(cut.source_vertex[v]);
       return p.cast<Precise>();
     };
     return group_of_boundary<Precise>(
@@ -190,7 +197,7 @@ TEST(SeamGroup, CopiesAroundEveryVertexOfASphereCloseToTheLastDigit) {
         continue;
       }
       EXPECT_EQ(chain.last, vertex);
-      const ExactPoint p = group.held_point(c.boundary.held.row(vertex));
+      const ExactPoint p = group.held_point(c.boundary.held_at(vertex));
       EXPECT_LT(largest(ExactPoint(chain.product * p - p)), last_digits)
           << vertex << " mark " << mark << " links " << links.size();
       const Precise trace = 1 + 2 * cos(precise_angle<Precise>(c.target.marks[mark]));
@@ -225,8 +232,8 @@ TEST(SeamGroup, MirrorsMeetWhereCutsEndOnThemAndInTheirCorners) {
       }
       const double turn = static_cast<double>(Precise((first * last).trace()));
       EXPECT_NEAR(turn, 1 + 2 * std::cos(2 * c.target.marks[mark].angle), 1e-9);
-      if (end >= static_cast<int>(c.boundary.held.rows())) continue;  // a copy
-      const ExactPoint p = group.held_point(c.boundary.held.row(vertex));
+      if (end >= c.boundary.vertex_count()) continue;  // a copy
+      const ExactPoint p = group.held_point(c.boundary.held_at(vertex));
       EXPECT_LT(largest(ExactPoint(first * p - p)), last_digits);
     }
   }
@@ -249,7 +256,7 @@ TEST(SeamGroup, ProductsOfTwoKnownElementsAreFoundAndOthersRefused) {
 TEST(SeamGroup, ALoopThatTheSeamsLeaveIsRefused) {
   const GluedCase c(parse_orbifold("2222"), 0, 0);
   const auto position = [&](int v) -> ExactPoint {
-    return Vector3(c.boundary.held.row(c.cut.source_vertex[v])).cast<Precise>();
+    return c.boundary.held_at(c.cut.source_vertex[v]).cast<Precise>();
   };
   const std::vector<int> shorter(c.cut.boundary.begin(), c.cut.boundary.begin() + c.cut.boundary.size() / 2);
   EXPECT_THROW(group_of_boundary<Precise>(
@@ -261,17 +268,17 @@ TEST(ClosingPosition, IsWhereTheOthersLeaveTheFirstMark) {
   for (const GluedCase& c : all_cases()) {
     if (c.target.topology != Topology::sphere) continue;
     SCOPED_TRACE(name_of_case(c));
-    Points positions = c.boundary.held;
+    Points positions = held_points(c.boundary);
     const int first = c.cut.marks.front();
     const Vector3 closing = closing_position(c.target, c.cut, positions);
     EXPECT_LT((closing - Vector3(positions.row(first))).norm(), 1e-8);
     positions.row(first) = closing;
     const BoundaryConditions boundary = c.boundary_of(tile_through(c.target, c.cut, positions));
     for (const Seam& seam : boundary.seams) {
-      const Vector3 left = boundary.transform(seam.left.front()) *
-                           Vector3(boundary.held.row(c.cut.source_vertex[seam.left.front()]));
-      const Vector3 right = boundary.transform(seam.right.front()) *
-                            Vector3(boundary.held.row(c.cut.source_vertex[seam.right.front()]));
+      const Vector3 left =
+          boundary.transform(seam.left.front()) * boundary.held_at(c.cut.source_vertex[seam.left.front()]);
+      const Vector3 right =
+          boundary.transform(seam.right.front()) * boundary.held_at(c.cut.source_vertex[seam.right.front()]);
       if (c.cut.source_vertex[seam.left.front()] != first) continue;
       const double size = seam.transform.matrix().cwiseAbs().maxCoeff() * right.cwiseAbs().maxCoeff();
       EXPECT_LT((left - seam.transform * right).cwiseAbs().maxCoeff(), 1e-14 * size);

@@ -68,7 +68,7 @@ inline Points moved(const SolveCase& of, const Points& positions, double step, c
 inline Points random_feasible(const SolveCase& of, std::uint32_t seed) {
   std::mt19937 generator(seed);
   std::uniform_real_distribution<double> uniform(-1, 1);
-  Points result(of.boundary.held.rows(), 3);
+  Points result(of.boundary.vertex_count(), 3);
   for (Eigen::Index v = 0; v < result.rows(); ++v) {
     const Vector3 random(uniform(generator), uniform(generator), uniform(generator));
     const Room& room = of.boundary.basis(static_cast<int>(v));

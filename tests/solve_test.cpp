@@ -65,7 +65,7 @@ TEST_P(EveryFamily, ConesAreHeldAtTheTilesCornersAndNothingElseIs) {
     const bool marked = std::count(c->marks.begin(), c->marks.end(), v) > 0 ||
                         (c->marks.size() == 1 && v == c->cut.marks.back());
     EXPECT_EQ(c->boundary.basis(v).cols() == 0, marked) << v;
-    const Vector3 held = c->boundary.held.row(v);
+    const Vector3 held = c->boundary.held_at(v);
     EXPECT_NEAR(marked ? c->boundary.space.defect(held) : held.norm(), 0, 1e-15);
   }
 }
@@ -205,8 +205,8 @@ TEST_P(EveryFamily, EdgesAcrossTheCutBetweenVerticesInsideAreSolvedAsWell) {
   }
   const DiskGraph graph = disk_graph(c->cut, c->glued, c->boundary);
   EXPECT_GT(std::count(graph.inside.begin(), graph.inside.end(), 1), 20);
-  for (std::size_t e = 0; e < graph.ends.size(); ++e) {
-    const auto [a, b] = graph.ends[e];
+  for (int e = 0; e < graph.edge_count(); ++e) {
+    const auto [a, b] = graph.ends(e);
     const auto [i, j, t] = c->glued.edges[e];
     const Isometry between = graph.transform(a).inverse() * graph.transform(b);
     EXPECT_LT(between.difference(c->glued.transforms[t]), 1e-9);
@@ -279,7 +279,7 @@ TEST_P(EveryFamily, StartIsInTheSpaceAndFeasible) {
     const Isometry& mirror = c->boundary.mirrors[c->boundary.basis_of[v]];
     const Vector3 here = start.row(v);
     const Vector3 expected =
-        c->boundary.basis_of[v] == held_in_place ? Vector3(c->boundary.held.row(v)) : mirror * here;
+        c->boundary.basis_of[v] == held_in_place ? c->boundary.held_at(static_cast<int>(v)) : mirror * here;
     EXPECT_LT((here - expected).norm(), 2e-15);
   }
 }

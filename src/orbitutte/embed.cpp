@@ -31,8 +31,8 @@ Attempt embed_once(const EmbedRequest& request, EmbeddingCache& cache) {
   result.threads = thread_count();
   result.backend = options.laplacian.backend;
 
-  stage("weights", [&] { result.weights = find_weights(request, cache.weights); });  // section 4
-  const GluingProblem problem = stage("cut", [&] {                                   // section 4.1
+  stage("weights", [&] { result.weights = find_weights(request, cache); });  // section 4
+  const GluingProblem problem = stage("cut", [&] {                           // section 4.1
     find_cut(request, cache);
     if (!cache.serves_again) cache.weights = {};
     return gluing_problem(request, result.weights, cache.cut.cut, cache);
@@ -106,7 +106,7 @@ QuotientSource quotient_source(const EmbedRequest& request) {
 EdgeWeights weights_of_quotient(const EmbedRequest& request, const EmbedResult& base, EmbeddingCache& cache) {
   EmbedOptions options = request.options;
   if (base.requested_weights) options.weights.kind = base.weights.kind;
-  return find_weights({request.prepared, request.target, request.cones, options}, cache.weights);
+  return find_weights({request.prepared, request.target, request.cones, options}, cache);
 }
 
 // Where the quotient lies; vertices that were put at given points are held there.
@@ -116,7 +116,7 @@ Placement placed_quotient(const GluingProblem& problem, const EmbedResult& base,
   placed.minimum.positions = quotient.positions();
   for (const PolygonCorner& held : points) {
     placed.boundary.basis_of[held.vertex] = held_in_place;
-    placed.boundary.held.row(held.vertex) = held.position.transpose();
+    placed.boundary.held[held.vertex] = held.position;
   }
   placed.boundary.make_feasible(placed.minimum.positions);
   return placed;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "orbitutte/inspect/coincidence.h"
 #include "orbitutte/inspect/weak_places.h"
@@ -17,11 +18,6 @@
 
 namespace orbitutte {
 namespace {
-
-// The edges that have the weights: the surface's, or those of a triangulation of it.
-const std::vector<std::array<int, 2>>& weighted_edges(const EdgeWeights& weights, const Surface& surface) {
-  return weights.triangulation ? weights.triangulation->connectivity.edges : surface.connectivity.edges;
-}
 
 std::vector<ConeAngle> cone_angles(const Target& target, const std::vector<int>& cones) {
   const std::vector<double> angles = metric_angles(target.marks);
@@ -63,6 +59,18 @@ Pairs boundary_edges(const Surface& disk) {
 
 // The smallest of the first ends.
 int smallest_vertex(const Pairs& edges) { return (*std::min_element(edges.begin(), edges.end()))[0]; }
+
+KnownWeights weights_without_cones(const Surface& surface, const EmbedOptions& options) {
+  KnownWeights known;
+  known.kind = options.weights.kind;
+  if (!options.weights_file.empty())
+    known.weights = read_weights(options.weights_file, surface.connectivity);
+  else if (weight_kind(surface, options.weights.kind) == WeightKind::delaunay)
+    known.edges = known.triangulation.emplace(delaunay_triangulation(surface)).connectivity.edges;
+  else
+    known.weights = edge_weights(surface, options.weights);
+  return known;
+}
 
 }  // namespace
 
@@ -108,16 +116,19 @@ void require_no_quotient_options(const QuotientOptions& options, const std::stri
         onto));
 }
 
-EdgeWeights find_weights(const EmbedRequest& request, KnownWeights& known) {
+EdgeWeights find_weights(const EmbedRequest& request, EmbeddingCache& cache) {
   const Surface& surface = request.prepared.surface;
   const EmbedOptions& options = request.options;
-  if (!known.weights || known.kind != options.weights.kind)
-    known.weights = options.weights_file.empty() ? edge_weights(surface, options.weights)
-                                                 : read_weights(options.weights_file, surface.connectivity);
-  known.kind = options.weights.kind;
+  KnownWeights& known = cache.weights;
+  if (known.kind != options.weights.kind || (!known.weights && !known.triangulation))
+    known = weights_without_cones(surface, options);
+  if (known.weights) return *known.weights;
   const Pairs opposite = opposite_vertices(request);
-  return sharpened_at_cones(kept_apart(*known.weights, surface, options.weights, {{}, opposite}),
-                            cone_angles(request.target, request.cones), opposite);
+  IntrinsicTriangulation T =
+      cache.serves_again ? *known.triangulation : *std::exchange(known.triangulation, std::nullopt);
+  T = flattened_at_cones(kept_apart(std::move(T), surface, {{}, opposite}),
+                         cone_angles(request.target, request.cones));
+  return intrinsic_weights(std::move(T), options.weights.clamp);
 }
 
 void find_cut(const EmbedRequest& request, EmbeddingCache& cache) {
@@ -131,7 +142,8 @@ void find_cut(const EmbedRequest& request, EmbeddingCache& cache) {
       cache.cut.cut = (target.has_free_tile ? cut_along_tree : cut_to_disk)(
           surface, request.cones, target.inner_marks, request.options.cut);
     if (task == 1)
-      order_ahead(*cache.laplacians, weighted_edges(*cache.weights.weights, surface), surface.vertex_count());
+      order_ahead(*cache.laplacians, cache.weights.weights ? surface.connectivity.edges : cache.weights.edges,
+                  surface.vertex_count());
   });
   cache.cut.request = wanted;
 }

@@ -2,6 +2,7 @@
 // What embed computes before it knows the tile, and what a solver keeps from one embedding to the next.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include "orbitutte/cut/cut.h"
 #include "orbitutte/embed_types.h"
+#include "orbitutte/mesh/intrinsic_triangulation.h"
 #include "orbitutte/orbifold/signature.h"
 #include "orbitutte/solve/laplacian_solver.h"
 
@@ -29,9 +31,12 @@ struct EmbedRequest {
   const EmbedOptions& options;
 };
 
-/// The weights before they were sharpened at cones.
+/// The weights before they were sharpened at cones: either of the two, or none yet.
 struct KnownWeights {
   std::optional<EdgeWeights> weights;
+  /// What they are made from, if they are of kind `delaunay`, and its edges, which stay when it is taken.
+  std::optional<IntrinsicTriangulation> triangulation;
+  std::vector<std::array<int, 2>> edges;
   /// What was asked for then.
   WeightKind kind = WeightKind::standard;
 };
@@ -58,7 +63,7 @@ struct EmbeddingCache {
   explicit EmbeddingCache(Kept kept)
       : serves_again(kept == Kept::factors), laplacians(reusable_laplacians(kept)) {}
 
-  /// Are the weights asked for once more? If not, they are freed before the factor takes memory.
+  /// Are the weights asked for once more? If not, they become those that are sharpened.
   bool serves_again;
   KnownWeights weights;
   KnownCut cut;
@@ -83,7 +88,7 @@ void require_topology(const Surface& surface, const Target& target);
 void require_no_quotient_options(const QuotientOptions& options, const std::string& onto);
 
 /// The weights (section 4), those of a metric that is flat at the cones.
-EdgeWeights find_weights(const EmbedRequest& request, KnownWeights& known);
+EdgeWeights find_weights(const EmbedRequest& request, EmbeddingCache& cache);
 
 /// Cuts the surface through its marked vertices (section 4.1). At the same time finds an elimination order
 /// for the Laplacian from the edges of the weights that are not sharpened at cones: so it is the same for all

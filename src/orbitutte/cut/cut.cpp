@@ -162,9 +162,6 @@ CutPath with_edges(Path path, const EdgeGraph& graph) {
   return result;
 }
 
-// The new index of half-edge h once the second and third vertex of its face have been exchanged.
-int turned_halfedge(int h) { return h - h % 3 + (2 - h % 3); }
-
 // The input mesh with its half-edges opened along the cut. Faces are turned over if the surface has no
 // orientation.
 struct OpenedMesh {
@@ -175,7 +172,6 @@ struct OpenedMesh {
 CutMesh uncut(const Surface& surface) {
   CutMesh cut;
   cut.F = surface.triangles;
-  cut.edge_of = surface.connectivity.edge_of;
   cut.source_vertex.resize(surface.V.rows());
   for (int v = 0; v < cut.vertex_count(); ++v) cut.source_vertex[v] = v;
   return cut;
@@ -199,12 +195,10 @@ void turn_faces(OpenedMesh& mesh) {
   const Triangles F = mesh.cut.F;
   mesh.cut.F = agreeing_faces(F, mesh.opposite);
   for (Eigen::Index f = 0; f < F.rows(); ++f) mesh.cut.turned.push_back(mesh.cut.F(f, 1) != F(f, 1));
-  const std::vector<int> edge_of = mesh.cut.edge_of, opposite = mesh.opposite;
-  const auto moved = [&](int h) { return mesh.cut.turned[h / 3] ? turned_halfedge(h) : h; };
-  for (int h = 0; h < static_cast<int>(opposite.size()); ++h) {
-    mesh.cut.edge_of[moved(h)] = edge_of[h];
+  const std::vector<int> opposite = mesh.opposite;
+  const auto moved = [&](int h) { return mesh.cut.source_halfedge(h); };  // which undoes itself
+  for (int h = 0; h < static_cast<int>(opposite.size()); ++h)
     mesh.opposite[moved(h)] = opposite[h] < 0 ? -1 : moved(opposite[h]);
-  }
 }
 
 // The first half-edge on the boundary of the opened mesh that leaves vertex v.

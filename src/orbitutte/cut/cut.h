@@ -26,8 +26,6 @@ struct CutMesh {
   /// m x 3: the input triangles in their order, on cut vertices. If the input has no orientation, some are
   /// turned over: f(0), f(2), f(1).
   Triangles F;
-  /// 3 m: the edge of the uncut mesh of every half-edge of F; -1 for a diagonal.
-  std::vector<int> edge_of;
   /// m: is the triangle turned over? Empty if none is.
   std::vector<char> turned;
   /// n_cut: the input vertex of every cut vertex.
@@ -43,6 +41,11 @@ struct CutMesh {
   std::vector<CutSide> sides = {};
 
   int vertex_count() const { return static_cast<int>(source_vertex.size()); }
+
+  /// The half-edge of the uncut mesh along a half-edge of F, in its direction unless the face is turned over.
+  int source_halfedge(int h) const {
+    return turned.empty() || turned[h / 3] == 0 ? h : h - h % 3 + (2 - h % 3);
+  }
 };
 
 /// Cuts the surface so that every marked vertex lies on the boundary of a disk. The first `inner_marks` marks

@@ -104,10 +104,12 @@ class Fronts {
     children_[parent].push_back({border, std::move(rest)});
   }
 
+  // Of the leading columns.
   std::size_t value_count() const {
     std::size_t count = 0;
-    for (int s = 0; s < pattern_.count(); ++s)
-      count += pattern_.rows(s).size() * static_cast<std::size_t>(pattern_.first[s + 1] - pattern_.first[s]);
+    for (int s = 0; s < pattern_.count() && pattern_.first[s] < leading_; ++s)
+      count += pattern_.rows(s).size() *
+               static_cast<std::size_t>(std::min(pattern_.first[s + 1], leading_) - pattern_.first[s]);
     return count;
   }
 

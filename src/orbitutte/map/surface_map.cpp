@@ -251,7 +251,7 @@ class Mapping {
         MappedSide& side = *sides_[s];
         side.options.weights.kind = kinds[s];
         side.result = {};
-        side.result.weights = find_weights(side.request(), side.cache.weights);
+        side.result.weights = find_weights(side.request(), side.cache);
       });
     });
     Problems problems;

@@ -32,9 +32,9 @@ struct IntrinsicTriangulation {
   Triangles F;
   /// Of F.
   Connectivity connectivity;
-  /// 3 m: of every half-edge, in its face's unit.
+  /// 3 m: of every half-edge, in its face's unit; empty with weights that cannot be sharpened.
   std::vector<double> length;
-  /// 3 m: of the angle opposite to every half-edge.
+  /// 3 m: of the angle opposite to every half-edge; empty with such weights.
   std::vector<double> half_cotangent;
   /// The flips that lead here from the mesh, in this order.
   std::vector<Flip> flips;

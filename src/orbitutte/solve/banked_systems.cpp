@@ -81,10 +81,10 @@ void sort_columns(SparseMatrix& K) {
 // weight goes to one, since gluing adds them up.
 SparseMatrix disk_laplacian(const LaplacianProblem& problem, const DiskUnknowns& unknowns) {
   const int count = unknowns.count();
-  std::vector<std::array<int, 2>> ends(problem.graph.ends.size());  // ascending; -1 where held
+  std::vector<std::array<int, 2>> ends(problem.graph.edge_count());  // ascending; -1 where held
   parallel_ranges(static_cast<int>(ends.size()), [&](int begin, int end) {
     for (int e = begin; e < end; ++e) {
-      const auto [a, b] = problem.graph.ends[e];
+      const auto [a, b] = problem.graph.ends(e);
       const auto [lower, upper] = std::minmax(unknowns.of[a], unknowns.of[b]);
       ends[e] = {lower, upper};
     }

@@ -33,7 +33,7 @@ void hold_sides(const Surface& surface, const CutMesh& cut, const Tile& tile, Sp
     const std::vector<double> at = arc_fractions(side, surface, cut.source_vertex, spread);
     for (std::size_t k = 1; k + 1 < side.size(); ++k) {
       boundary.basis_of[side[k]] = held_in_place;
-      boundary.held.row(side[k]) = tile.space().retract(tile.sides[s].point(at[k] * tile.sides[s].length));
+      boundary.held[side[k]] = tile.space().retract(tile.sides[s].point(at[k] * tile.sides[s].length));
     }
   }
 }

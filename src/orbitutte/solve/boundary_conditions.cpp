@@ -40,7 +40,7 @@ void hold_corners(const Tile& tile, int input_vertices, BoundaryConditions& cond
     const int corner = conditions.sides[k].front();
     if (corner >= input_vertices || tile.sides[k].slides) continue;  // copies go where their source goes
     conditions.basis_of[corner] = held_in_place;
-    conditions.held.row(corner) = tile.sides[k].start;
+    conditions.held[corner] = tile.sides[k].start;
   }
 }
 
@@ -87,7 +87,7 @@ void hold_unreferenced(const CutMesh& cut, BoundaryConditions& conditions) {
   for (std::size_t v = 0; v < used.size(); ++v) {
     if (used[v]) continue;
     conditions.basis_of[v] = held_in_place;
-    conditions.held.row(static_cast<Eigen::Index>(v)) = Vector3::UnitZ();
+    conditions.held[static_cast<int>(v)] = Vector3::UnitZ();
   }
 }
 
@@ -131,7 +131,7 @@ int index_among(std::vector<Isometry>& distinct, const Isometry& isometry) {
 
 Vector3 BoundaryConditions::feasible(int vertex, Vector3 p) const {
   const int b = basis_of[vertex];
-  if (b == held_in_place) return held.row(vertex);
+  if (b == held_in_place) return held_at(vertex);
   if (b != in_space) p += mirrors[b] * p;  // twice the middle between a point and its mirror image
   return space.retract(p);
 }
@@ -164,7 +164,6 @@ BoundaryConditions glue(const CutMesh& cut, const Tile& tile, const Target& targ
   conditions.bases = {tile.space().room(), Room(3, 0)};
   conditions.mirrors = {Isometry(), Isometry()};
   conditions.basis_of.assign(input_vertices, in_space);
-  conditions.held = Points::Zero(input_vertices, 3);
   hold_corners(tile, input_vertices, conditions);
   spread_transforms(conditions.seams, input_vertices, conditions);
   keep_on_mirrors(input_vertices, conditions);

@@ -2,6 +2,7 @@
 // The gluing of the cut mesh's boundary (equations (3), (4) and (7)), as one unknown per input vertex.
 #pragma once
 
+#include <unordered_map>
 #include <vector>
 
 #include "orbitutte/cut/cut.h"
@@ -32,11 +33,18 @@ struct BoundaryConditions {
   std::vector<Isometry> mirrors;
   /// n: an index into bases.
   std::vector<int> basis_of;
-  /// n x 3: where the vertices of basis 1 are held; zero elsewhere.
-  Points held;
+  /// Where the vertices of basis 1 are held.
+  std::unordered_map<int, Vector3> held;
 
   const Isometry& transform(int cut_vertex) const { return transforms[transform_of[cut_vertex]]; }
   const Room& basis(int vertex) const { return bases[basis_of[vertex]]; }
+  int vertex_count() const { return static_cast<int>(basis_of.size()); }
+
+  /// Where a vertex is held; zero if it is not.
+  Vector3 held_at(int vertex) const {
+    const auto at = held.find(vertex);
+    return at == held.end() ? Vector3(Vector3::Zero()) : at->second;
+  }
 
   /// The point nearest to p that the conditions allow for an input vertex: where it is held, on its mirror,
   /// in the space.

@@ -13,7 +13,7 @@ struct System {
 // Of the nodes, those in place in the order of the vertices.
 System disk_system(const LaplacianProblem& problem, Backend backend) {
   const DiskGraph& graph = problem.graph;
-  const Neighbors near = vertex_neighbors(graph.ends, graph.node_count());
+  const Neighbors near = vertex_neighbors(ends(graph), graph.node_count());
   std::vector<int> order = problem.dissection.order, count(graph.node_count());
   for (int node = static_cast<int>(order.size()); node < graph.node_count(); ++node) order.push_back(node);
   for (int node = 0; node < graph.node_count(); ++node)

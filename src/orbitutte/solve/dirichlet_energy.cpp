@@ -27,7 +27,8 @@ GluedEdges glued_edges(const CutMesh& cut, const Connectivity& connectivity,
   result.edges.resize(connectivity.edges.size());
   std::unordered_map<long long, int> known;  // by the transforms of both ends
   for (int h = static_cast<int>(cut.F.size()) - 1; h >= 0; --h) {
-    const int a = halfedge_origin(cut.F, h), b = halfedge_target(cut.F, h), e = cut.edge_of[h];
+    const int a = halfedge_origin(cut.F, h), b = halfedge_target(cut.F, h),
+              e = connectivity.edge_of[cut.source_halfedge(h)];
     if (e < 0) continue;  // a diagonal
     int t = 0;
     if (const int ta = boundary.transform_of[a], tb = boundary.transform_of[b]; ta != tb) {

@@ -18,6 +18,15 @@ std::vector<char> given_vertices(const CutMesh& cut, const BoundaryConditions& b
   return given;
 }
 
+template <typename Ends>
+std::vector<std::array<int, 2>> ends_by(int count, const Ends& ends_of) {
+  std::vector<std::array<int, 2>> result(count);
+  parallel_ranges(count, [&](int begin, int end) {
+    for (int e = begin; e < end; ++e) result[e] = ends_of(e);
+  });
+  return result;
+}
+
 // The edges whose gluing is not the identity.
 std::vector<int> edges_across(const GluedEdges& glued) {
   return parallel_select(static_cast<int>(glued.edges.size()), [&](int e) { return glued.edges[e].t != 0; });
@@ -91,32 +100,34 @@ std::vector<int> bank_nodes(const CutMesh& cut, const BoundaryConditions& bounda
 }  // namespace
 
 std::vector<std::array<int, 2>> ends(const GluedEdges& glued) {
-  std::vector<std::array<int, 2>> result(glued.edges.size());
-  parallel_ranges(static_cast<int>(result.size()), [&](int begin, int end) {
-    for (int e = begin; e < end; ++e) result[e] = {glued.edges[e].i, glued.edges[e].j};
+  return ends_by(static_cast<int>(glued.edges.size()), [&](int e) {
+    return std::array{glued.edges[e].i, glued.edges[e].j};
   });
-  return result;
+}
+
+std::vector<std::array<int, 2>> ends(const DiskGraph& graph) {
+  return ends_by(graph.edge_count(), [&](int e) { return graph.ends(e); });
 }
 
 DiskGraph disk_graph(const CutMesh& cut, const GluedEdges& glued, const BoundaryConditions& boundary) {
-  DiskGraph graph;
+  DiskGraph graph(glued);
   graph.given = given_vertices(cut, boundary);
-  const std::vector<int> across = edges_across(glued);
-  graph.inside = vertices_inside(glued, across, graph.given);
+  graph.across = edges_across(glued);
+  graph.inside = vertices_inside(glued, graph.across, graph.given);
   put_on_banks_around_held(glued, boundary, graph.inside);
-  graph.transforms = glued.transforms;
   std::vector<int> inverse;
   for (const Isometry& transform : glued.transforms)
     inverse.push_back(index_among(graph.transforms, transform.inverse()));
   graph.vertex.resize(graph.inside.size());
   std::iota(graph.vertex.begin(), graph.vertex.end(), 0);
   graph.transform_of.assign(graph.inside.size(), 0);
-  graph.ends = ends(glued);
   Nodes nodes(graph);
-  for (const int e : across) {
+  graph.ends_across.reserve(graph.across.size());
+  for (const int e : graph.across) {
     const auto& [i, j, t] = glued.edges[e];
-    graph.ends[e] = graph.inside[i] || graph.given[j] ? std::array{i, nodes.image(j, t)}
-                                                      : std::array{nodes.image(i, inverse[t]), j};
+    graph.ends_across.push_back(graph.inside[i] || graph.given[j]
+                                    ? std::array{i, nodes.image(j, t)}
+                                    : std::array{nodes.image(i, inverse[t]), j});
   }
   graph.banks = bank_nodes(cut, boundary, graph);
   return graph;

@@ -2,6 +2,7 @@
 // The glued edges laid out in the cut disk, as both linear systems see them. Private to solve/.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -14,14 +15,17 @@ namespace orbitutte {
 /// where an edge crosses the cut between two others. Neighbours of cones are added, too. So the vertices
 /// inside are nodes once, in place, and their three coordinates do not couple.
 struct DiskGraph {
+  /// The glued edges, which must outlive the graph.
+  const std::vector<GluedEdge>& edges;
   /// Of every node; the first n nodes are the vertices in place.
   std::vector<int> vertex;
   /// Of every node: an index into transforms.
   std::vector<int> transform_of;
   /// Distinct; the first is the identity.
   std::vector<Isometry> transforms;
-  /// Of every glued edge: the nodes of one of its images.
-  std::vector<std::array<int, 2>> ends;
+  /// The edges whose gluing is not the identity, ascending, and for each the nodes of one of its images.
+  std::vector<int> across;
+  std::vector<std::array<int, 2>> ends_across;
   /// The nodes of bank vertices that may move, vertex by vertex.
   std::vector<int> banks;
   /// n: does the vertex move, on no bank?
@@ -29,7 +33,17 @@ struct DiskGraph {
   /// n: is the vertex on the boundary of the cut, or held?
   std::vector<char> given;
 
+  explicit DiskGraph(const GluedEdges& glued) : edges(glued.edges), transforms(glued.transforms) {}
+
   int node_count() const { return static_cast<int>(vertex.size()); }
+  int edge_count() const { return static_cast<int>(edges.size()); }
+
+  /// The nodes of one of the edge's images.
+  std::array<int, 2> ends(int edge) const {
+    const auto& [i, j, t] = edges[edge];
+    if (t == 0) return {i, j};
+    return ends_across[std::lower_bound(across.begin(), across.end(), edge) - across.begin()];
+  }
   const Isometry& transform(int node) const { return transforms[transform_of[node]]; }
 
   /// Is the node's place in the start unknown: inside, or on a bank that the cut's boundary does not name?
@@ -38,6 +52,9 @@ struct DiskGraph {
 
 /// The two vertices of every edge.
 std::vector<std::array<int, 2>> ends(const GluedEdges& glued);
+
+/// The two nodes of one image of every edge.
+std::vector<std::array<int, 2>> ends(const DiskGraph& graph);
 
 DiskGraph disk_graph(const CutMesh& cut, const GluedEdges& glued, const BoundaryConditions& boundary);
 

@@ -18,8 +18,7 @@ Points boundary_on_arcs(const Surface& surface, const CutMesh& cut, const Tile& 
     for (std::size_t k = 0; k + 1 < side.size(); ++k)
       result.row(side[k]) = tile.sides[s].point(at[k] * tile.sides[s].length);
   }
-  for (Eigen::Index v = 0; v < boundary.held.rows(); ++v)
-    if (boundary.basis_of[v] == held_in_place) result.row(v) = boundary.held.row(v);
+  for (const auto& [v, point] : boundary.held) result.row(v) = point;
   return result;
 }
 
@@ -29,10 +28,10 @@ Points initial_embedding(const Surface& surface, const CutMesh& cut, const Tile&
                          const BoundaryConditions& boundary, const LaplacianSolver& laplacian) {
   const Space space = tile.space();
   const Isometry to_origin = space.to_origin(tile.centroid());
-  const Eigen::Index n = boundary.held.rows();
+  const int n = boundary.vertex_count();
   const Points on_arcs = boundary_on_arcs(surface, cut, tile, boundary).topRows(n);
   Points result = to_origin.on_rows(laplacian.extend_harmonically(on_arcs));
-  parallel_ranges(static_cast<int>(n), [&](int begin, int end) {
+  parallel_ranges(n, [&](int begin, int end) {
     for (int v = begin; v < end; ++v) result.row(v) = space.lift(result(v, 0), result(v, 1));
   });
   result = to_origin.inverse().on_rows(result);

@@ -27,9 +27,8 @@ LaplacianSolver::LaplacianSolver(const CutMesh& cut, const GluedEdges& glued, co
       graph_(std::make_unique<DiskGraph>(disk_graph(cut, glued, boundary))) {
   const std::size_t n = boundary.basis_of.size();
   const std::shared_ptr<LaplacianReuse> reuse = setup.reuse ? setup.reuse : reusable_laplacians(Kept::order);
-  const std::vector<std::array<int, 2>> edges = ends(glued);
-  if (!reuse->dissection) order_ahead(*reuse, edges, static_cast<int>(n));
-  const Dissection dissection = adapted(*reuse->dissection, edges);
+  if (!reuse->dissection) order_ahead(*reuse, ends(glued), static_cast<int>(n));
+  const Dissection dissection = adapted(*reuse->dissection, ends(glued));
   const LaplacianProblem problem = {*graph_, glued, w_, boundary, dissection};
   systems_ = banks_are_short(cut, n) ? banked_systems(problem, setup.options, *reuse)
                                      : coupled_systems(problem, setup.options.backend);
@@ -43,7 +42,7 @@ std::shared_ptr<LaplacianReuse> reusable_laplacians(Kept kept) {
 
 void order_ahead(LaplacianReuse& reuse, const std::vector<std::array<int, 2>>& edges, int vertex_count) {
   if (reuse.dissection && reuse.edges == edges) return;
-  reuse.edges = edges;
+  if (reuse.kept == Kept::factors) reuse.edges = edges;
   reuse.dissection = std::make_shared<Dissection>(dissect(vertex_neighbors(edges, vertex_count)));
 }
 
@@ -58,11 +57,12 @@ Points LaplacianSolver::extend_harmonically(const Points& positions) const {
     const Vector3 image = graph.transform(other) * positions.row(graph.vertex[other]).transpose();
     pull.row(node) += w * image.transpose();
   };
-  const std::vector<int> pulling = parallel_select(static_cast<int>(graph.ends.size()), [&](int e) {
-    return graph.unknown_at_start(graph.ends[e][0]) != graph.unknown_at_start(graph.ends[e][1]);
+  const std::vector<int> pulling = parallel_select(graph.edge_count(), [&](int e) {
+    const auto [a, b] = graph.ends(e);
+    return graph.unknown_at_start(a) != graph.unknown_at_start(b);
   });
   for (const int e : pulling) {
-    const auto [a, b] = graph.ends[e];
+    const auto [a, b] = graph.ends(e);
     if (graph.unknown_at_start(a))
       pull_at(a, b, w_[e]);
     else

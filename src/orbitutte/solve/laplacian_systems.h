@@ -18,7 +18,8 @@ class Substructure;
 class LaplacianReuse {
  public:
   Kept kept = Kept::order;
-  /// Of the graph that was dissected, from which that of a solver may differ in a few edges.
+  /// Of the graph that was dissected, from which that of a solver may differ in a few edges; none if only
+  /// the order is kept, which is then found anew when it is asked for ahead.
   std::vector<std::array<int, 2>> edges;
   /// null: none was.
   std::shared_ptr<const Dissection> dissection;

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <deque>
+#include <utility>
 
 #include "orbitutte/parallel.h"
 
@@ -268,15 +269,16 @@ void check(const LbfgsOptions& options) {
 
 }  // namespace
 
-Minimum minimize(const DirichletEnergy& energy, const Preconditioner& preconditioner, const Points& start,
+Minimum minimize(const DirichletEnergy& energy, const Preconditioner& preconditioner, Points start,
                  const LbfgsOptions& options) {
   check(options);
   Minimum result;
-  State state = {start, energy.evaluate(start)}, next;
+  State state = {std::move(start), {}}, next;
+  energy.evaluate(state.x, state.value);
   result.evaluations = 1;
   Points preconditioned = preconditioner.precondition(state.value.gradient);
   InverseHessian inverse_hessian(options.memory);
-  const LineSearch line_search(energy, energy_rounding_at(start), result.evaluations);
+  const LineSearch line_search(energy, energy_rounding_at(state.x), result.evaluations);
   double last_step = 0;
 
   const auto record = [&] {
@@ -311,6 +313,7 @@ Minimum minimize(const DirichletEnergy& energy, const Preconditioner& preconditi
       inverse_hessian.forget();  // once more, along the preconditioned gradient alone
       continue;
     }
+    direction.resize(0, 3);  // makes room for the solve
     ++result.iterations;
     last_step = max_difference(next.x, state.x);
     Points next_preconditioned = preconditioner.precondition(next.value.gradient);

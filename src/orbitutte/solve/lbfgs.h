@@ -26,7 +26,7 @@ struct LbfgsOptions {
 };
 
 /// Minimises E from points of its space. Throws ArgumentError for options out of range, and Cancelled.
-Minimum minimize(const DirichletEnergy& energy, const Preconditioner& preconditioner, const Points& start,
+Minimum minimize(const DirichletEnergy& energy, const Preconditioner& preconditioner, Points start,
                  const LbfgsOptions& options = {});
 
 }  // namespace orbitutte

@@ -22,7 +22,7 @@ PreciseGroup<Real> group_of(const Gluing& gluing, const Target& target) {
   const BoundaryConditions& boundary = gluing.boundary;
   const auto position = [&](int v) {
     const int source = cut.source_vertex[v];
-    return to_precise<Real>(boundary.transform(v) * Vector3(boundary.held.row(source)));
+    return to_precise<Real>(boundary.transform(v) * boundary.held_at(source));
   };
   return group_of_boundary<Real>(target,
                                  {cut.boundary, cut.source_vertex, boundary.seams, boundary.cones, position});
@@ -163,7 +163,7 @@ template <typename Real>
 typename PrecisePositions<Real>::Vector PrecisePositions<Real>::feasible(int v, Vector p) const {
   const BoundaryConditions& boundary = gluing().boundary;
   const int basis = boundary.basis_of[v];
-  if (basis == held_in_place) return group_.held_point(boundary.held.row(v).transpose());
+  if (basis == held_in_place) return group_.held_point(boundary.held_at(v));
   if (basis != in_space) p += Vector(mirrors_[basis] * p);
   return group_.retract(p);
 }

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "orbitutte/mesh/intrinsic_triangulation.h"
 #include "orbitutte/orbifold/free_tile.h"
@@ -22,7 +23,7 @@ namespace {
 void require_apart(const GluedEdges& glued, const BoundaryConditions& boundary, const Target& target) {
   for (const auto& [i, j, t] : glued.edges) {
     if (boundary.basis(i).cols() > 0 || boundary.basis(j).cols() > 0) continue;
-    const Vector3 p = boundary.held.row(i), q = glued.transforms[t] * boundary.held.row(j).transpose();
+    const Vector3 p = boundary.held_at(i), q = glued.transforms[t] * boundary.held_at(j);
     if ((p + q).norm() < 1e-9)
       throw MeshError(
           fmt::format("the marked vertices {} and {} are joined by an edge, but {} puts them at opposite "
@@ -185,7 +186,7 @@ Placement place(const GluingProblem& problem, const LbfgsOptions& options, Stage
     const DirichletEnergy energy =          // (2)
         is_free ? energy_along(problem, placed.boundary)
                 : DirichletEnergy(glued, problem.weights, placed.boundary);
-    return minimize(energy, laplacian, placed.minimum.positions, lbfgs);
+    return minimize(energy, laplacian, std::move(placed.minimum.positions), lbfgs);
   });
   fix_poles(problem, placed);
   fix_rotation(problem, placed);

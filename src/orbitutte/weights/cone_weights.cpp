@@ -59,11 +59,7 @@ bool joins_any(const IntrinsicTriangulation& T, const std::vector<std::array<int
 
 }  // namespace
 
-EdgeWeights sharpened_at_cones(const EdgeWeights& weights, const std::vector<ConeAngle>& cones,
-                               const std::vector<std::array<int, 2>>& apart) {
-  if (!weights.triangulation) return weights;
-  IntrinsicTriangulation T = *weights.triangulation;
-  T.kept_apart = apart;
+IntrinsicTriangulation flattened_at_cones(IntrinsicTriangulation T, const std::vector<ConeAngle>& cones) {
   const std::vector<std::vector<int>> halfedges = leaving(T, cones);
   std::vector<char> cones_of_face(T.F.rows(), 0);
   for (const std::vector<int>& of_cone : halfedges)
@@ -80,7 +76,22 @@ EdgeWeights sharpened_at_cones(const EdgeWeights& weights, const std::vector<Con
     }
   }
   make_delaunay(T, changed);
-  return intrinsic_weights(std::move(T), weights.clamp);
+  return T;
+}
+
+EdgeWeights sharpened_at_cones(const EdgeWeights& weights, const std::vector<ConeAngle>& cones,
+                               const std::vector<std::array<int, 2>>& apart) {
+  if (!weights.triangulation) return weights;
+  IntrinsicTriangulation T = *weights.triangulation;
+  T.kept_apart = apart;
+  return intrinsic_weights(flattened_at_cones(std::move(T), cones), weights.clamp);
+}
+
+IntrinsicTriangulation kept_apart(IntrinsicTriangulation T, const Surface& surface,
+                                  const UnflippedEdges& unflipped) {
+  if (joins_any(T, unflipped.kept_apart)) T = delaunay_triangulation(surface, unflipped);
+  T.kept_apart = unflipped.kept_apart;
+  return T;
 }
 
 EdgeWeights kept_apart(const EdgeWeights& weights, const Surface& surface, const WeightOptions& options,

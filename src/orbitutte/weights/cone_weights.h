@@ -16,8 +16,7 @@ struct ConeAngle {
   double angle = 0;
 };
 
-/// Weights of an intrinsic Delaunay triangulation in a metric that is flat at the cones; weights of other
-/// kinds are returned unchanged.
+/// An intrinsic Delaunay triangulation in a metric that is flat at the cones.
 ///
 /// The Dirichlet energy is conformally invariant, so cotangents may be taken from any metric that is
 /// conformal to the surface's. If the angles at a cone add up to T on the mesh and to S in the image, this is
@@ -27,9 +26,18 @@ struct ConeAngle {
 /// is the length of an edge: on a mesh of 270,000 triangles it causes most of the mean angle distortion.
 ///
 /// A face with two cones stays as it is. Flips make the triangulation Delaunay in the new metric, but join no
-/// two vertices of `apart`.
+/// two vertices of `kept_apart`.
+IntrinsicTriangulation flattened_at_cones(IntrinsicTriangulation T, const std::vector<ConeAngle>& cones);
+
+/// intrinsic_weights of the triangulation that flattened_at_cones makes of that of `weights`, where it joins
+/// no two vertices of `apart`; weights of other kinds are returned unchanged.
 EdgeWeights sharpened_at_cones(const EdgeWeights& weights, const std::vector<ConeAngle>& cones,
                                const std::vector<std::array<int, 2>>& apart = {});
+
+/// delaunay_triangulation(surface, unflipped), if T, which was found without unflipped.kept_apart, joins such
+/// a pair; otherwise T, whose later flips join none.
+IntrinsicTriangulation kept_apart(IntrinsicTriangulation T, const Surface& surface,
+                                  const UnflippedEdges& unflipped);
 
 /// edge_weights(surface, options, unflipped), if the triangulation of `weights`, which were found without
 /// unflipped.kept_apart, joins such a pair; otherwise these. A map puts the pairs at opposite points of the

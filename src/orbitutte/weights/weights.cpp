@@ -73,16 +73,33 @@ EdgeWeights cotangent_weights(const Surface& surface, double clamp) {
   return result;
 }
 
+void require_positive(double clamp) {
+  if (!(clamp > 0) || !std::isfinite(clamp))
+    throw ArgumentError(fmt::format("the clamp of the weights is {}; it must be positive and finite", clamp));
+}
+
+// The triangulation of the result is null.
+EdgeWeights weights_of_triangulation(const IntrinsicTriangulation& triangulation, double clamp) {
+  EdgeWeights result;
+  result.kind = WeightKind::delaunay;
+  result.clamp = clamp;
+  result.w = summed_over_sides(triangulation.connectivity, triangulation.half_cotangent);
+  const std::vector<int> tiny = parallel_select(static_cast<int>(result.w.size()),
+                                                [&](int e) { return result.w[e] < concyclic_weight; });
+  for (const int e : tiny) {
+    double& w = result.w[e];
+    const bool is_negative = w < -concyclic_weight;
+    if (is_negative) ++result.clamped_edges;
+    w = is_negative ? std::max(clamp, concyclic_weight) : concyclic_weight;
+  }
+  return result;
+}
+
 EdgeWeights delaunay_weights(const Surface& surface, double clamp, const UnflippedEdges& unflipped) {
-  for (const int f : unflipped.kept_faces)
-    if (f < 0 || f >= surface.triangle_count())
-      throw MeshError(fmt::format("there is no face {} to keep; the mesh has the faces 0 to {}", f,
-                                  surface.triangle_count() - 1));
-  IntrinsicTriangulation triangulation = intrinsic_triangulation(surface);
-  triangulation.kept_faces = unflipped.kept_faces;
-  triangulation.kept_apart = unflipped.kept_apart;
-  make_delaunay(triangulation);
-  return intrinsic_weights(std::move(triangulation), clamp);
+  IntrinsicTriangulation triangulation = delaunay_triangulation(surface, unflipped);
+  EdgeWeights result = weights_of_triangulation(triangulation, clamp);
+  result.triangulation = std::make_shared<IntrinsicTriangulation>(std::move(triangulation));
+  return result;
 }
 
 // For every vertex, half the mean length of its edges.
@@ -181,19 +198,23 @@ class WeightCollector {
 
 }  // namespace
 
+IntrinsicTriangulation delaunay_triangulation(const Surface& surface, const UnflippedEdges& unflipped) {
+  for (const int f : unflipped.kept_faces)
+    if (f < 0 || f >= surface.triangle_count())
+      throw MeshError(fmt::format("there is no face {} to keep; the mesh has the faces 0 to {}", f,
+                                  surface.triangle_count() - 1));
+  IntrinsicTriangulation triangulation = intrinsic_triangulation(surface);
+  triangulation.kept_faces = unflipped.kept_faces;
+  triangulation.kept_apart = unflipped.kept_apart;
+  make_delaunay(triangulation);
+  return triangulation;
+}
+
 EdgeWeights intrinsic_weights(IntrinsicTriangulation triangulation, double clamp) {
-  EdgeWeights result;
-  result.kind = WeightKind::delaunay;
-  result.clamp = clamp;
-  result.w = summed_over_sides(triangulation.connectivity, triangulation.half_cotangent);
-  const std::vector<int> tiny = parallel_select(static_cast<int>(result.w.size()),
-                                                [&](int e) { return result.w[e] < concyclic_weight; });
-  for (const int e : tiny) {
-    double& w = result.w[e];
-    const bool is_negative = w < -concyclic_weight;
-    if (is_negative) ++result.clamped_edges;
-    w = is_negative ? std::max(clamp, concyclic_weight) : concyclic_weight;
-  }
+  require_positive(clamp);
+  EdgeWeights result = weights_of_triangulation(triangulation, clamp);
+  triangulation.length = std::vector<double>();
+  triangulation.half_cotangent = std::vector<double>();
   result.triangulation = std::make_shared<IntrinsicTriangulation>(std::move(triangulation));
   return result;
 }
@@ -211,9 +232,7 @@ WeightKind weight_kind(const Surface& surface, WeightKind asked) {
 
 EdgeWeights edge_weights(const Surface& surface, const WeightOptions& options,
                          const UnflippedEdges& unflipped) {
-  if (!(options.clamp > 0) || !std::isfinite(options.clamp))
-    throw ArgumentError(
-        fmt::format("the clamp of the weights is {}; it must be positive and finite", options.clamp));
+  require_positive(options.clamp);
   if (options.kind == WeightKind::file && options.given.empty())
     throw ArgumentError("the kind of the weights is 'file'; call read_weights to read them");
   if (options.kind == WeightKind::file) return given_weights(options.given, surface.connectivity);

@@ -50,7 +50,13 @@ WeightKind weight_kind(const Surface& surface, WeightKind asked);
 EdgeWeights edge_weights(const Surface& surface, const WeightOptions& options,
                          const UnflippedEdges& unflipped = {});
 
-/// Cotangent weights of an intrinsic triangulation: see WeightKind::delaunay.
+/// The intrinsic Delaunay triangulation that has the weights of kind `delaunay`; all faces of the surface are
+/// triangles. Throws as edge_weights does.
+IntrinsicTriangulation delaunay_triangulation(const Surface& surface, const UnflippedEdges& unflipped = {});
+
+/// Cotangent weights of an intrinsic triangulation: see WeightKind::delaunay. Its lengths and angles, half of
+/// its memory, are not kept: the result cannot be sharpened at cones. Throws ArgumentError if the clamp is
+/// not positive and finite.
 EdgeWeights intrinsic_weights(IntrinsicTriangulation triangulation, double clamp);
 
 /// Weights from a list that has each undirected edge of the mesh once, in any order. Throws MeshError naming
