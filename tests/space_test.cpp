@@ -15,6 +15,7 @@
 #include "hand_made.h"
 #include "orbitutte/geometry/fitted_rotation.h"
 #include "orbitutte/geometry/morton.h"
+#include "orbitutte/geometry/near_distance.h"
 #include "orbitutte/geometry/orientation.h"
 #include "orbitutte/geometry/precise_distance.h"
 #include "test_meshes.h"
@@ -468,6 +469,28 @@ void expect_series_agrees() {
   }
   EXPECT_EQ(Curvature<k>::distance(p, p).squared, 0);
   EXPECT_EQ(Curvature<k>::distance(p, p).over_sn, 1);
+}
+
+template <int k>
+void expect_near_series_agrees() {
+  const Space space = k > 0 ? Space::sphere() : k == 0 ? Space::plane() : Space::hyperbolic_plane();
+  const Vector3 p = space.polar(0.3, 1), u = unit_tangent(space, p, 0.7);
+  const double farthest = 0.99 * std::sqrt(NearDistance<k>::farthest);
+  for (double d = farthest; d > 1e-9; d *= 0.93) {
+    const Vector3 q = space.at(p, u, d);
+    const double squared_chord = Curvature<k>::dot(q - p, q - p);
+    ASSERT_LT(squared_chord, NearDistance<k>::farthest);
+    const DistanceFactors found = NearDistance<k>::factors(squared_chord);
+    const Reference expected = reference(k, p, q);
+    EXPECT_NEAR(found[0], static_cast<double>(expected.over_sn), 1e-15) << d;
+    EXPECT_NEAR(static_cast<double>(found[1] * squared_chord / expected.squared), 1, 2e-15) << d;
+  }
+}
+
+TEST(DistanceSeries, OfNearPointsAgreesWithTheFormulas) {
+  expect_near_series_agrees<1>();
+  expect_near_series_agrees<0>();
+  expect_near_series_agrees<-1>();
 }
 
 TEST(DistanceSeries, AgreesWithTheFormulasAtAllScales) {
