@@ -18,6 +18,7 @@
 #include "orbitutte/geometry/near_distance.h"
 #include "orbitutte/geometry/orientation.h"
 #include "orbitutte/geometry/precise_distance.h"
+#include "orbitutte/geometry/stereographic_chart.h"
 #include "test_meshes.h"
 
 namespace orbitutte::space_test {
@@ -469,6 +470,25 @@ void expect_series_agrees() {
   }
   EXPECT_EQ(Curvature<k>::distance(p, p).squared, 0);
   EXPECT_EQ(Curvature<k>::distance(p, p).over_sn, 1);
+}
+
+TEST(StereographicChart, PicturesPointsAndTangentVectors) {
+  for (const Space space : {Space::sphere(), Space::plane(), Space::hyperbolic_plane()}) {
+    const Vector3 centre = space.polar(0.4, 2);
+    const StereographicChart chart(space, centre);
+    EXPECT_LT(chart.flat(centre).norm(), 1e-15);
+    for (int i = 0; i < 20; ++i) {
+      const Vector3 p = space.polar(0.07 * i, 0.6 * i), flat = chart.flat(p), v(0.3, -0.4, 0);
+      EXPECT_LT((chart.point(flat) - p).norm(), 1e-13);
+      constexpr double step = 1e-5;
+      const Vector3 difference = (chart.point(flat + step * v) - chart.point(flat - step * v)) / (2 * step);
+      EXPECT_LT((chart.tangent(flat, v) - difference).norm(), 1e-8);
+      // Conformal: the same factor in all directions.
+      const double along = space.norm(chart.tangent(flat, v)),
+                   across = space.norm(chart.tangent(flat, Vector3(0.4, 0.3, 0)));
+      EXPECT_NEAR(along / across, 1, 1e-12);
+    }
+  }
 }
 
 template <int k>
