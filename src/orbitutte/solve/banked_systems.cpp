@@ -193,12 +193,16 @@ class BankedSystems : public LaplacianSystems {
     return y;
   }
 
-  // The unknowns, each at its node, those of the first `count` nodes.
+  // The unknowns, each at its node, those of the first `count` nodes; zero where held.
   Points of_all_nodes(const SinglePoints& y, Eigen::Index count) const {
-    Points result = Points::Zero(count, 3);
-    parallel_ranges(disk_.count(), [&](int begin, int end) {
-      for (int k = begin; k < end; ++k)
-        if (disk_.node[k] < count) result.row(disk_.node[k]) = y.row(k).cast<double>();
+    Points result(count, 3);
+    parallel_ranges(static_cast<int>(count), [&](int begin, int end) {
+      for (int node = begin; node < end; ++node) {
+        if (const int k = disk_.of[node]; k >= 0)
+          result.row(node) = y.row(k).cast<double>();
+        else
+          result.row(node).setZero();
+      }
     });
     return result;
   }
@@ -304,7 +308,8 @@ class BankedSystems : public LaplacianSystems {
   // part of S is factorised once more, without gluing.
   void factorize_start() {
     const Eigen::MatrixXd& S = factor_->schur_complement();
-    response_ = S.cast<float>();
+    const Eigen::MatrixXf lower = S.cast<float>();
+    response_ = lower.selfadjointView<Eigen::Lower>();
     for (int k = 0; k < disk_.banks(); ++k)
       if (graph_.unknown_at_start(disk_.bank(k)) && S(k, k) != 0) open_banks_.push_back(k);
     if (open_banks_.empty()) return;
