@@ -15,8 +15,10 @@
 #include "hand_made.h"
 #include "orbitutte/geometry/fitted_rotation.h"
 #include "orbitutte/geometry/morton.h"
+#include "orbitutte/geometry/near_distance.h"
 #include "orbitutte/geometry/orientation.h"
 #include "orbitutte/geometry/precise_distance.h"
+#include "orbitutte/geometry/stereographic_chart.h"
 #include "test_meshes.h"
 
 namespace orbitutte::space_test {
@@ -468,6 +470,47 @@ void expect_series_agrees() {
   }
   EXPECT_EQ(Curvature<k>::distance(p, p).squared, 0);
   EXPECT_EQ(Curvature<k>::distance(p, p).over_sn, 1);
+}
+
+TEST(StereographicChart, PicturesPointsAndTangentVectors) {
+  for (const Space space : {Space::sphere(), Space::plane(), Space::hyperbolic_plane()}) {
+    const Vector3 centre = space.polar(0.4, 2);
+    const StereographicChart chart(space, centre);
+    EXPECT_LT(chart.flat(centre).norm(), 1e-15);
+    for (int i = 0; i < 20; ++i) {
+      const Vector3 p = space.polar(0.07 * i, 0.6 * i), flat = chart.flat(p), v(0.3, -0.4, 0);
+      EXPECT_LT((chart.point(flat) - p).norm(), 1e-13);
+      constexpr double step = 1e-5;
+      const Vector3 difference = (chart.point(flat + step * v) - chart.point(flat - step * v)) / (2 * step);
+      EXPECT_LT((chart.tangent(flat, v) - difference).norm(), 1e-8);
+      // Conformal: the same factor in all directions.
+      const double along = space.norm(chart.tangent(flat, v)),
+                   across = space.norm(chart.tangent(flat, Vector3(0.4, 0.3, 0)));
+      EXPECT_NEAR(along / across, 1, 1e-12);
+    }
+  }
+}
+
+template <int k>
+void expect_near_series_agrees() {
+  const Space space = k > 0 ? Space::sphere() : k == 0 ? Space::plane() : Space::hyperbolic_plane();
+  const Vector3 p = space.polar(0.3, 1), u = unit_tangent(space, p, 0.7);
+  const double farthest = 0.99 * std::sqrt(NearDistance<k>::farthest);
+  for (double d = farthest; d > 1e-9; d *= 0.93) {
+    const Vector3 q = space.at(p, u, d);
+    const double squared_chord = Curvature<k>::dot(q - p, q - p);
+    ASSERT_LT(squared_chord, NearDistance<k>::farthest);
+    const DistanceFactors found = NearDistance<k>::factors(squared_chord);
+    const Reference expected = reference(k, p, q);
+    EXPECT_NEAR(found[0], static_cast<double>(expected.over_sn), 1e-15) << d;
+    EXPECT_NEAR(static_cast<double>(found[1] * squared_chord / expected.squared), 1, 2e-15) << d;
+  }
+}
+
+TEST(DistanceSeries, OfNearPointsAgreesWithTheFormulas) {
+  expect_near_series_agrees<1>();
+  expect_near_series_agrees<0>();
+  expect_near_series_agrees<-1>();
 }
 
 TEST(DistanceSeries, AgreesWithTheFormulasAtAllScales) {

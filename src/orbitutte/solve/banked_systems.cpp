@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <limits>
 
+#include "orbitutte/geometry/stereographic_chart.h"
 #include "orbitutte/linear/dense_factor.h"
 #include "orbitutte/linear/laplacian_matrix.h"
 #include "orbitutte/linear/substructure.h"
@@ -148,12 +150,26 @@ class BankedSystems : public LaplacianSystems {
     return of_all_nodes(y, f.rows());
   }
 
+  bool knows_banks() const override { return true; }
+
+  Points settle(const Points& f, const Points& positions, const StereographicChart& chart) const override {
+    SinglePoints y = of_inner_nodes(f);
+    factor_->forward(y);
+    for (int k = 0; k < disk_.banks(); ++k) y.row(disk_.inner + k) += f.row(disk_.bank(k)).cast<float>();
+    const SinglePoints pull = y.bottomRows(disk_.banks());
+    Points place = placed_banks(positions, pull, chart);
+    settle_banks(place, pull, chart);
+    y.bottomRows(disk_.banks()) = pictures(place, chart).cast<float>();
+    factor_->backward(y);
+    return of_all_nodes(y, positions.rows());
+  }
+
   // Eliminating the inner vertices leaves f_B - K_BI K_II^-1 f_I on the banks, before they are glued; and
   // once their positions x_B are known, those of the inner vertices follow.
   Points solve_glued(const Points& f) const override {
     SinglePoints y = of_inner_nodes(f);
     factor_->forward(y);
-    if (glued_.total > 0) solve_banks(f, y);
+    if (glued_.total > 0) solve_banks(on_glued(f), y.bottomRows(disk_.banks()));
     factor_->backward(y);
     return of_all_nodes(y, f.rows());
   }
@@ -169,12 +185,16 @@ class BankedSystems : public LaplacianSystems {
     return y;
   }
 
-  // The unknowns, each at its node, those of the first `count` nodes.
+  // The unknowns, each at its node, those of the first `count` nodes; zero where held.
   Points of_all_nodes(const SinglePoints& y, Eigen::Index count) const {
-    Points result = Points::Zero(count, 3);
-    parallel_ranges(disk_.count(), [&](int begin, int end) {
-      for (int k = begin; k < end; ++k)
-        if (disk_.node[k] < count) result.row(disk_.node[k]) = y.row(k).cast<double>();
+    Points result(count, 3);
+    parallel_ranges(static_cast<int>(count), [&](int begin, int end) {
+      for (int node = begin; node < end; ++node) {
+        if (const int k = disk_.of[node]; k >= 0)
+          result.row(node) = y.row(k).cast<double>();
+        else
+          result.row(node).setZero();
+      }
     });
     return result;
   }
@@ -303,6 +323,8 @@ class BankedSystems : public LaplacianSystems {
   // part of S is factorised once more, without gluing.
   template <typename Real>
   void factorize_start(const DenseMatrix<Real>& S) {
+    const Eigen::MatrixXf lower = S.template cast<float>();
+    response_ = lower.selfadjointView<Eigen::Lower>();
     open_banks_.clear();
     for (int k = 0; k < disk_.banks(); ++k)
       if (graph_.unknown_at_start(disk_.bank(k)) && S(k, k) != 0) open_banks_.push_back(k);
@@ -324,20 +346,92 @@ class BankedSystems : public LaplacianSystems {
       y.row(disk_.inner + open_banks_[k]) = open.row(k).cast<float>();
   }
 
-  // Replaces the right-hand sides of the bank nodes in y, before gluing, by their positions; f holds those
-  // of their vertices.
-  void solve_banks(const Points& f, SinglePoints& y) const {
+  // Where the bank nodes (rows) are if their vertices have these positions. Of those that the cut's boundary
+  // does not name, the one in place is where the others and `pull` want it.
+  Points placed_banks(Points positions, const SinglePoints& pull, const StereographicChart& chart) const {
+    Points place(disk_.banks(), 3);
+    const auto put = [&](int k) {
+      place.row(k) = graph_.transform(disk_.bank(k)) * positions.row(source(k)).transpose();
+    };
+    for (int k = 0; k < disk_.banks(); ++k) put(k);
+    if (open_banks_.empty()) return place;
+    Points flat = pictures(place, chart);
+    for (const int k : open_banks_) flat.row(k).setZero();
+    const Points rest = (pull - response_to(flat.cast<float>())).cast<double>();
+    const Points open = start_factor_.solve(Points(rest(open_banks_, Eigen::all)));
+    for (std::size_t k = 0; k < open_banks_.size(); ++k)
+      if (const int b = open_banks_[k]; disk_.bank(b) == source(b))
+        positions.row(source(b)) = chart.point(open.row(static_cast<Eigen::Index>(k)));
+    for (const int k : open_banks_) put(k);
+    return place;
+  }
+
+  // Moves the bank nodes, as long as steps shrink, to where the flow from both sides of a seam balances.
+  void settle_banks(Points& place, const SinglePoints& pull, const StereographicChart& chart) const {
+    constexpr int most_steps = 5;
+    constexpr double small_step = 1e-3;  // of the error that it leaves, the inside has as much
+    double last = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < most_steps && last > small_step; ++k) {
+      const Points step = balancing_step(place, pull, chart);
+      const double longest = step.rows() > 0 ? step.rowwise().norm().maxCoeff() : 0;
+      if (!(longest < 0.5 * last)) return;
+      move_points(boundary_.space, place, step, 1, place);
+      last = longest;
+    }
+  }
+
+  // The flow f_B - K_BI K_II^-1 f_I - S z at the banks, z their pictures, is conformally invariant: carried
+  // to the space, it is half of the energy's gradient where the map is conformal inside. The glued matrix
+  // makes steps of it, as the preconditioner does for the whole mesh.
+  Points balancing_step(const Points& place, const SinglePoints& pull,
+                        const StereographicChart& chart) const {
+    const Points flat = pictures(place, chart);
+    SinglePoints flow = pull - response_to(flat.cast<float>());
+    for (Eigen::Index k = 0; k < flow.rows(); ++k)
+      flow.row(k) = boundary_.space.metric()
+                        .cwiseProduct(chart.tangent(flat.row(k), flow.row(k).cast<double>()))
+                        .transpose()
+                        .cast<float>();
+    solve_banks(Eigen::VectorXf::Zero(glued_.total), flow);
+    return flow.cast<double>();
+  }
+
+  static Points pictures(const Points& place, const StereographicChart& chart) {
+    Points flat(place.rows(), 3);
+    for (Eigen::Index k = 0; k < flat.rows(); ++k) flat.row(k) = chart.flat(place.row(k));
+    return flat;
+  }
+
+  // S z.
+  SinglePoints response_to(const SinglePoints& z) const {
+    constexpr Eigen::Index length = 128;
+    SinglePoints result(z.rows(), 3);
+    parallel_for(static_cast<int>((z.rows() + length - 1) / length), [&](int part) {
+      const Eigen::Index begin = part * length, count = std::min(length, z.rows() - begin);
+      result.middleRows(begin, count).noalias() = response_.middleCols(begin, count).transpose() * z;
+    });
+    return result;
+  }
+
+  // Right-hand sides of the vertices on the banks.
+  Eigen::VectorXf on_glued(const Points& f) const {
     Eigen::VectorXf x(glued_.total);
     for (const int v : glued_.order)
       x.segment(glued_.first[v], glued_.count[v]) =
           (boundary_.basis(v).transpose() * f.row(v).transpose()).cast<float>();
+    return x;
+  }
+
+  // Replaces the right-hand sides at the bank nodes (rows), before gluing, by their positions; x holds those
+  // of their vertices.
+  void solve_banks(Eigen::VectorXf x, Eigen::Ref<SinglePoints> banks) const {
     for (int k = 0; k < disk_.banks(); ++k)
       x.segment(glued_.first[source(k)], glued_.count[source(k)]) +=
-          single_placement(k).transpose() * y.row(disk_.inner + k).transpose();
+          single_placement(k).transpose() * banks.row(k).transpose();
     glued_factor_.triangularView<Eigen::Lower>().solveInPlace(x);
     glued_factor_.transpose().triangularView<Eigen::Upper>().solveInPlace(x);
     for (int k = 0; k < disk_.banks(); ++k)
-      y.row(disk_.inner + k) =
+      banks.row(k) =
           (single_placement(k) * x.segment(glued_.first[source(k)], glued_.count[source(k)])).transpose();
   }
 
@@ -346,6 +440,7 @@ class BankedSystems : public LaplacianSystems {
   DiskUnknowns disk_;
   std::shared_ptr<const Substructure> factor_;
   Unknowns glued_;                            // of the vertices on the banks
+  Eigen::MatrixXf response_;                  // S in single precision, for the start
   Eigen::MatrixXf glued_factor_;              // the Cholesky factor of N'(S x I3)N
   std::vector<int> open_banks_;               // bank nodes that are unknown at the start
   Eigen::LLT<Eigen::MatrixXd> start_factor_;  // of their part of S

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "orbitutte/geometry/near_distance.h"
 #include "orbitutte/parallel.h"
 
 namespace orbitutte {
@@ -16,6 +17,14 @@ namespace {
 template <int k>
 Vector3 lowered(const Vector3& v) {
   return k < 0 ? Vector3(v.x(), v.y(), -v.z()) : v;
+}
+
+// Where the series of near points are not exact enough.
+template <int k>
+DistanceFactors far_factors(const Vector3& p, const double* q) {
+  const Vector3 there(q[0], q[1], q[2]), away = there - p;
+  const auto d = Curvature<k>::distance(p, there);
+  return {d.over_sn, d.squared / Curvature<k>::dot(away, away)};
 }
 
 }  // namespace
@@ -94,20 +103,33 @@ DirichletEnergy::Value DirichletEnergy::evaluate(const Points& positions) const 
   return value;
 }
 
+// x and y of the force are summed side by side, and its z beside the energy.
 template <int k>
 DirichletEnergy::Pull DirichletEnergy::pull_at(const Points& p, int v) const {
+  using Two = Eigen::Array2d;
   const Vector3 here = p.row(v);
-  Pull pull = {Vector3::Zero(), 0};
+  const Two here_xy = here.head<2>();
+  Two force_xy(0, 0), force_z_and_energy(0, 0);
   for (int at = start_[v]; at < start_[v + 1]; ++at) {
-    const Vector3 there = image(p, incidences_[at]);
-    const double w = incidences_[at].w;
-    const auto d = Curvature<k>::distance(here, there);
-    pull.energy += w * d.squared;
-    pull.force += w * d.over_sn * (there - here);
+    const Incidence& incidence = incidences_[at];
+    const double* there = p.data() + 3 * static_cast<Eigen::Index>(incidence.neighbor);
+    Vector3 behind_seam;
+    if (incidence.transform >= 2) {
+      behind_seam = moved(Vector3(there[0], there[1], there[2]), incidence);
+      there = behind_seam.data();
+    }
+    const Two away_xy = Two(there[0], there[1]) - here_xy;
+    const double away_z = there[2] - here.z();
+    const double squared_chord = away_xy.square().sum() + k * (away_z * away_z);
+    const Two factors =
+        incidence.w * (squared_chord < NearDistance<k>::farthest ? NearDistance<k>::factors(squared_chord)
+                                                                 : far_factors<k>(here, there));
+    force_xy += factors[0] * away_xy;
+    force_z_and_energy += factors * Two(away_z, squared_chord);
   }
-  if (basis_of_[v] != 0) pull.force = projectors_[basis_of_[v]] * pull.force;
-  pull.force = Curvature<k>::tangent(here, pull.force);
-  return pull;
+  Vector3 force(force_xy[0], force_xy[1], force_z_and_energy[0]);
+  if (basis_of_[v] != in_space) force = projectors_[basis_of_[v]] * force;
+  return {Curvature<k>::tangent(here, force), force_z_and_energy[1]};
 }
 
 void DirichletEnergy::evaluate(const Points& positions, Value& value) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "orbitutte/solve/initial_embedding.h"
 
+#include "orbitutte/geometry/stereographic_chart.h"
 #include "orbitutte/parallel.h"
 #include "orbitutte/solve/boundary_arcs.h"
 
@@ -22,21 +23,35 @@ Points boundary_on_arcs(const Surface& surface, const CutMesh& cut, const Tile& 
   return result;
 }
 
+// Where the banks are too long to be settled: they stay on the arcs, and the rest is a planar Tutte embedding
+// of the tile's orthographic projection from its centroid, lifted back to the space.
+Points lifted_from_arcs(const Points& on_arcs, const CutMesh& cut, const Tile& tile,
+                        const LaplacianSolver& laplacian) {
+  const Space space = tile.space();
+  const Isometry to_origin = space.to_origin(tile.centroid());
+  Points result = to_origin.on_rows(laplacian.extend_harmonically(on_arcs));
+  for (Eigen::Index v = 0; v < result.rows(); ++v) result.row(v) = space.lift(result(v, 0), result(v, 1));
+  result = to_origin.inverse().on_rows(result);
+  for (const int v : cut.boundary)
+    if (v < result.rows()) result.row(v) = on_arcs.row(v);  // also where the tile reaches below the equator
+  return result;
+}
+
 }  // namespace
 
 Points initial_embedding(const Surface& surface, const CutMesh& cut, const Tile& tile,
                          const BoundaryConditions& boundary, const LaplacianSolver& laplacian) {
-  const Space space = tile.space();
-  const Isometry to_origin = space.to_origin(tile.centroid());
   const int n = boundary.vertex_count();
   const Points on_arcs = boundary_on_arcs(surface, cut, tile, boundary).topRows(n);
-  Points result = to_origin.on_rows(laplacian.extend_harmonically(on_arcs));
-  parallel_ranges(n, [&](int begin, int end) {
-    for (int v = begin; v < end; ++v) result.row(v) = space.lift(result(v, 0), result(v, 1));
-  });
-  result = to_origin.inverse().on_rows(result);
-  for (const int v : cut.boundary)
-    if (v < n) result.row(v) = on_arcs.row(v);  // also where the tile reaches below the equator's rounding
+  const StereographicChart chart(tile.space(), tile.centroid());
+  Points result = laplacian.settle(on_arcs, chart);
+  if (result.rows() < n) {
+    result = lifted_from_arcs(on_arcs, cut, tile, laplacian);
+  } else {
+    parallel_ranges(n, [&](int begin, int end) {
+      for (int v = begin; v < end; ++v) result.row(v) = chart.point(result.row(v));
+    });
+  }
   boundary.make_feasible(result);
   return result;
 }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "orbitutte/geometry/stereographic_chart.h"
 #include "orbitutte/linear/laplacian_matrix.h"
 #include "orbitutte/parallel.h"
 #include "orbitutte/solve/laplacian_systems.h"
@@ -15,6 +16,24 @@ namespace {
 // of the mesh.
 bool banks_are_short(const CutMesh& cut, std::size_t vertex_count) {
   return static_cast<double>(cut.boundary.size()) <= 200 + 4 * std::sqrt(static_cast<double>(vertex_count));
+}
+
+// Along an edge between a position that is not given and one that is, the latter pulls at the former: one row
+// a node. position(node) of those given: where the node is.
+template <typename IsGiven, typename Position>
+Points pull_of_given(const DiskGraph& graph, const Eigen::VectorXd& w, const IsGiven& is_given,
+                     const Position& position) {
+  Points pull = Points::Zero(graph.node_count(), 3);
+  const std::vector<int> pulling = parallel_select(graph.edge_count(), [&](int e) {
+    const auto [a, b] = graph.ends(e);
+    return is_given(a) != is_given(b);
+  });
+  for (const int e : pulling) {
+    const auto [a, b] = graph.ends(e);
+    const int given = is_given(a) ? a : b;
+    pull.row(given == a ? b : a) += w[e] * position(given).transpose();
+  }
+  return pull;
 }
 
 }  // namespace
@@ -51,27 +70,29 @@ LaplacianSolver::LaplacianSolver(LaplacianSolver&&) noexcept = default;
 
 Points LaplacianSolver::extend_harmonically(const Points& positions) const {
   const DiskGraph& graph = *graph_;
-  Points pull = Points::Zero(graph.node_count(), 3);
-  // An edge between an unknown position and a given one pulls at the former.
-  const auto pull_at = [&](int node, int other, double w) {
-    const Vector3 image = graph.transform(other) * positions.row(graph.vertex[other]).transpose();
-    pull.row(node) += w * image.transpose();
-  };
-  const std::vector<int> pulling = parallel_select(graph.edge_count(), [&](int e) {
-    const auto [a, b] = graph.ends(e);
-    return graph.unknown_at_start(a) != graph.unknown_at_start(b);
-  });
-  for (const int e : pulling) {
-    const auto [a, b] = graph.ends(e);
-    if (graph.unknown_at_start(a))
-      pull_at(a, b, w_[e]);
-    else
-      pull_at(b, a, w_[e]);
-  }
+  const Points pull = pull_of_given(
+      graph, w_, [&](int node) { return !graph.unknown_at_start(node); },
+      [&](int node) -> Vector3 {
+        return graph.transform(node) * positions.row(graph.vertex[node]).transpose();
+      });
   Points result = systems_->solve_disk(pull).topRows(positions.rows());
   for (Eigen::Index v = 0; v < result.rows(); ++v)
     if (graph.given[v]) result.row(v) = positions.row(v);
   return result;
+}
+
+Points LaplacianSolver::settle(const Points& positions, const StereographicChart& chart) const {
+  if (!systems_->knows_banks()) return {};
+  const DiskGraph& graph = *graph_;
+  std::vector<char> moves(graph.node_count(), 0);
+  for (int v = 0; v < static_cast<int>(graph.inside.size()); ++v) moves[v] = graph.inside[v];
+  for (const int node : graph.banks) moves[node] = 1;
+  const Points pull = pull_of_given(
+      graph, w_, [&](int node) { return moves[node] == 0; },
+      [&](int node) {
+        return chart.flat(graph.transform(node) * positions.row(graph.vertex[node]).transpose());
+      });
+  return systems_->settle(pull, positions, chart);
 }
 
 Points LaplacianSolver::glued_laplacian(const Points& x) const {

@@ -38,6 +38,7 @@ void order_ahead(LaplacianReuse& reuse, const std::vector<std::array<int, 2>>& e
 
 struct DiskGraph;
 class LaplacianSystems;
+class StereographicChart;
 
 class LaplacianSolver : public Preconditioner {
  public:
@@ -54,6 +55,12 @@ class LaplacianSolver : public Preconditioner {
   /// crosses the cut ties only the other neighbours of that edge's end. Any projection of the result is as
   /// harmonic.
   Points extend_harmonically(const Points& positions) const;
+
+  /// A start that is nearly conformal: in the chart, the discrete harmonic map of the cut disk. Its banks
+  /// move from `positions` (n x 3, those on the cut's boundary given) to where what both sides of a seam pull
+  /// at its vertices balances. Returns the picture of all vertices (n x 3; of held ones: zero), or nothing if
+  /// the banks are so long that their own matrix is not known.
+  Points settle(const Points& positions, const StereographicChart& chart) const;
 
   /// P g, where P is the inverse of 2 L, and L the Laplacian glued across the cut, on the unknowns of the
   /// boundary conditions: the Hessian of E where the map is nearly flat. g and the result: n x 3, feasible.

@@ -50,6 +50,13 @@ class LaplacianSystems {
   /// result: one row a node, of which only those of nodes unknown at the start count.
   virtual Points solve_disk(const Points& f) const = 0;
 
+  /// LaplacianSolver::settle, if it is known how the banks pull; f: one row a node, what held vertices pull
+  /// at it in the chart.
+  virtual bool knows_banks() const { return false; }
+  virtual Points settle(const Points&, const Points& positions, const StereographicChart&) const {
+    return positions;
+  }
+
   /// Solves the glued Laplacian; f and the result: n x 3, feasible.
   virtual Points solve_glued(const Points& f) const = 0;
 };

@@ -14,9 +14,6 @@ namespace orbitutte {
 namespace {
 
 // Vectors are read once for all their inner products, range by range: they are far larger than any cache.
-template <typename Vector>
-using Vectors = std::vector<const Vector*>;
-
 constexpr Eigen::Index range_rows = 1024;
 
 // Calls visit(r, begin, count) for the numbers of the r-th range of rows, three a row.
@@ -40,21 +37,25 @@ double inner_product(const A* a, const B* b, Eigen::Index count) {
   return ((sums[0] + sums[1]) + (sums[2] + sums[3])) + ((sums[4] + sums[5]) + (sums[6] + sums[7]));
 }
 
-// <v, a_i> for every i, summed in double precision.
-template <typename Vector, typename Other>
-std::vector<double> inner_products(const Vectors<Vector>& vectors, const Other& a) {
-  const Eigen::Index count = static_cast<Eigen::Index>(vectors.size());
-  std::vector<double> partial(static_cast<std::size_t>((a.rows() / range_rows + 1) * count), 0.0);
-  for_ranges(a.rows(), [&](int r, Eigen::Index begin, Eigen::Index length) {
-    for (Eigen::Index k = 0; k < count; ++k)
-      partial[r * count + k] = inner_product(vectors[k]->data() + begin, a.data() + begin, length);
+// So many sums over all rows; visit(begin, length, sums) gives the parts of a range.
+template <typename Visit>
+std::vector<double> sums_over_ranges(Eigen::Index rows, std::size_t count, const Visit& visit) {
+  std::vector<double> partial((static_cast<std::size_t>(rows / range_rows) + 1) * count, 0.0);
+  for_ranges(rows, [&](int r, Eigen::Index begin, Eigen::Index length) {
+    visit(begin, length, partial.data() + static_cast<std::size_t>(r) * count);
   });
-  std::vector<double> result(vectors.size(), 0.0);
-  for (std::size_t at = 0; at < partial.size(); ++at) result[at % vectors.size()] += partial[at];
+  std::vector<double> result(count, 0.0);
+  for (std::size_t at = 0; at < partial.size(); ++at) result[at % count] += partial[at];
   return result;
 }
 
-double dot(const Points& a, const Points& b) { return inner_products<Points>({&a}, b).front(); }
+double dot(const Points& a, const Points& b) {
+  return sums_over_ranges(a.rows(), 1,
+                          [&](Eigen::Index begin, Eigen::Index length, double* sum) {
+                            *sum = inner_product(a.data() + begin, b.data() + begin, length);
+                          })
+      .front();
+}
 
 double max_norm(const Points& a) {
   return parallel_max(static_cast<int>(a.rows()), [&](int v) { return a.row(v).cwiseAbs().maxCoeff(); });
@@ -69,15 +70,16 @@ double max_difference(const Points& a, const Points& b) {
 // for, not the minimum. This halves the memory of large meshes.
 using Remembered = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
-// a - b.
-Remembered difference(const Points& a, const Points& b) {
-  Remembered result(a.rows(), 3);
-  parallel_ranges(static_cast<int>(a.rows()), [&](int begin, int end) {
-    result.middleRows(begin, end - begin) =
-        (a.middleRows(begin, end - begin) - b.middleRows(begin, end - begin)).cast<float>();
-  });
-  return result;
-}
+// What changes from one state to the next.
+struct Change {
+  const Points& from;
+  const Points& to;
+
+  void write(Eigen::Index begin, Eigen::Index count, float* difference) const {
+    const double *const a = from.data() + begin, *const b = to.data() + begin;
+    for (Eigen::Index i = 0; i < count; ++i) difference[i] = static_cast<float>(b[i] - a[i]);
+  }
+};
 
 // H g of the quasi-Newton matrix whose initial one is P. No multiple of P is a better one: P inverts the
 // Hessian but for a term without derivatives, which only few smooth modes feel, so that almost all of its
@@ -88,13 +90,15 @@ class InverseHessian {
  public:
   explicit InverseHessian(int memory) : memory_(static_cast<std::size_t>(memory)) {}
 
-  // -H g.
-  Points descent(const Points& gradient, const Points& preconditioned) const {
+  // -H g, into memory that is used again; returns its product with g.
+  double descend(const Points& gradient, const Points& preconditioned, Points& direction) const {
     const std::size_t count = pairs_.size();
-    Vectors<Remembered> vectors;
-    for (const Pair& pair : pairs_) vectors.push_back(&pair.s);
-    for (const Pair& pair : pairs_) vectors.push_back(&pair.Py);
-    const std::vector<double> products = inner_products(vectors, gradient);  // s_k' g, and y_k' P g
+    const std::vector<const float*> vectors = all_vectors();
+    const std::vector<double> products = sums_over_ranges(  // s_k' g, and y_k' P g
+        gradient.rows(), vectors.size(), [&](Eigen::Index begin, Eigen::Index length, double* sums) {
+          for (std::size_t k = 0; k < vectors.size(); ++k)
+            sums[k] = inner_product(vectors[k] + begin, gradient.data() + begin, length);
+        });
     std::vector<double> alpha(count), along_s(count), coefficients;
     for (std::size_t k = count; k-- > 0;) {  // newest to oldest: alpha_k = s_k' q/s_k' y_k
       double sq = products[k];
@@ -109,35 +113,46 @@ class InverseHessian {
     }
     for (const double a : along_s) coefficients.push_back(-a);
     for (const double a : alpha) coefficients.push_back(a);
-    Points direction(gradient.rows(), 3);
-    for_ranges(direction.rows(), [&](int, Eigen::Index begin, Eigen::Index length) {
-      double* const sum = direction.data() + begin;
-      for (Eigen::Index i = 0; i < length; ++i) sum[i] = -preconditioned.data()[begin + i];
-      for (std::size_t k = 0; k < vectors.size(); ++k) {
-        const float* const vector = vectors[k]->data() + begin;
-        const double factor = coefficients[k];
-        for (Eigen::Index i = 0; i < length; ++i) sum[i] += factor * static_cast<double>(vector[i]);
-      }
-    });
-    return direction;
+    direction.resize(gradient.rows(), 3);
+    return sums_over_ranges(gradient.rows(), 1,
+                            [&](Eigen::Index begin, Eigen::Index length, double* sum) {
+                              double* const here = direction.data() + begin;
+                              for (Eigen::Index i = 0; i < length; ++i)
+                                here[i] = -preconditioned.data()[begin + i];
+                              for (std::size_t k = 0; k < vectors.size(); ++k) {
+                                const float* const vector = vectors[k] + begin;
+                                const double factor = coefficients[k];
+                                for (Eigen::Index i = 0; i < length; ++i)
+                                  here[i] += factor * static_cast<double>(vector[i]);
+                              }
+                              *sum = inner_product(here, gradient.data() + begin, length);
+                            })
+        .front();
   }
 
-  // Keeps a step s and the difference y of the gradients, of which only products are needed later, with its
-  // image Py under the preconditioner; unless their curvature is not positive.
-  void update(Remembered s, const Remembered& y, Remembered Py) {
-    pairs_.push_back({std::move(s), std::move(Py)});
-    Vectors<Remembered> all_s, all_images;
-    for (const Pair& pair : pairs_) {
-      all_s.push_back(&pair.s);
-      all_images.push_back(&pair.Py);
-    }
-    const std::vector<double> sy = inner_products(all_s, y), ypy = inner_products(all_images, y);
-    if (!(sy.back() > 0) || !(ypy.back() > 0)) {
+  // Keeps a step s and the image Py under the preconditioner of the difference y of the gradients, of which
+  // only products are needed later; unless their curvature is not positive.
+  void update(const Change& s, const Change& y, const Change& Py) {
+    const Eigen::Index rows = s.to.rows();
+    pairs_.push_back({Remembered(rows, 3), Remembered(rows, 3)});
+    const std::size_t count = pairs_.size();
+    const std::vector<const float*> vectors = all_vectors();
+    const std::vector<double> products = sums_over_ranges(  // s_k' y, and y_k' P y
+        rows, vectors.size(), [&](Eigen::Index begin, Eigen::Index length, double* sums) {
+          float y_here[3 * range_rows];
+          y.write(begin, length, y_here);
+          s.write(begin, length, pairs_.back().s.data() + begin);
+          Py.write(begin, length, pairs_.back().Py.data() + begin);
+          for (std::size_t k = 0; k < vectors.size(); ++k)
+            sums[k] = inner_product(vectors[k] + begin, y_here, length);
+        });
+    const auto middle = products.begin() + static_cast<std::ptrdiff_t>(count);
+    if (!(*(middle - 1) > 0) || !(products.back() > 0)) {
       pairs_.pop_back();
       return;
     }
-    sy_.emplace_back(sy.begin(), sy.end());
-    ypy_.emplace_back(ypy.begin(), ypy.end());
+    sy_.emplace_back(products.begin(), middle);
+    ypy_.emplace_back(middle, products.end());
     if (pairs_.size() > memory_) drop_oldest();
   }
 
@@ -155,6 +170,15 @@ class InverseHessian {
   };
 
   using Table = std::deque<std::deque<double>>;
+
+  // The s, then the Py, oldest first.
+  std::vector<const float*> all_vectors() const {
+    std::vector<const float*> vectors;
+    vectors.reserve(2 * pairs_.size());
+    for (const Pair& pair : pairs_) vectors.push_back(pair.s.data());
+    for (const Pair& pair : pairs_) vectors.push_back(pair.Py.data());
+    return vectors;
+  }
 
   void drop_oldest() {
     pairs_.pop_front();
@@ -187,9 +211,9 @@ class LineSearch {
       : energy_(energy), energy_rounding_(energy_rounding), evaluations_(evaluations) {}
 
   // Finds a step along `direction` that satisfies Armijo's condition, or, within the energy's rounding, the
-  // approximate Wolfe one, and the state behind it, whose memory is used again. Is there one?
-  bool run(const State& from, const Points& direction, State& to) const {
-    const double slope = dot(from.value.gradient, direction);
+  // approximate Wolfe one, and the state behind it, whose memory is used again. Is there one? slope: the
+  // product of the gradient with the direction.
+  bool run(const State& from, const Points& direction, double slope, State& to) const {
     if (!(slope < 0)) return false;
     double t = 1;
     for (int trial = 0; trial < 40; ++trial) {
@@ -229,6 +253,7 @@ class LineSearch {
 // as in the hyperbolic plane: images of the longest are rounded by their length, and the tangential part of a
 // difference at a vertex of length z by z^2 times what the difference is, in three coordinates.
 Eigen::VectorXd rounding_floor_at(const DirichletEnergy& energy, const Points& x) {
+  if (!(energy.space().curvature() < 0)) return energy.rounding_floor();
   const Eigen::ArrayXd length = x.col(2).array().abs().max(1.0);
   const double longest = x.rows() > 0 ? length.maxCoeff() : 1, coordinates = longest > 1 ? 3 : 1;
   return coordinates * longest * energy.rounding_floor().array() * length.square();
@@ -279,6 +304,7 @@ Minimum minimize(const DirichletEnergy& energy, const Preconditioner& preconditi
   Points preconditioned = preconditioner.precondition(state.value.gradient);
   InverseHessian inverse_hessian(options.memory);
   const LineSearch line_search(energy, energy_rounding_at(state.x), result.evaluations);
+  Points direction;
   double last_step = 0;
 
   const auto record = [&] {
@@ -288,14 +314,13 @@ Minimum minimize(const DirichletEnergy& energy, const Preconditioner& preconditi
   record();
   for (;;) {
     const Eigen::VectorXd rounding_floor = rounding_floor_at(energy, state.x);
-    Points direction = inverse_hessian.descent(state.value.gradient, preconditioned);
+    const double slope = inverse_hessian.descend(state.value.gradient, preconditioned, direction);
     energy.make_feasible(direction);  // but for the single precision of what is remembered, it is
     const double step_tolerance = std::max(options.tolerance, 1e-12);
-    const double promised = dot(state.value.gradient, direction);
     if (gradient_vanishes(state.value.gradient, rounding_floor, options.tolerance) &&
         !falls(result.history, options.tolerance) &&
         (max_norm(direction) <= step_tolerance ||
-         is_noise(promised, state, rounding_floor, options.tolerance))) {
+         is_noise(slope, state, rounding_floor, options.tolerance))) {
       result.termination = Termination::converged;
       break;
     }
@@ -303,7 +328,7 @@ Minimum minimize(const DirichletEnergy& energy, const Preconditioner& preconditi
       result.termination = Termination::max_iterations;
       break;
     }
-    if (!line_search.run(state, direction, next)) {
+    if (!line_search.run(state, direction, slope, next)) {
       if (inverse_hessian.empty()) {
         result.termination = gradient_vanishes(state.value.gradient, rounding_floor, options.tolerance)
                                  ? Termination::converged
@@ -322,9 +347,8 @@ Minimum minimize(const DirichletEnergy& energy, const Preconditioner& preconditi
         is_far(state.value.energy, next.value.energy))
       inverse_hessian.forget();
     else
-      inverse_hessian.update(difference(next.x, state.x),
-                             difference(next.value.gradient, state.value.gradient),
-                             difference(next_preconditioned, preconditioned));
+      inverse_hessian.update({state.x, next.x}, {state.value.gradient, next.value.gradient},
+                             {preconditioned, next_preconditioned});
     preconditioned = std::move(next_preconditioned);
     std::swap(state, next);
     record();
