@@ -162,7 +162,7 @@ class BankedSystems : public LaplacianSystems {
 
   Points settle(const Points& f, const Points& positions, const StereographicChart& chart) const override {
     SinglePoints y = of_inner_nodes(f);
-    factor_->forward(y);
+    if ((y.array() != 0).any()) factor_->forward(y);  // not where held vertices see banks alone
     for (int k = 0; k < disk_.banks(); ++k) y.row(disk_.inner + k) += f.row(disk_.bank(k)).cast<float>();
     const SinglePoints pull = y.bottomRows(disk_.banks());
     Points place = placed_banks(positions, pull, chart);
