@@ -154,7 +154,7 @@ class BankedSystems : public LaplacianSystems {
 
   Points settle(const Points& f, const Points& positions, const StereographicChart& chart) const override {
     SinglePoints y = of_inner_nodes(f);
-    factor_->forward(y);
+    if ((y.array() != 0).any()) factor_->forward(y);  // not where held vertices see banks alone
     for (int k = 0; k < disk_.banks(); ++k) y.row(disk_.inner + k) += f.row(disk_.bank(k)).cast<float>();
     const SinglePoints pull = y.bottomRows(disk_.banks());
     Points place = placed_banks(positions, pull, chart);
@@ -371,10 +371,13 @@ class BankedSystems : public LaplacianSystems {
     constexpr int most_steps = 5;
     constexpr double small_step = 1e-3;  // of the error that it leaves, the inside has as much
     double last = std::numeric_limits<double>::infinity();
+    Points before = place;
     for (int k = 0; k < most_steps && last > small_step; ++k) {
       const Points step = balancing_step(place, pull, chart);
       const double longest = step.rows() > 0 ? step.rowwise().norm().maxCoeff() : 0;
+      if (!(longest < last)) place = before;
       if (!(longest < 0.5 * last)) return;
+      before = place;
       move_points(boundary_.space, place, step, 1, place);
       last = longest;
     }
