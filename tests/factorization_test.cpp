@@ -6,12 +6,15 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <random>
 
 #include "orbitutte/linear/dense_factor.h"
 #include "orbitutte/linear/dissection.h"
+#include "orbitutte/linear/smallest_separator.h"
 #include "orbitutte/linear/sparse_factor.h"
 #include "orbitutte/linear/substructure.h"
 #include "test_meshes.h"
@@ -152,6 +155,62 @@ TEST(Dissection, SeparatorsOfASphereAreShort) {
   const Dissection::Node& root = dissection.nodes.back();
   EXPECT_GT(dissection.nodes.size(), 7u);
   EXPECT_LT(root.end - root.begin, 3 * 101);
+}
+
+// --- separators of bands
+
+Band random_band(std::mt19937& random, int count) {
+  const auto chance = [&](int of) { return random() % of == 0; };
+  Band band;
+  std::vector<std::vector<int>> near(count);
+  for (int v = 0; v < count; ++v)
+    for (int w = v + 1; w < count; ++w)
+      if (chance(3)) near[v].push_back(w), near[w].push_back(v);
+  band.start = {0};
+  for (int v = 0; v < count; ++v) {
+    band.neighbor.insert(band.neighbor.end(), near[v].begin(), near[v].end());
+    band.start.push_back(static_cast<int>(band.neighbor.size()));
+    band.first.push_back(chance(4));
+    band.second.push_back(chance(4));
+  }
+  return band;
+}
+
+// Can the second side be reached from the first without these vertices?
+bool leaves_a_path(const Band& band, unsigned separator) {
+  const auto is_left = [&](int v) { return (separator >> v & 1) == 0; };
+  std::vector<int> reached;
+  std::vector<char> is_reached(band.count(), 0);
+  const auto reach = [&](int v) {
+    if (is_left(v) && !is_reached[v]) is_reached[v] = 1, reached.push_back(v);
+  };
+  for (int v = 0; v < band.count(); ++v)
+    if (band.first[v]) reach(v);
+  for (std::size_t k = 0; k < reached.size(); ++k) {
+    const int v = reached[k];
+    if (band.second[v]) return true;
+    for (int e = band.start[v]; e < band.start[v + 1]; ++e) reach(band.neighbor[e]);
+  }
+  return false;
+}
+
+TEST(SmallestSeparator, NoSmallerSetSeparatesTheSides) {
+  std::mt19937 random(1);
+  for (int trial = 0; trial < 300; ++trial) {
+    const Band band = random_band(random, 1 + trial % 10);
+    int smallest = band.count();
+    for (unsigned set = 0; set < 1u << band.count(); ++set)
+      if (!leaves_a_path(band, set)) smallest = std::min(smallest, std::popcount(set));
+    const std::vector<PlaceInBand> place = smallest_separator(band);
+    unsigned found = 0;
+    for (int v = 0; v < band.count(); ++v)
+      if (place[v] == PlaceInBand::within) found |= 1u << v;
+    EXPECT_FALSE(leaves_a_path(band, found));
+    EXPECT_EQ(std::popcount(found), smallest);
+    for (int v = 0; v < band.count(); ++v)
+      for (int e = band.start[v]; e < band.start[v + 1]; ++e)
+        EXPECT_FALSE(place[v] == PlaceInBand::before && place[band.neighbor[e]] == PlaceInBand::behind);
+  }
 }
 
 // --- dense factors

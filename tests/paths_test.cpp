@@ -225,6 +225,21 @@ RC_GTEST_PROP(Paths, DisjointPathsAreTheShortestOfAllPairs, ()) {
   RC_ASSERT(graph.length(paths[0]) + graph.length(paths[1]) == expected);
 }
 
+RC_GTEST_PROP(Paths, DisjointPathsAreAsShortWhereBoundsLeadTheSearches, ()) {
+  const Graph graph = random_graph(3, 7, *rc::gen::inRange(1, 5));
+  std::vector<double> left = distances(graph.graph, {1, 2});
+  const double share = *rc::gen::inRange(0, 5) / 4.0;
+  for (double& bound : left) bound = bound < infinity ? share * bound : 0;
+  const std::array<Path, 2> paths = disjoint_paths(graph.graph, 0, {1, 2}, left);
+  const double expected = least_disjoint_length(graph, 0, {1, 2});
+  RC_ASSERT(paths[0].empty() == (expected == infinity));
+  if (paths[0].empty()) return;
+  RC_ASSERT(is_path(graph, paths[0], 0, 1));
+  RC_ASSERT(is_path(graph, paths[1], 0, 2));
+  RC_ASSERT(share_only_the_first(paths));
+  RC_ASSERT(graph.length(paths[0]) + graph.length(paths[1]) == expected);
+}
+
 TEST(Paths, AFirstPathThatBlocksTheSecondGivesWay) {
   // The short way from 0 to 1 runs over 3 and 4, and 2 hangs on 4 alone: 0-3-1 and 0-5-4-2 remain.
   Graph graph;
