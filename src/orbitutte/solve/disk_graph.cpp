@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "orbitutte/solve/disk_graph.h"
 
+#include <cmath>
 #include <numeric>
 #include <unordered_map>
 
@@ -44,16 +45,17 @@ std::vector<char> vertices_inside(const GluedEdges& glued, const std::vector<int
   return inside;
 }
 
-// Puts the neighbours of vertices that are held, cones as a rule, on the banks, unless they are many. Other
-// orders change the weights of none but the edges between them, so that the factor of those inside stays.
+// Puts the neighbours of vertices that are held, cones as a rule, on the banks, unless that makes these much
+// longer. Other orders change the weights of none but the edges between them, so that the factor of those
+// inside stays.
 void put_on_banks_around_held(const GluedEdges& glued, const BoundaryConditions& boundary,
                               std::vector<char>& inside) {
-  constexpr std::size_t most = 60;
+  const double most = std::sqrt(static_cast<double>(inside.size())) / 8;
   const auto is_held = [&](int v) { return boundary.basis(v).cols() == 0; };
   const std::vector<int> at_held = parallel_select(static_cast<int>(glued.edges.size()), [&](int e) {
     return is_held(glued.edges[e].i) || is_held(glued.edges[e].j);
   });
-  if (at_held.size() > most) return;
+  if (static_cast<double>(at_held.size()) > most) return;
   for (const int e : at_held) inside[glued.edges[e].i] = inside[glued.edges[e].j] = 0;
 }
 
