@@ -193,7 +193,8 @@ TEST_P(EveryCutSurface, ATangentSystemServesForMapsNearby) {
       dissect(vertex_neighbors(s.weights.triangulation->connectivity.edges, s.surface.vertex_count()));
   const TangentProblem tangent = {glued, s.weights.w, problem.boundary, dissection,
                                   available_backends().front()};
-  const LaplacianSolver laplacian(s.cut, glued_along(problem, problem.boundary), s.weights, problem.boundary);
+  const GluedEdges at_start = glued_along(problem, problem.boundary);
+  const LaplacianSolver laplacian(s.cut, at_start, s.weights, problem.boundary);
   const Points x = s.energy.with_cones(
       initial_embedding(s.surface, s.cut, problem.tile, problem.boundary, laplacian), s.polygon());
   const TangentSystem system(tangent, x);
