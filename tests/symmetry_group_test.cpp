@@ -257,6 +257,29 @@ TEST(NearestElements, AreAsManyAsTheAreaHasRoomFor) {
   }
 }
 
+// The rotations of the triangle with angles pi/7, pi/3 and pi/2, about two of its corners. Far from the
+// origin their entries are so large that products differ by more than 1e-6 in the order in which they are
+// formed.
+TEST(NearestElements, AreDifferentFarOutInTheHyperbolicPlane) {
+  const Space space = Space::hyperbolic_plane();
+  const double side = std::acosh(std::cos(pi / 7) * std::cos(pi / 3) / (std::sin(pi / 7) * std::sin(pi / 3)));
+  const Vector3 corner(0, 0, 1), other(std::sinh(side), 0, std::cosh(side));
+  for (const double distance : {0.0, 2.0, 3.0}) {
+    const Isometry outward = space.to_origin(Vector3(0, std::sinh(distance), std::cosh(distance))).inverse();
+    const std::vector<Isometry> generators = {
+        outward * space.rotation(corner, 2 * pi / 7) * outward.inverse(),
+        outward * space.rotation(other, 2 * pi / 3) * outward.inverse()};
+    const Vector3 centre = outward * space.retract(corner + 0.6 * other + Vector3(0, 0.1, 0));
+    const SymmetryGroup group = SymmetryGroup::nearest_elements(space, generators, centre, 300);
+    double nearest = 9;
+    for (int g = 0; g < group.order(); ++g)
+      for (int h = 0; h < g; ++h)
+        nearest =
+            std::min(nearest, space.distance(group.elements()[g] * centre, group.elements()[h] * centre));
+    EXPECT_GT(nearest, 0.05) << distance;
+  }
+}
+
 TEST(NearestElements, OfAFiniteGroupAreAllOfIt) {
   for (const char* signature : {"532", "*332", "2*5", "3x"}) {
     const Target target = parse_orbifold(signature);

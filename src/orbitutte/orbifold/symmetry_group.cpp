@@ -14,7 +14,6 @@ namespace orbitutte {
 namespace {
 
 constexpr double isometry_tolerance = 1e-9;
-constexpr double identity_tolerance = 1e-6;  // elements nearer to each other than this are one
 
 void check_isometry(Space space, const Matrix3& matrix) {
   const double defect = space.isometry_defect(matrix);
@@ -23,6 +22,10 @@ void check_isometry(Space space, const Matrix3& matrix) {
         fmt::format("a generator of the symmetry group is no isometry of the {} space (off by {:.2g})",
                     space.name(), defect));
 }
+
+// Elements that are nearer to each other than this are one. The rounding of products grows with their
+// entries, which are large far out in the hyperbolic plane.
+double identity_tolerance(const Matrix3& matrix) { return 1e-6 * std::max(1.0, matrix.norm()); }
 
 /// A linear function of the entries that changes by no more than the matrix does (in the Frobenius norm),
 /// since its coefficients have norm below 1. They have no relation that would give many elements of a group
@@ -87,12 +90,11 @@ void SymmetryGroup::insert(const Isometry& element) {
 }
 
 int SymmetryGroup::find(const Isometry& element) const {
-  const double key = index_key(element.matrix());
+  const double key = index_key(element.matrix()), tolerance = identity_tolerance(element.matrix());
   const auto end = index_.end();
   int nearest = -1;
-  double distance = identity_tolerance;
-  for (auto it = index_.lower_bound(key - identity_tolerance);
-       it != end && it->first <= key + identity_tolerance; ++it) {
+  double distance = tolerance;
+  for (auto it = index_.lower_bound(key - tolerance); it != end && it->first <= key + tolerance; ++it) {
     const double d = (elements_[it->second].matrix() - element.matrix()).norm();
     if (d > distance) continue;
     nearest = it->second;

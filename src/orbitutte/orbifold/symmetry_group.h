@@ -25,7 +25,7 @@ class SymmetryGroup {
   int order() const { return static_cast<int>(elements_.size()); }
   const std::vector<Isometry>& elements() const { return elements_; }
 
-  /// The index of the element nearest to an isometry, or -1 if none is within 1e-6 (Frobenius norm).
+  /// The index of the element nearest to an isometry, or -1 if none is within 1e-6 of its Frobenius norm.
   /// O(log order).
   int find(const Isometry& element) const;
 
