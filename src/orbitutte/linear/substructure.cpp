@@ -150,7 +150,7 @@ void set_up(const SparseMatrix& lower, const std::vector<Piece>& pieces, Piece& 
     for (const long unknown : pieces[child].border)
       if (unknown >= piece.end) piece.border.push_back(unknown);
   sort_uniquely(piece.border);
-  piece.equations = piece_matrix(lower, piece);
+  piece_matrix(lower, piece).swap(piece.equations);  // assigned to, it would keep room of its own
   for (const int child : piece.children) {
     std::vector<long>& rows = piece.rows_of_children.emplace_back();
     for (const long unknown : pieces[child].border) rows.push_back(piece.place(unknown));
@@ -175,7 +175,7 @@ void Substructure::eliminate(const SparseMatrix& lower, const SubstructureOption
       factorize_sparse<Real>(options.backend, piece);
     }
     if (options.serves_later) return;
-    piece.equations = SparseMatrix();
+    SparseMatrix().swap(piece.equations);
     piece.rows_of_children = {};
     for (const int child : piece.children) pieces_[child].update = {};
   };
