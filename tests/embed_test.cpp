@@ -638,6 +638,17 @@ TEST(EmbeddingSolver, GivesWhatSeparateEmbeddingsGive) {
         << signature;
 }
 
+// So many vertices that those around the cones are put on the banks.
+TEST(EmbeddingSolver, GivesWhatSeparateEmbeddingsGiveWhereItKeepsTheWholeFactor) {
+  const Mesh sphere = test::perturbed(test::icosphere(6), 0.005, 5);
+  const std::vector<int> marks = choose_cones(sphere, parse_orbifold("432"));
+  EmbeddingSolver solver(sphere);
+  for (const std::string signature : {"432", "532", "222"})
+    EXPECT_TRUE(
+        same(solver.embed(parse_orbifold(signature), marks), embed(sphere, parse_orbifold(signature), marks)))
+        << signature;
+}
+
 TEST(EmbeddingSolver, GivesWhatSeparateEmbeddingsOfADiskGive) {
   const Mesh disk = test::perturbed(test::round_disk(20), 0.01, 5);
   EmbedOptions options;

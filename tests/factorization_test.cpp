@@ -159,13 +159,13 @@ TEST(Dissection, SeparatorsOfASphereAreShort) {
 TEST(DenseFactor, PartialCholeskyLeavesTheFactorAndTheSchurComplement) {
   for (const auto& [n, own] : {std::pair(5, 0), std::pair(7, 7), std::pair(400, 250), std::pair(401, 401)}) {
     const Eigen::MatrixXd A = random_definite(n, 0.5);
-    Eigen::MatrixXd factored = A.triangularView<Eigen::Lower>();
-    partial_cholesky(factored, own);
-    Eigen::MatrixXd L = factored.leftCols(own);
+    Eigen::MatrixXd L = A.leftCols(own), rest = A.bottomRightCorner(n - own, n - own);
+    L.triangularView<Eigen::StrictlyUpper>().setZero();
+    rest.triangularView<Eigen::StrictlyUpper>().setZero();
+    partial_cholesky(Front<double>{own, n - own, L.data(), rest.data()});
     L.topRows(own).triangularView<Eigen::StrictlyUpper>().setZero();
     EXPECT_LT(lower_difference((L * L.transpose()).leftCols(own), A.leftCols(own)), 1e-12 * n);
-    EXPECT_LT(lower_difference(factored.bottomRightCorner(n - own, n - own), schur_complement(A, n - own)),
-              1e-9);
+    EXPECT_LT(lower_difference(rest, schur_complement(A, n - own)), 1e-9);
   }
 }
 
@@ -173,7 +173,7 @@ TEST(DenseFactor, PartialCholeskyNamesTheColumnThatIsNotPositive) {
   Eigen::MatrixXd A = Eigen::MatrixXd::Identity(300, 300);
   A(250, 250) = -1;
   try {
-    partial_cholesky(A, 300);
+    cholesky(A);
     FAIL();
   } catch (const NotPositiveDefinite& error) {
     EXPECT_EQ(error.column, 250);
@@ -194,8 +194,13 @@ TEST(SparseFactor, ForwardAndBackwardSolveAroundTheSchurComplement) {
   const Eigen::MatrixXd A = random_definite(n, 0.05), S = schur_complement(A, trailing);
   const SinglePoints b = SinglePoints::Random(n, 3);
   for (const Backend backend : available_backends()) {
-    const Elimination elimination = eliminate(lower_part(A), backend, trailing);
-    EXPECT_LT(lower_difference(elimination.schur_complement, S), 1e-12) << name_of(backend);
+    const auto elimination = eliminate<double>(lower_part(A), backend, trailing);
+    EXPECT_LT(lower_difference(A.bottomRightCorner(trailing, trailing) + elimination.update, S), 1e-12)
+        << name_of(backend);
+    EXPECT_LT(lower_difference(eliminate<float>(lower_part(A), backend, trailing).update.cast<double>(),
+                               elimination.update),
+              1e-5)
+        << name_of(backend);
     SinglePoints y = b;
     elimination.factor.forward(y);
     y.bottomRows(trailing) = S.cast<float>().inverse() * y.bottomRows(trailing);
@@ -253,40 +258,59 @@ Structure structure(const Mesh& mesh, int behind) {
   result.lower.setFromTriplets(entries.begin(), entries.end());
   for (const Dissection::Node& node : dissection.nodes)
     result.blocks.push_back({node.parent, node.begin, node.end});
-  result.border = eliminate(result.lower, Backend::eigen, behind).schur_complement;
+  result.border = Eigen::MatrixXd(result.lower.bottomRightCorner(behind, behind)) +
+                  eliminate<double>(result.lower, Backend::eigen, behind).update;
   return result;
+}
+
+template <typename Real>
+void expect_solutions(const Structure& s, const SubstructureOptions& how, double tolerance) {
+  const Substructure factor(s.lower, s.blocks, how);
+  const DenseMatrix<Real>& lower = factor.schur_complement<Real>();
+  EXPECT_LT(lower_difference(lower.template cast<double>(), s.border), tolerance) << name_of(how.backend);
+  const Eigen::MatrixXf S = lower.template cast<float>().template selfadjointView<Eigen::Lower>();
+  const SinglePoints b = SinglePoints::Random(s.count, 3);
+  SinglePoints y = b;
+  factor.forward(y);
+  y.bottomRows(20) = S.inverse() * y.bottomRows(20);
+  factor.backward(y);
+  const Points x = y.cast<double>();
+  EXPECT_LT((s.lower.selfadjointView<Eigen::Lower>() * x - b.cast<double>()).cwiseAbs().maxCoeff(), 1e-4)
+      << name_of(how.backend);
 }
 
 TEST(Substructure, SolvesAlongTheWholeTree) {
   const Structure s = structure(test::icosphere(5), 20);
-  const SinglePoints b = SinglePoints::Random(s.count, 3);
   for (const Backend backend : available_backends()) {
-    const Substructure factor(s.lower, s.blocks, backend);
-    EXPECT_LT(lower_difference(factor.schur_complement(), s.border), 1e-11) << name_of(backend);
-    EXPECT_EQ(factor.schur_complement(), Eigen::MatrixXd(factor.schur_complement().transpose()));
-    SinglePoints y = b;
-    factor.forward(y);
-    y.bottomRows(20) = factor.schur_complement().cast<float>().inverse() * y.bottomRows(20);
-    factor.backward(y);
-    const Points x = y.cast<double>();
-    EXPECT_LT((s.lower.selfadjointView<Eigen::Lower>() * x - b.cast<double>()).cwiseAbs().maxCoeff(), 1e-4)
-        << name_of(backend);
+    expect_solutions<double>(s, {backend, Precision::full}, 1e-11);
+    expect_solutions<float>(s, {backend, Precision::single}, 1e-4);
   }
 }
 
-TEST(Substructure, TakesBlocksOfAnEarlierOneOnlyWhereTheirEquationsAreTheSame) {
+TEST(Substructure, TakesBlocksOfAnEarlierOneOnlyWhereAllThatGoesIntoThemIsTheSame) {
   const Structure s = structure(test::icosphere(5), 12);
-  const Substructure first(s.lower, s.blocks, available_backends().front());
-  SparseMatrix changed = s.lower;
-  changed.coeffRef(3, 3) += 0.5;  // in the first block
-  const Substructure fresh(changed, s.blocks, available_backends().front()),
-      again(changed, s.blocks, available_backends().front(), &first);
-  EXPECT_EQ(again.schur_complement(), fresh.schur_complement());
-  EXPECT_NE(again.schur_complement(), first.schur_complement());
-  SinglePoints y = SinglePoints::Random(s.count, 3), z = y;
-  fresh.forward(y);
-  again.forward(z);
-  EXPECT_EQ(y, z);
+  SubstructureOptions how;
+  how.serves_later = true;
+  const Substructure first(s.lower, s.blocks, how);
+  const auto lower = [](const Substructure& factor) {
+    return Eigen::MatrixXf(factor.schur_complement<float>().triangularView<Eigen::Lower>());
+  };
+  const std::size_t last = s.blocks.size() - 1;
+  // In the first block, in a separator that has blocks below it, and behind all blocks.
+  for (const long at : {3L, s.blocks[last - 1].begin, s.blocks[last].end}) {
+    SparseMatrix changed = s.lower;
+    changed.coeffRef(at, at) += 0.5;
+    how.earlier = nullptr;
+    const Substructure fresh(changed, s.blocks, how);
+    how.earlier = &first;
+    const Substructure again(changed, s.blocks, how);
+    EXPECT_EQ(lower(again), lower(fresh));
+    EXPECT_NE(lower(again), lower(first));
+    SinglePoints y = SinglePoints::Random(s.count, 3), z = y;
+    fresh.forward(y);
+    again.forward(z);
+    EXPECT_EQ(y, z);
+  }
 }
 
 TEST(Substructure, NamesTheUnknownThatNothingHolds) {
@@ -297,7 +321,7 @@ TEST(Substructure, NamesTheUnknownThatNothingHolds) {
       if (entry.row() == loose || entry.col() == loose) entry.valueRef() = 0;
   for (const Backend backend : available_backends()) {
     try {
-      const Substructure factor(s.lower, s.blocks, backend);
+      const Substructure factor(s.lower, s.blocks, {backend});
       FAIL() << name_of(backend);
     } catch (const NotPositiveDefinite& error) {
       if (backend == Backend::cholmod) EXPECT_EQ(error.column, loose);

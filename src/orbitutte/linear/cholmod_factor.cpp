@@ -161,10 +161,14 @@ std::unique_ptr<SparseFactor> cholmod_factorize(const SparseMatrix& lower) {
   return std::make_unique<CholmodFactor>(lower);
 }
 
-Elimination cholmod_eliminate(const SparseMatrix& lower, long trailing) {
+template <typename Real>
+Elimination<Real> cholmod_eliminate(const SparseMatrix& lower, long trailing) {
   const Analysis analysis(lower, trailing);
-  return eliminate_along(analysis.pattern(), lower, trailing);
+  return eliminate_along<Real>(analysis.pattern(), lower, trailing);
 }
+
+template Elimination<float> cholmod_eliminate(const SparseMatrix&, long);
+template Elimination<double> cholmod_eliminate(const SparseMatrix&, long);
 
 }  // namespace orbitutte
 

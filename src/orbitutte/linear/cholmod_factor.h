@@ -10,7 +10,8 @@ namespace orbitutte {
 
 #ifdef ORBITUTTE_HAS_CHOLMOD
 std::unique_ptr<SparseFactor> cholmod_factorize(const SparseMatrix& lower);
-Elimination cholmod_eliminate(const SparseMatrix& lower, long trailing);
+template <typename Real>
+Elimination<Real> cholmod_eliminate(const SparseMatrix& lower, long trailing);
 #endif
 
 }  // namespace orbitutte

@@ -136,40 +136,79 @@ void for_each_pair(const std::vector<TileRange>& rows, const Visit& visit) {
                [&](int k) { visit(rows[pairs[k].first], rows[pairs[k].second]); });
 }
 
+// Calls visit(begin, end) for consecutive ranges of the columns of a large triangle.
+template <typename Visit>
+void for_column_ranges(Eigen::Index count, const Visit& visit) {
+  constexpr Eigen::Index width = 256;
+  parallel_for(static_cast<int>((count + width - 1) / width),
+               [&](int k) { visit(k * width, std::min(count, (k + 1) * width)); });
+}
+
 template <typename Real>
-void factorize_leading(Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>& A, Eigen::Index own) {
-  const int n = static_cast<int>(A.rows());
+void factorize_own_rows(const Front<Real>& front) {
+  const int size = static_cast<int>(front.size()), border = static_cast<int>(front.border);
   const Real one = 1, minus_one = -1;
-  const auto at = [&](int row, int column) { return A.data() + row + static_cast<Eigen::Index>(column) * n; };
-  for (const auto& [k, width] : tiles(0, own)) {
+  const std::vector<TileRange> border_tiles = tiles(front.own, size);
+  for (const auto& [k, width] : tiles(0, front.own)) {
     int info = 0;
-    Blas<Real>::potrf("L", &width, at(k, k), &n, &info);
+    Blas<Real>::potrf("L", &width, &front(k, k), &size, &info);
     if (info != 0) throw NotPositiveDefinite(k + info - 1);
-    const std::vector<TileRange> below = tiles(k + width, n);
+    std::vector<TileRange> below = tiles(k + width, front.own);
+    below.insert(below.end(), border_tiles.begin(), border_tiles.end());
     parallel_for(static_cast<int>(below.size()), [&, k = k, width = width](int i) {
-      Blas<Real>::trsm("R", "L", "T", "N", &below[i].count, &width, &one, at(k, k), &n, at(below[i].begin, k),
-                       &n);
+      Blas<Real>::trsm("R", "L", "T", "N", &below[i].count, &width, &one, &front(k, k), &size,
+                       &front(below[i].begin, k), &size);
     });
     for_each_pair(below, [&, k = k, width = width](const TileRange& row, const TileRange& column) {
+      const int stride = column.begin < front.own ? size : border;
+      Real* const target = &front(row.begin, column.begin);
       if (row.begin == column.begin)
-        return Blas<Real>::syrk("L", "N", &row.count, &width, &minus_one, at(row.begin, k), &n, &one,
-                                at(row.begin, row.begin), &n);
-      Blas<Real>::gemm("N", "T", &row.count, &column.count, &width, &minus_one, at(row.begin, k), &n,
-                       at(column.begin, k), &n, &one, at(row.begin, column.begin), &n);
+        return Blas<Real>::syrk("L", "N", &row.count, &width, &minus_one, &front(row.begin, k), &size, &one,
+                                target, &stride);
+      Blas<Real>::gemm("N", "T", &row.count, &column.count, &width, &minus_one, &front(row.begin, k), &size,
+                       &front(column.begin, k), &size, &one, target, &stride);
     });
   }
 }
 
 }  // namespace
 
-Eigen::MatrixXd zero_lower_triangle(Eigen::Index n) {
-  Eigen::MatrixXd A(n, n);
-  for (Eigen::Index column = 0; column < n; ++column) A.col(column).tail(n - column).setZero();
+template <typename Real>
+DenseMatrix<Real> zero_lower_triangle(Eigen::Index n) {
+  DenseMatrix<Real> A(n, n);
+  for_column_ranges(n, [&](Eigen::Index begin, Eigen::Index end) {
+    for (Eigen::Index column = begin; column < end; ++column) A.col(column).tail(n - column).setZero();
+  });
   return A;
 }
 
-void partial_cholesky(Eigen::MatrixXd& A, Eigen::Index own) { factorize_leading(A, own); }
-void partial_cholesky(Eigen::MatrixXf& A, Eigen::Index own) { factorize_leading(A, own); }
+template <typename Real>
+void add(const DenseMatrix<Real>& update, const std::vector<long>& at, const Front<Real>& front) {
+  const long count = static_cast<long>(at.size());
+  const long own = std::lower_bound(at.begin(), at.end(), front.own) - at.begin();
+  std::vector<long> at_rest(at);
+  for (long& row : at_rest) row -= front.own;
+  for_column_ranges(count, [&](Eigen::Index begin, Eigen::Index end) {
+    for (long c = begin; c < end; ++c) {
+      Real* const target = &front(at[c], at[c]);
+      const long* const place = c < own ? at.data() : at_rest.data();
+      const Real* const column = update.data() + c * count;
+      for (long r = c; r < count; ++r) target[place[r] - place[c]] += column[r];
+    }
+  });
+}
+
+template <typename Real>
+void partial_cholesky(const Front<Real>& front) {
+  factorize_own_rows(front);
+}
+
+template DenseMatrix<float> zero_lower_triangle(Eigen::Index n);
+template DenseMatrix<double> zero_lower_triangle(Eigen::Index n);
+template void add(const DenseMatrix<float>& update, const std::vector<long>& at, const Front<float>& front);
+template void add(const DenseMatrix<double>& update, const std::vector<long>& at, const Front<double>& front);
+template void partial_cholesky(const Front<float>& front);
+template void partial_cholesky(const Front<double>& front);
 
 void multiply_by_transpose(Eigen::MatrixXd& L) {
   const int n = static_cast<int>(L.rows());

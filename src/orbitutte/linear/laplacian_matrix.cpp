@@ -42,7 +42,7 @@ std::unique_ptr<SparseFactor> factorize_laplacian(const SparseMatrix& A, const U
 
 LeadingFactor eliminate_laplacian(const SparseMatrix& A, const Unknowns& unknowns, Backend backend) {
   try {
-    return eliminate(A, backend, 0).factor;
+    return eliminate<double>(A, backend, 0).factor;
   } catch (const NotPositiveDefinite& error) {
     throw not_tied(error.column < 0 ? -1 : holder(unknowns, error.column));
   }

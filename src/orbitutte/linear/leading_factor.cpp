@@ -10,14 +10,13 @@ void LeadingFactor::reserve(std::size_t rows, std::size_t values) {
   value_.reserve(values);
 }
 
-void LeadingFactor::append(const Supernode& supernode) {
+template <typename Real>
+void LeadingFactor::append(const Supernode<Real>& supernode) {
   const long first = supernode_.empty() ? 0 : supernode_.back().first_column + supernode_.back().columns;
   supernode_.push_back({first, static_cast<long>(row_.size()), static_cast<long>(value_.size()),
                         supernode.rows, supernode.columns});
   row_.insert(row_.end(), supernode.row, supernode.row + supernode.rows);
-  const double* const end = supernode.values + supernode.rows * supernode.columns;
-  std::transform(supernode.values, end, std::back_inserter(value_),
-                 [](double value) { return static_cast<float>(value); });
+  value_.insert(value_.end(), supernode.values, supernode.values + supernode.rows * supernode.columns);
   most_rows_ = std::max(most_rows_, supernode.rows);
 }
 
@@ -65,6 +64,8 @@ void LeadingFactor::backward(SingleColumns<count>& y) const {
   y.swap(permuted);
 }
 
+template void LeadingFactor::append(const Supernode<float>& supernode);
+template void LeadingFactor::append(const Supernode<double>& supernode);
 template void LeadingFactor::forward<1>(SingleColumns<1>& y) const;
 template void LeadingFactor::forward<3>(SingleColumns<3>& y) const;
 template void LeadingFactor::backward<1>(SingleColumns<1>& y) const;

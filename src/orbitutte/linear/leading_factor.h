@@ -16,18 +16,20 @@ class LeadingFactor {
   /// Without columns yet. order: row k of the factor is row order[k] of A; the trailing rows are the last.
   explicit LeadingFactor(std::vector<int> order) : order_(std::move(order)) {}
 
-  /// The next supernode in double precision: rows x columns, column by column, and the row of the factor in
-  /// which each stored row lies, those of the columns themselves first.
+  /// The next supernode: rows x columns, column by column, and the row of the factor in which each stored row
+  /// lies, those of the columns themselves first.
+  template <typename Real>
   struct Supernode {
     const long* row;
-    const double* values;
+    const Real* values;
     long rows, columns;
   };
 
   /// Makes room for so many rows and values of supernodes.
   void reserve(std::size_t rows, std::size_t values);
 
-  void append(const Supernode& supernode);
+  template <typename Real>
+  void append(const Supernode<Real>& supernode);
 
   /// y_L <- L_LL^-1 y_L, y_T <- y_T - L_TL y_L (n x 1 or n x 3). Leaves the leading rows in the factor's
   /// order, which `backward` expects.

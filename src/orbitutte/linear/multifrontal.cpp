@@ -11,10 +11,11 @@ namespace orbitutte {
 namespace {
 
 // The lower triangle of the matrix in the factor's order, column by column.
+template <typename Real>
 struct PermutedLower {
   std::vector<long> start;
   std::vector<int> row;
-  std::vector<double> value;
+  std::vector<Real> value;
 };
 
 // Calls visit(column, row, value) for every entry, in the factor's order.
@@ -28,10 +29,11 @@ void visit_permuted(const SparseMatrix& lower, const std::vector<int>& place, co
   }
 }
 
-PermutedLower permuted(const SparseMatrix& lower, const std::vector<int>& order) {
+template <typename Real>
+PermutedLower<Real> permuted(const SparseMatrix& lower, const std::vector<int>& order) {
   std::vector<int> place(order.size());
   for (std::size_t k = 0; k < order.size(); ++k) place[order[k]] = static_cast<int>(k);
-  PermutedLower result;
+  PermutedLower<Real> result;
   result.start.assign(order.size() + 1, 0);
   visit_permuted(lower, place, [&](int column, int, double) { ++result.start[column + 1]; });
   std::partial_sum(result.start.begin(), result.start.end(), result.start.begin());
@@ -41,36 +43,24 @@ PermutedLower permuted(const SparseMatrix& lower, const std::vector<int>& order)
   visit_permuted(lower, place, [&](int column, int row, double value) {
     const long at = fill[column]++;
     result.row[at] = row;
-    result.value[at] = value;
+    result.value[at] = static_cast<Real>(value);
   });
   return result;
 }
 
-// What the elimination of a supernode adds to the rows of its border: the last rows and columns of a matrix.
+// What the elimination of a supernode adds to the rows of its border.
+template <typename Real>
 struct Update {
   std::span<const long> border;
-  Eigen::MatrixXd front;
+  DenseMatrix<Real> values;
 };
 
-// Adds the update's lower triangle to A; place(row) is the row's index in A.
-template <typename Place>
-void add(const Update& update, const Place& place, Eigen::MatrixXd& A) {
-  std::vector<long> at;
-  at.reserve(update.border.size());
-  for (const long row : update.border) at.push_back(place(row));
-  const long count = static_cast<long>(at.size()), before = update.front.rows() - count;
-  for (long c = 0; c < count; ++c) {
-    const double* const column = &update.front(before, before + c);
-    double* const target = &A(0, at[c]);
-    for (long r = c; r < count; ++r) target[at[r]] += column[r];
-  }
-}
-
+template <typename Real>
 class Fronts {
  public:
   Fronts(const SupernodePattern& pattern, const SparseMatrix& lower, long trailing)
       : pattern_(pattern),
-        A_(permuted(lower, pattern.order)),
+        A_(permuted<Real>(lower, pattern.order)),
         leading_(lower.rows() - trailing),
         place_(lower.rows()),
         children_(pattern.count() + 1) {
@@ -79,11 +69,14 @@ class Fronts {
         supernode_of_.push_back(s);
   }
 
-  Elimination eliminate() {
-    Elimination result = {LeadingFactor(pattern_.order), {}};
+  Elimination<Real> eliminate() {
+    Elimination<Real> result = {LeadingFactor(pattern_.order), {}};
     result.factor.reserve(pattern_.row.size(), value_count());
     for (int s = 0; s < pattern_.count() && pattern_.first[s] < leading_; ++s) eliminate(s, result.factor);
-    result.schur_complement = rest();
+    const long trailing = static_cast<long>(place_.size()) - leading_;
+    std::iota(place_.begin() + leading_, place_.end(), 0);
+    result.update = zero_lower_triangle<Real>(trailing);
+    take_children(pattern_.count(), {0, trailing, nullptr, result.update.data()});
     return result;
   }
 
@@ -91,18 +84,24 @@ class Fronts {
   void eliminate(int s, LeadingFactor& factor) {
     const std::span<const long> rows = pattern_.rows(s);
     const long first = pattern_.first[s], own = std::min(pattern_.first[s + 1], leading_) - first;
+    const std::span<const long> border = rows.subspan(own);
     for (std::size_t k = 0; k < rows.size(); ++k) place_[rows[k]] = static_cast<int>(k);
-    Eigen::MatrixXd front = assembled(s, own);
+    columns_.assign(rows.size() * own, 0);
+    DenseMatrix<Real> rest = zero_lower_triangle<Real>(static_cast<Eigen::Index>(border.size()));
+    const Front<Real> front = {own, rest.rows(), columns_.data(), rest.data()};
+    for (long c = 0; c < own; ++c)
+      for (long at = A_.start[first + c]; at < A_.start[first + c + 1]; ++at)
+        front(place_[A_.row[at]], c) += A_.value[at];
+    take_children(s, front);
     try {
-      partial_cholesky(front, own);
+      partial_cholesky(front);
     } catch (const NotPositiveDefinite& error) {
       throw NotPositiveDefinite(pattern_.order[first + error.column]);
     }
-    factor.append({rows.data(), front.data(), front.rows(), own});
-    const std::span<const long> border = rows.subspan(own);
+    factor.append(LeadingFactor::Supernode<Real>{rows.data(), front.columns, front.size(), own});
     if (border.empty()) return;
     const int parent = border[0] < leading_ ? supernode_of_[border[0]] : pattern_.count();
-    children_[parent].push_back({border, std::move(front)});
+    children_[parent].push_back({border, std::move(rest)});
   }
 
   std::size_t value_count() const {
@@ -112,46 +111,34 @@ class Fronts {
     return count;
   }
 
-  // The matrix's own entries in the first `own` columns of a supernode, and what its children add.
-  Eigen::MatrixXd assembled(int s, long own) {
-    Eigen::MatrixXd front = zero_lower_triangle(static_cast<Eigen::Index>(pattern_.rows(s).size()));
-    for (long c = 0; c < own; ++c) {
-      const long column = pattern_.first[s] + c;
-      for (long at = A_.start[column]; at < A_.start[column + 1]; ++at)
-        front(place_[A_.row[at]], c) += A_.value[at];
+  // Adds what the children of a supernode leave to its front, and forgets it.
+  void take_children(int s, const Front<Real>& front) {
+    for (const Update<Real>& update : std::exchange(children_[s], {})) {
+      std::vector<long> at;
+      at.reserve(update.border.size());
+      for (const long row : update.border) at.push_back(place_[row]);
+      add(update.values, at, front);
     }
-    for (const Update& update : std::exchange(children_[s], {}))
-      add(
-          update, [&](long row) { return place_[row]; }, front);
-    return front;
-  }
-
-  // What is left of the trailing rows.
-  Eigen::MatrixXd rest() {
-    const long all = static_cast<long>(place_.size());
-    Eigen::MatrixXd S = zero_lower_triangle(all - leading_);
-    for (long column = leading_; column < all; ++column)
-      for (long at = A_.start[column]; at < A_.start[column + 1]; ++at)
-        S(A_.row[at] - leading_, column - leading_) += A_.value[at];
-    for (const Update& update : children_.back())
-      add(
-          update, [&](long row) { return row - leading_; }, S);
-    return S;
   }
 
   const SupernodePattern& pattern_;
-  const PermutedLower A_;
+  const PermutedLower<Real> A_;
   const long leading_;
   std::vector<int> supernode_of_;  // of every column
   std::vector<int> place_;         // of a row in the front at hand
+  std::vector<Real> columns_;      // of the front at hand
   // For every supernode the updates to be added to its front; the last are for the trailing rows.
-  std::vector<std::vector<Update>> children_;
+  std::vector<std::vector<Update<Real>>> children_;
 };
 
 }  // namespace
 
-Elimination eliminate_along(const SupernodePattern& pattern, const SparseMatrix& lower, long trailing) {
-  return Fronts(pattern, lower, trailing).eliminate();
+template <typename Real>
+Elimination<Real> eliminate_along(const SupernodePattern& pattern, const SparseMatrix& lower, long trailing) {
+  return Fronts<Real>(pattern, lower, trailing).eliminate();
 }
+
+template Elimination<float> eliminate_along(const SupernodePattern&, const SparseMatrix&, long);
+template Elimination<double> eliminate_along(const SupernodePattern&, const SparseMatrix&, long);
 
 }  // namespace orbitutte

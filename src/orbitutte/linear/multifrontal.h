@@ -25,6 +25,7 @@ struct SupernodePattern {
 
 /// Eliminates all but the last `trailing` rows and columns of a matrix, given by its lower triangle, which
 /// stay last in the pattern. Throws NotPositiveDefinite.
-Elimination eliminate_along(const SupernodePattern& pattern, const SparseMatrix& lower, long trailing);
+template <typename Real>
+Elimination<Real> eliminate_along(const SupernodePattern& pattern, const SparseMatrix& lower, long trailing);
 
 }  // namespace orbitutte

@@ -29,17 +29,21 @@ class EigenFactor : public SparseFactor {
   EigenCholesky factor_;
 };
 
-Elimination eigen_eliminate(const SparseMatrix& lower, long trailing) {
+template <typename Real>
+Elimination<Real> eigen_eliminate(const SparseMatrix& lower, long trailing) {
   const EigenCholesky cholesky(lower);
   if (cholesky.info() != Eigen::Success) throw NotPositiveDefinite(-1);
   const SparseMatrix& L = cholesky.matrixL().nestedExpression();
   std::vector<int> order(L.rows());
   std::iota(order.begin(), order.end(), 0);
-  Elimination result = {LeadingFactor(std::move(order)), L.bottomRightCorner(trailing, trailing)};
-  multiply_by_transpose(result.schur_complement);
+  Eigen::MatrixXd update = L.bottomRightCorner(trailing, trailing);
+  multiply_by_transpose(update);
+  update -= Eigen::MatrixXd(lower.bottomRightCorner(trailing, trailing));
+  Elimination<Real> result = {LeadingFactor(std::move(order)), update.cast<Real>()};
   for (long column = 0; column < L.cols() - trailing; ++column) {
     const long begin = L.outerIndexPtr()[column], end = L.outerIndexPtr()[column + 1];
-    result.factor.append({L.innerIndexPtr() + begin, L.valuePtr() + begin, end - begin, 1});
+    result.factor.append(
+        LeadingFactor::Supernode<double>{L.innerIndexPtr() + begin, L.valuePtr() + begin, end - begin, 1});
   }
   return result;
 }
@@ -76,7 +80,10 @@ namespace {
   throw ArgumentError("this binary was built without CHOLMOD; its linear solver is Eigen's");
 }
 std::unique_ptr<SparseFactor> cholmod_factorize(const SparseMatrix&) { refuse_cholmod(); }
-Elimination cholmod_eliminate(const SparseMatrix&, long) { refuse_cholmod(); }
+template <typename Real>
+Elimination<Real> cholmod_eliminate(const SparseMatrix&, long) {
+  refuse_cholmod();
+}
 
 }  // namespace
 #endif
@@ -86,8 +93,13 @@ std::unique_ptr<SparseFactor> factorize(const SparseMatrix& lower, Backend backe
   return cholmod_factorize(lower);
 }
 
-Elimination eliminate(const SparseMatrix& lower, Backend backend, long trailing) {
-  return backend == Backend::eigen ? eigen_eliminate(lower, trailing) : cholmod_eliminate(lower, trailing);
+template <typename Real>
+Elimination<Real> eliminate(const SparseMatrix& lower, Backend backend, long trailing) {
+  return backend == Backend::eigen ? eigen_eliminate<Real>(lower, trailing)
+                                   : cholmod_eliminate<Real>(lower, trailing);
 }
+
+template Elimination<float> eliminate(const SparseMatrix& lower, Backend backend, long trailing);
+template Elimination<double> eliminate(const SparseMatrix& lower, Backend backend, long trailing);
 
 }  // namespace orbitutte

@@ -40,13 +40,16 @@ class SparseFactor {
 std::unique_ptr<SparseFactor> factorize(const SparseMatrix& lower, Backend backend);
 
 /// What is left of A = [A_LL, A_TL'; A_TL, A_TT], where T are the trailing rows, once L is eliminated.
+template <typename Real>
 struct Elimination {
   LeadingFactor factor;
-  /// The lower triangle of A_TT - L_TL L_TL', in double precision.
-  Eigen::MatrixXd schur_complement;
+  /// The lower triangle of -L_TL L_TL', to be added to A_TT.
+  DenseMatrix<Real> update;
 };
 
-/// Eliminates all but the last `trailing` rows and columns; otherwise as `factorize`.
-Elimination eliminate(const SparseMatrix& lower, Backend backend, long trailing);
+/// Eliminates all but the last `trailing` rows and columns, in single or double precision (Eigen always in
+/// double precision); otherwise as `factorize`.
+template <typename Real>
+Elimination<Real> eliminate(const SparseMatrix& lower, Backend backend, long trailing);
 
 }  // namespace orbitutte

@@ -9,27 +9,34 @@
 
 namespace orbitutte {
 
+namespace {
+
+// What the elimination of a block adds to K on its border: the lower triangle.
+template <typename Real>
+using BlockUpdate = std::shared_ptr<const DenseMatrix<Real>>;
+
+}  // namespace
+
 // A block and its border: the later unknowns to which it is coupled, directly or through eliminated unknowns
 // below it.
 struct Substructure::Piece {
   long begin = 0, end = 0;
   std::vector<long> border;   // ascending
   std::vector<int> children;  // indices of pieces
-  // Without children: the matrix that is factorised, its factor, and what the elimination adds to K on the
-  // border.
+
+  // What goes into the factor, and what comes out besides it; empty once nothing needs it any more. The other
+  // precision's update is always empty.
   SparseMatrix equations;
+  std::vector<std::vector<long>> rows_of_children;  // those of their borders, in the piece
+  std::tuple<BlockUpdate<float>, BlockUpdate<double>> update;
+
+  // The block's columns of L: sparse without children; with children dense, and the border's rows below.
   std::shared_ptr<const LeadingFactor> sparse;
-  std::shared_ptr<const Eigen::MatrixXd> sparse_update;
-  // With children: the block's columns of L, with the border's rows below, and what the elimination adds to K
-  // on the border; empty once the parent has taken it.
-  Eigen::MatrixXf front;
-  Eigen::MatrixXd dense_update;
+  std::shared_ptr<const Eigen::MatrixXf> dense;
 
   long own() const { return end - begin; }
   long size() const { return own() + static_cast<long>(border.size()); }
-
-  const Eigen::MatrixXd& update() const { return sparse_update ? *sparse_update : dense_update; }
-  DenseColumns dense() const { return {front.data(), size(), own(), size()}; }
+  DenseColumns columns() const { return {dense->data(), size(), own(), size()}; }
 
   // The index within the piece of an unknown of the block or its border.
   long place(long unknown) const {
@@ -57,6 +64,9 @@ std::vector<long> coupled_behind(const SparseMatrix& lower, long begin, long end
   return result;
 }
 
+// The piece's columns of K. K's own entries on the border belong to the parents. In their place stands a
+// diagonal that keeps the matrix definite, twice the sum of the couplings; no elimination adds it to
+// anything.
 template <typename Piece>
 SparseMatrix piece_matrix(const SparseMatrix& lower, const Piece& piece) {
   const long nonzeros = lower.outerIndexPtr()[piece.end] - lower.outerIndexPtr()[piece.begin];
@@ -82,74 +92,117 @@ SparseMatrix piece_matrix(const SparseMatrix& lower, const Piece& piece) {
   return A;
 }
 
-// Eliminates a block without children. K's own entries on the border belong to the parents. In their place
-// stands a diagonal that keeps the matrix definite, twice the sum of the couplings; it is subtracted
-// afterwards.
-template <typename Piece>
-void factorize_sparse(const SparseMatrix& lower, Backend backend, const Piece* earlier, Piece& piece) {
-  if (piece.own() == 0) return;
-  piece.equations = piece_matrix(lower, piece);
-  const long border = piece.size() - piece.own();
-  if (earlier && earlier->own() == piece.own() && equal(earlier->equations, piece.equations)) {
-    piece.sparse = earlier->sparse;
-    piece.sparse_update = earlier->sparse_update;
-  } else {
-    try {
-      Elimination result = eliminate(piece.equations, backend, border);
-      const long* const start = piece.equations.outerIndexPtr() + piece.own();
-      for (long k = 0; k < border; ++k) result.schur_complement(k, k) -= piece.equations.valuePtr()[start[k]];
-      piece.sparse = std::make_shared<LeadingFactor>(std::move(result.factor));
-      piece.sparse_update = std::make_shared<Eigen::MatrixXd>(std::move(result.schur_complement));
-    } catch (const NotPositiveDefinite& error) {
-      throw NotPositiveDefinite(error.column < 0 ? -1
-                                                 : piece.begin + std::min(error.column, piece.own() - 1));
-    }
-  }
+template <typename Real, typename Piece>
+const BlockUpdate<Real>& update_of(const Piece& piece) {
+  return std::get<BlockUpdate<Real>>(piece.update);
 }
 
-// Adds the lower triangle of a piece's update to A; `place(unknown)` is the unknown's index in A.
-template <typename Piece, typename Place>
-void add_update(const Piece& from, const Place& place, Eigen::MatrixXd& A) {
-  std::vector<long> at;
-  for (const long unknown : from.border) at.push_back(place(unknown));
-  const long count = static_cast<long>(at.size());
-  for (long c = 0; c < count; ++c) {
-    const double* column = &from.update()(0, c);
-    double* target = &A(0, at[c]);
-    for (long r = c; r < count; ++r) target[at[r]] += column[r];
-  }
-}
-
-template <typename Piece>
-void factorize_dense(const SparseMatrix& lower, std::vector<Piece>& pieces, Piece& piece) {
-  Eigen::MatrixXd A = zero_lower_triangle(piece.size());
-  for (long column = 0; column < piece.own(); ++column)
-    for (SparseMatrix::InnerIterator entry(lower, piece.begin + column); entry; ++entry)
-      A(piece.place(entry.row()), column) += entry.value();
-  for (const int child : piece.children) {
-    add_update(
-        pieces[child], [&](long unknown) { return piece.place(unknown); }, A);
-    pieces[child].dense_update.resize(0, 0);
-  }
+// Eliminates a block without children.
+template <typename Real, typename Piece>
+void factorize_sparse(Backend backend, Piece& piece) {
   try {
-    partial_cholesky(A, piece.own());
+    Elimination<Real> result = eliminate<Real>(piece.equations, backend, piece.size() - piece.own());
+    piece.sparse = std::make_shared<LeadingFactor>(std::move(result.factor));
+    std::get<BlockUpdate<Real>>(piece.update) = std::make_shared<DenseMatrix<Real>>(std::move(result.update));
+  } catch (const NotPositiveDefinite& error) {
+    throw NotPositiveDefinite(error.column < 0 ? -1 : piece.begin + std::min(error.column, piece.own() - 1));
+  }
+}
+
+Eigen::MatrixXf in_single_precision(Eigen::MatrixXf matrix) { return matrix; }
+Eigen::MatrixXf in_single_precision(const Eigen::MatrixXd& matrix) { return matrix.cast<float>(); }
+
+template <typename Real, typename Piece>
+void factorize_dense(const std::vector<Piece>& pieces, Piece& piece) {
+  DenseMatrix<Real> columns = DenseMatrix<Real>::Zero(piece.size(), piece.own());
+  auto rest = std::make_shared<DenseMatrix<Real>>(zero_lower_triangle<Real>(piece.size() - piece.own()));
+  const Front<Real> front = {piece.own(), rest->rows(), columns.data(), rest->data()};
+  for (long column = 0; column < piece.own(); ++column)
+    for (SparseMatrix::InnerIterator entry(piece.equations, column); entry; ++entry)
+      front(entry.row(), column) += static_cast<Real>(entry.value());
+  for (std::size_t k = 0; k < piece.children.size(); ++k)
+    if (const auto& update = update_of<Real>(pieces[piece.children[k]]))
+      add(*update, piece.rows_of_children[k], front);
+  try {
+    partial_cholesky(front);
   } catch (const NotPositiveDefinite& error) {
     throw NotPositiveDefinite(piece.begin + error.column);
   }
-  piece.front = A.leftCols(piece.own()).template cast<float>();
-  const long border = piece.size() - piece.own();
-  piece.dense_update = A.bottomRightCorner(border, border);
+  piece.dense = std::make_shared<Eigen::MatrixXf>(in_single_precision(std::move(columns)));
+  std::get<BlockUpdate<Real>>(piece.update) = std::move(rest);
+}
+
+// Does all that goes into two pieces agree to the bit?
+template <typename Real, typename Piece>
+bool same_input(const std::vector<Piece>& earlier, const std::vector<Piece>& pieces, int k) {
+  const Piece &a = earlier[k], &b = pieces[k];
+  return a.own() == b.own() && a.children == b.children && a.rows_of_children == b.rows_of_children &&
+         equal(a.equations, b.equations) && std::all_of(a.children.begin(), a.children.end(), [&](int child) {
+           return update_of<Real>(earlier[child]) == update_of<Real>(pieces[child]);
+         });
+}
+
+// Finds the piece's border and its equations.
+template <typename Piece>
+void set_up(const SparseMatrix& lower, const std::vector<Piece>& pieces, Piece& piece) {
+  piece.border = coupled_behind(lower, piece.begin, piece.end);
+  for (const int child : piece.children)
+    for (const long unknown : pieces[child].border)
+      if (unknown >= piece.end) piece.border.push_back(unknown);
+  sort_uniquely(piece.border);
+  piece.equations = piece_matrix(lower, piece);
+  for (const int child : piece.children) {
+    std::vector<long>& rows = piece.rows_of_children.emplace_back();
+    for (const long unknown : pieces[child].border) rows.push_back(piece.place(unknown));
+  }
 }
 
 }  // namespace
 
+template <typename Real>
+void Substructure::eliminate(const SparseMatrix& lower, const SubstructureOptions& options) {
+  const auto factorize = [&](int k) {
+    Piece& piece = pieces_[k];
+    set_up(lower, pieces_, piece);
+    if (options.earlier && same_input<Real>(options.earlier->pieces_, pieces_, k)) {
+      const Piece& earlier = options.earlier->pieces_[k];
+      piece.sparse = earlier.sparse;
+      piece.dense = earlier.dense;
+      piece.update = earlier.update;
+    } else if (!piece.children.empty()) {
+      factorize_dense<Real>(pieces_, piece);
+    } else if (piece.own() > 0) {
+      factorize_sparse<Real>(options.backend, piece);
+    }
+    if (options.serves_later) return;
+    piece.equations = SparseMatrix();
+    piece.rows_of_children = {};
+    for (const int child : piece.children) pieces_[child].update = {};
+  };
+  for (const std::vector<int>& level : by_depth_)
+    parallel_for(static_cast<int>(level.size()), [&](int k) { factorize(level[k]); });
+
+  DenseMatrix<Real>& S = std::get<DenseMatrix<Real>>(schur_complement_);
+  S = zero_lower_triangle<Real>(border_);
+  for (long column = 0; column < border_; ++column)
+    for (SparseMatrix::InnerIterator entry(lower, border_begin_ + column); entry; ++entry)
+      S(entry.row() - border_begin_, column) += static_cast<Real>(entry.value());
+  if (pieces_.empty()) return;
+  Piece& last = pieces_.back();
+  std::vector<long> at = last.border;
+  for (long& unknown : at) unknown -= border_begin_;
+  if (!at.empty()) add(*update_of<Real>(last), at, Front<Real>{0, border_, nullptr, S.data()});
+  if (!options.serves_later) last.update = {};
+}
+
 Substructure::Substructure(const SparseMatrix& lower, const std::vector<EliminationBlock>& blocks,
-                           Backend backend, const Substructure* earlier)
-    : border_begin_(blocks.empty() ? 0 : blocks.back().end), border_(lower.rows() - border_begin_) {
+                           const SubstructureOptions& options)
+    : border_begin_(blocks.empty() ? 0 : blocks.back().end),
+      border_(lower.rows() - border_begin_),
+      precision_(options.precision) {
   use_one_blas_thread();
   const int count = static_cast<int>(blocks.size());
   pieces_.resize(count);
-  if (earlier && static_cast<int>(earlier->pieces_.size()) != count) earlier = nullptr;
   std::vector<std::size_t> depth(count, 0);
   for (int k = count; k-- > 0;) {
     pieces_[k].begin = blocks[k].begin;
@@ -162,41 +215,15 @@ Substructure::Substructure(const SparseMatrix& lower, const std::vector<Eliminat
   for (int k = 0; k < count; ++k)
     if (blocks[k].parent >= 0) pieces_[blocks[k].parent].children.push_back(k);
 
-  for (const std::vector<int>& level : by_depth_) {
-    const auto eliminate = [&](int k) {
-      Piece& piece = pieces_[level[k]];
-      piece.border = coupled_behind(lower, piece.begin, piece.end);
-      for (const int child : piece.children)
-        for (const long unknown : pieces_[child].border)
-          if (unknown >= piece.end) piece.border.push_back(unknown);
-      sort_uniquely(piece.border);
-      if (piece.children.empty()) {
-        factorize_sparse(lower, backend, earlier ? &earlier->pieces_[level[k]] : nullptr, piece);
-      } else {
-        factorize_dense(lower, pieces_, piece);
-      }
-    };
-    parallel_for(static_cast<int>(level.size()), eliminate);
+  SubstructureOptions fitting = options;
+  if (options.earlier &&
+      (options.earlier->pieces_.size() != pieces_.size() || options.earlier->precision_ != options.precision))
+    fitting.earlier = nullptr;
+  if (options.precision == Precision::single) {
+    eliminate<float>(lower, fitting);
+  } else {
+    eliminate<double>(lower, fitting);
   }
-
-  schur_complement_ = Eigen::MatrixXd::Zero(border_, border_);
-  for (long column = 0; column < border_; ++column)
-    for (SparseMatrix::InnerIterator entry(lower, border_begin_ + column); entry; ++entry)
-      schur_complement_(entry.row() - border_begin_, column) += entry.value();
-  if (!pieces_.empty() && !pieces_.back().border.empty()) {
-    add_update(
-        pieces_.back(), [&](long unknown) { return unknown - border_begin_; }, schur_complement_);
-    pieces_.back().dense_update.resize(0, 0);
-  }
-  schur_complement_.triangularView<Eigen::StrictlyUpper>() = schur_complement_.transpose();
-}
-
-void Substructure::release_what_solving_does_not_need() {
-  for (Piece& piece : pieces_) {
-    piece.equations = SparseMatrix();
-    piece.sparse_update.reset();
-  }
-  schur_complement_.resize(0, 0);
 }
 
 Substructure::~Substructure() = default;
@@ -222,7 +249,7 @@ void Substructure::forward(SinglePoints& y) const {
         piece.sparse->forward(local);
       } else if (piece.own() > 0) {
         ByColumns columns = local;
-        orbitutte::forward<3>(piece.dense(), columns.data());
+        orbitutte::forward<3>(piece.columns(), columns.data());
         local = columns;
       }
       y.middleRows(piece.begin, piece.own()) = local.topRows(piece.own());
@@ -247,7 +274,7 @@ void Substructure::backward(SinglePoints& y) const {
         piece.sparse->backward(local);
       } else {
         ByColumns columns = local;
-        orbitutte::backward<3>(piece.dense(), columns.data());
+        orbitutte::backward<3>(piece.columns(), columns.data());
         local = columns;
       }
       y.middleRows(piece.begin, piece.own()) = local.topRows(piece.own());

@@ -129,22 +129,14 @@ class BankedSystems : public LaplacianSystems {
         boundary_(problem.boundary),
         disk_(disk_unknowns(problem, options.block_size)) {
     SparseMatrix K = disk_laplacian(problem, disk_);
-    if (reuse.disk_factor && reuse.disk_factor->border() == disk_.banks() && equal(K, reuse.disk_laplacian)) {
-      factor_ = reuse.disk_factor;
-      glue_banks();
-      factorize_start();
-      return;
+    const bool is_stiff = problem.w.size() > 0 && problem.w.maxCoeff() > stiff_weight;
+    try {
+      factorize(K, {options.backend, is_stiff ? Precision::full : Precision::single}, reuse);
+    } catch (const MeshError&) {
+      if (is_stiff) throw;
+      factorize(K, {options.backend, Precision::full}, reuse);
     }
-    const std::shared_ptr<Substructure> factor = factorized(K, options.backend, reuse.disk_factor.get());
-    factor_ = factor;
-    glue_banks();
-    factorize_start();
-    if (reuse.kept == Kept::factors) {
-      reuse.disk_laplacian.swap(K);
-      reuse.disk_factor = factor;
-    } else {
-      factor->release_what_solving_does_not_need();
-    }
+    if (reuse.kept == Kept::factors) reuse.disk_laplacian.swap(K);
   }
 
   Points solve_disk(const Points& f) const override {
@@ -187,15 +179,37 @@ class BankedSystems : public LaplacianSystems {
     return result;
   }
 
-  std::shared_ptr<Substructure> factorized(const SparseMatrix& K, Backend backend,
-                                           const Substructure* earlier) const {
+  // Factorises the disk, its banks glued, and the start's system. Single precision does not suffice where few
+  // or light edges tie something: then MeshError is thrown as if nothing tied it.
+  void factorize(const SparseMatrix& K, SubstructureOptions how, LaplacianReuse& reuse) {
+    const bool is_same = reuse.disk_factor && reuse.disk_factor->border() == disk_.banks() &&
+                         reuse.disk_factor->precision() == how.precision && equal(K, reuse.disk_laplacian);
+    std::shared_ptr<Substructure> made;
+    if (!is_same) {
+      how.earlier = reuse.disk_factor.get();
+      how.serves_later = reuse.kept == Kept::factors;
+      made = factorized(K, how);
+    }
+    factor_ = is_same ? reuse.disk_factor : made;
+    how.precision == Precision::single ? factorize_banks<float>() : factorize_banks<double>();
+    if (made && !how.serves_later) made->release_schur_complement();
+    if (made && how.serves_later) reuse.disk_factor = made;
+  }
+
+  std::shared_ptr<Substructure> factorized(const SparseMatrix& K, const SubstructureOptions& how) const {
     try {
-      return std::make_shared<Substructure>(K, disk_.blocks, backend, earlier);
+      return std::make_shared<Substructure>(K, disk_.blocks, how);
     } catch (const NotPositiveDefinite& error) {
       throw not_tied(error.column < 0 ? -1 : graph_.vertex[disk_.node[error.column]]);
     }
   }
 
+  template <typename Real>
+  void factorize_banks() {
+    const DenseMatrix<Real>& S = factor_->schur_complement<Real>();
+    glue_banks(S);
+    factorize_start(S);
+  }
   int source(int bank) const { return graph_.vertex[disk_.bank(bank)]; }
 
   // The 3 x k matrix that takes the unknowns of a bank node's vertex to its position.
@@ -225,29 +239,30 @@ class BankedSystems : public LaplacianSystems {
     return copies;
   }
 
-  // Factorises N'(S x I3)N. Where rounding to single precision spoils it, since few or light edges tie the
-  // banks, in double.
-  void glue_banks() {
+  // Factorises N'(S x I3)N: in single precision, or where that spoils it in S's.
+  template <typename Real>
+  void glue_banks(const DenseMatrix<Real>& S) {
     const std::vector<std::vector<int>> copies = number_glued();
     try {
-      glued_factor_ = glued_matrix<float>(copies);
-      partial_cholesky(glued_factor_, glued_.total);
+      glued_factor_ = glued_matrix<float>(copies, S);
+      cholesky(glued_factor_);
     } catch (const NotPositiveDefinite&) {
-      Eigen::MatrixXd glued = glued_matrix<double>(copies);
       try {
-        partial_cholesky(glued, glued_.total);
+        if constexpr (std::is_same_v<Real, float>) throw;
+        Eigen::MatrixXd glued = glued_matrix<double>(copies, S);
+        cholesky(glued);
+        glued_factor_ = glued.cast<float>();
       } catch (const NotPositiveDefinite& error) {
         throw not_tied(holder(glued_, error.column));
       }
-      glued_factor_ = glued.cast<float>();
     }
   }
 
   // N'(S x I3)N, where N takes the glued unknowns to the positions of all bank nodes: 3 x k placements, few
   // of which differ. Its lower triangle.
-  template <typename Real>
-  Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic> glued_matrix(
-      const std::vector<std::vector<int>>& copies) const {
+  template <typename Real, typename Stored>
+  DenseMatrix<Real> glued_matrix(const std::vector<std::vector<int>>& copies,
+                                 const DenseMatrix<Stored>& S) const {
     const int banks = disk_.banks();
     std::vector<Block> distinct;
     std::vector<int> kind(banks);
@@ -265,8 +280,7 @@ class BankedSystems : public LaplacianSystems {
     for (const Block& left : distinct)
       for (const Block& right : distinct) products.emplace_back(left.transpose() * right);
 
-    const Eigen::MatrixXd& S = factor_->schur_complement();
-    Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic> glued(glued_.total, glued_.total);
+    DenseMatrix<Real> glued(glued_.total, glued_.total);
     parallel_for(static_cast<int>(copies.size()), [&](int at) {
       const int vertex = glued_.order[at];
       const long first = glued_.first[vertex];
@@ -275,8 +289,9 @@ class BankedSystems : public LaplacianSystems {
         for (int l = 0; l < banks; ++l) {
           if (row[l] < first) continue;
           const Block& product = products[kind[l] * kinds + kind[k]];
+          const double s = S(std::max(l, k), std::min(l, k));
           for (int c = 0; c < product.cols(); ++c)
-            for (int r = 0; r < product.rows(); ++r) columns(row[l] + r, c) += S(l, k) * product(r, c);
+            for (int r = 0; r < product.rows(); ++r) columns(row[l] + r, c) += s * product(r, c);
         }
       }
       glued.middleCols(first, columns.cols()) = columns.cast<Real>();
@@ -286,12 +301,13 @@ class BankedSystems : public LaplacianSystems {
 
   // The start does not know where those bank nodes are that the cut's boundary does not name. Few are: their
   // part of S is factorised once more, without gluing.
-  void factorize_start() {
-    const Eigen::MatrixXd& S = factor_->schur_complement();
+  template <typename Real>
+  void factorize_start(const DenseMatrix<Real>& S) {
+    open_banks_.clear();
     for (int k = 0; k < disk_.banks(); ++k)
       if (graph_.unknown_at_start(disk_.bank(k)) && S(k, k) != 0) open_banks_.push_back(k);
     if (open_banks_.empty()) return;
-    Eigen::MatrixXd open = S(open_banks_, open_banks_);
+    Eigen::MatrixXd open = S(open_banks_, open_banks_).template cast<double>();
     open.diagonal() *= 1 + weak_tie;
     start_factor_.compute(open);
     if (start_factor_.info() != Eigen::Success) throw not_tied(source(open_banks_.front()));

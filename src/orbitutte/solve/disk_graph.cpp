@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "orbitutte/solve/disk_graph.h"
 
+#include <cmath>
 #include <numeric>
 #include <unordered_map>
 
@@ -33,6 +34,20 @@ std::vector<char> vertices_inside(const GluedEdges& glued, const std::vector<int
     if (inside[i] && inside[j]) inside[i] = 0;
   }
   return inside;
+}
+
+// Puts the neighbours of vertices that are held, cones as a rule, on the banks, unless that makes these much
+// longer. Other orders change the weights of none but the edges between them, so that the factor of those
+// inside stays.
+void put_on_banks_around_held(const GluedEdges& glued, const BoundaryConditions& boundary,
+                              std::vector<char>& inside) {
+  const double most = std::sqrt(static_cast<double>(inside.size())) / 8;
+  const auto is_held = [&](int v) { return boundary.basis(v).cols() == 0; };
+  const std::vector<int> at_held = parallel_select(static_cast<int>(glued.edges.size()), [&](int e) {
+    return is_held(glued.edges[e].i) || is_held(glued.edges[e].j);
+  });
+  if (static_cast<double>(at_held.size()) > most) return;
+  for (const int e : at_held) inside[glued.edges[e].i] = inside[glued.edges[e].j] = 0;
 }
 
 // Numbers the images of vertices in the order in which they are asked for.
@@ -90,6 +105,7 @@ DiskGraph disk_graph(const CutMesh& cut, const GluedEdges& glued, const Boundary
   graph.given = given_vertices(cut, boundary);
   const std::vector<int> across = edges_across(glued);
   graph.inside = vertices_inside(glued, across, graph.given);
+  put_on_banks_around_held(glued, boundary, graph.inside);
   graph.transforms = glued.transforms;
   std::vector<int> inverse;
   for (const Isometry& transform : glued.transforms)
@@ -101,8 +117,8 @@ DiskGraph disk_graph(const CutMesh& cut, const GluedEdges& glued, const Boundary
   Nodes nodes(graph);
   for (const int e : across) {
     const auto& [i, j, t] = glued.edges[e];
-    graph.ends[e] =
-        graph.inside[j] ? std::array{nodes.image(i, inverse[t]), j} : std::array{i, nodes.image(j, t)};
+    graph.ends[e] = graph.inside[i] || graph.given[j] ? std::array{i, nodes.image(j, t)}
+                                                      : std::array{nodes.image(i, inverse[t]), j};
   }
   graph.banks = bank_nodes(cut, boundary, graph);
   return graph;

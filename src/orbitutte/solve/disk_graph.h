@@ -11,8 +11,8 @@ namespace orbitutte {
 
 /// A graph whose nodes are images of vertices, transforms[transform_of] * position(vertex). Every edge whose
 /// gluing is not the identity has an end on a bank: a vertex of the cut's boundary, or one that is added
-/// where an edge crosses the cut between two others. So the vertices inside are nodes once, in place, and
-/// their three coordinates do not couple.
+/// where an edge crosses the cut between two others. Neighbours of cones are added, too. So the vertices
+/// inside are nodes once, in place, and their three coordinates do not couple.
 struct DiskGraph {
   /// Of every node; the first n nodes are the vertices in place.
   std::vector<int> vertex;

@@ -133,7 +133,7 @@ class BlockMatrix {
 LeadingFactor eliminate_strengthened(SparseMatrix form, const Unknowns& unknowns, Backend backend) {
   for (const double share : {1e-13, 1e-11, 1e-9}) {
     try {
-      return eliminate(form, backend, 0).factor;
+      return eliminate<double>(form, backend, 0).factor;
     } catch (const NotPositiveDefinite&) {
       for (long column = 0; column < form.cols(); ++column)
         form.valuePtr()[form.outerIndexPtr()[column]] *= 1 + share;
@@ -158,7 +158,7 @@ TangentSystem::TangentSystem(const TangentProblem& problem, const Points& x)
   factored.is_stiff = problem.w.size() > 0 && problem.w.maxCoeff() > stiff_weight;
   form_ = assemble_form(problem, x, factored);
   try {
-    if (factored.unknowns.total > 0) factored.factor = eliminate(*form_, problem.backend, 0).factor;
+    if (factored.unknowns.total > 0) factored.factor = eliminate<double>(*form_, problem.backend, 0).factor;
   } catch (const NotPositiveDefinite&) {
     factored.is_exact = false;
     form_ = assemble_form(problem, x, factored);
