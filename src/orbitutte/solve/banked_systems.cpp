@@ -324,8 +324,8 @@ class BankedSystems : public LaplacianSystems {
   // part of S is factorised once more, without gluing.
   template <typename Real>
   void factorize_start(const DenseMatrix<Real>& S) {
-    const Eigen::MatrixXf lower = S.template cast<float>();
-    response_ = lower.selfadjointView<Eigen::Lower>();
+    response_ = S.template cast<float>();
+    response_.triangularView<Eigen::StrictlyUpper>() = response_.transpose();
     open_banks_.clear();
     for (int k = 0; k < disk_.banks(); ++k)
       if (graph_.unknown_at_start(disk_.bank(k)) && S(k, k) != 0) open_banks_.push_back(k);
